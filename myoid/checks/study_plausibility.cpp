@@ -71,6 +71,7 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
   prints_.push_back(print_of(trial, input));
   const std::vector<TrialLengths> lengths = lengths_of(trial, input);
   std::ranges::copy(lengths, std::back_inserter(lengths_));
+  if (input.markers) sizes_.push_back(size_of(*model_, trial.name, *input.markers));
   if (input.emg) {
     for (const MuscleSpec& muscle : study_->muscles) {
       if (const auto column = input.emg->find(muscle.emg))
@@ -117,6 +118,7 @@ std::vector<Remark> StudyPlausibility::findings() const {
                                largest_emg_)});
     }
   }
+  if (auto sizes = unlike_sizes(sizes_)) found.push_back(std::move(*sizes));
   for (std::vector<Remark> more :
        {shared_muscles(*study_), idle_muscles(*study_, *model_), tendons_too_long(*study_, *model_),
         unlikely_mass(*study_, *model_), same, grouped(unlike_lengths(lengths_))})

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "myoid/checks/person_size.h"
 #include "myoid/checks/same_recording.h"
 #include "myoid/checks/trial_plausibility.h"
 #include "myoid/core/remark.h"
@@ -31,6 +32,7 @@ class StudyPlausibility {
   std::vector<Remark> of_trials_;
   std::vector<TrialPrint> prints_;
   std::vector<TrialLengths> lengths_;
+  std::vector<TrialSize> sizes_;
   double largest_emg_ = 0.0;  ///< Over all trials.
 };
 

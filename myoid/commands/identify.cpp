@@ -71,8 +71,9 @@ std::vector<identification::Fold> held_out(const IdentifyOptions& o,
                                            const EstimatorOptions& options,
                                            const MuscleTable& table,
                                            std::string& why_not) {
-  const identification::CrossValidationOptions how{.kind = o.folds == "block" ? identification::FoldKind::block
-                                                                              : identification::FoldKind::trial};
+  const identification::CrossValidationOptions how{
+      .kind = o.folds == "block" ? identification::FoldKind::block : identification::FoldKind::trial,
+      .setting = "--folds"};
   (void)identification::splits(data, how, &why_not);
   const auto fit_fold = [&](StudyData& fold, const EstimatorOptions& once) { return fit_torque(table, once, fold); };
   if (o.method == "torque") return identification::cross_validate(data, fit_fold, options, how);
@@ -144,7 +145,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
     for (const std::string& text : *warnings) remarks.warn(text);
   result.speed_may_be_free = !table.speed_may_be_free.empty();
   if (o.method != "paper") result.told.max_rate_hz = o.max_rate_hz;
-  result.told.left_out = result.folds.empty() ? "none" : o.folds;
+  result.told.left_out = o.folds;
   result.told.starting_values = table.assumed;
   result.provenance = provenance_of(o);
   result.remarks = remarks.list();

@@ -9,9 +9,11 @@
 #include "myoid/contents/recording_contents.h"
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/named_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/opensim_tools/opensim_setup.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/osim/osim_xml.h"
 #include "myoid/study/read_study.h"
 
 namespace myoid::commands {
@@ -41,8 +43,42 @@ ordered_json contents_of_model(const InfoOptions& o) {
                         ask);
 }
 
-/// Names the tool of a set-up file and the command that runs it.
+/// Returns the forces of an <ExternalLoads> with their bodies, and the file of their numbers.
+ordered_json loads_contents(const model::OsimXml& xml, pugi::xml_node loads) {
+  ordered_json j{{"kind", "forces on bodies (ExternalLoads of OpenSim)"}, {"name", model::OsimXml::name_of(loads)}};
+  for (const pugi::xml_node force : model::OsimXml::objects(loads)) {
+    const std::string body = xml.word(force, "applied_to_body");
+    j["forces"].push_back(
+        {{"name", model::OsimXml::name_of(force)}, {"on", body.empty() ? xml.word(force, "body") : body}});
+  }
+  const std::string data = xml.word(loads, "datafile");
+  const recording::NamedFile file = recording::find_named_file(xml.path().parent_path(), data);
+  if (!data.empty()) j[file.exists ? "reads" : "missing"].push_back(file.path.string());
+  j["read_by"] = fmt::format("myoid id and myoid so with --loads {}; external_loads of a trial in study.toml",
+                             xml.path().string());
+  return j;
+}
+
+/// Returns the weights of an <IKTaskSet>; "off" for a task that is not applied.
+ordered_json tasks_contents(const model::OsimXml& xml, pugi::xml_node set) {
+  ordered_json j{{"kind", "tasks of inverse kinematics (IKTaskSet of OpenSim)"},
+                 {"name", model::OsimXml::name_of(set)}};
+  for (const pugi::xml_node task : model::OsimXml::objects(set)) {
+    ordered_json& told =
+        j[std::string_view(task.name()) == "IKCoordinateTask" ? "coordinates" : "markers"].emplace_back();
+    told["name"] = model::OsimXml::name_of(task);
+    told["weight"] = xml.flag(task, "apply", true) ? ordered_json(xml.number(task, "weight", 1.0)) : "off";
+  }
+  j["read_by"] = "myoid run-tool with the set-up of an InverseKinematicsTool or ScaleTool that names this file";
+  return j;
+}
+
+/// Describes a part of set-ups that stands in a file of its own, or names the tool of a set-up and the command that
+/// runs it.
 ordered_json setup_contents(const std::string& path) {
+  const model::OsimXml xml(recording::read_text_file(path), path, model::OsimXml::Root::any);
+  if (const auto loads = xml.root().child("ExternalLoads")) return loads_contents(xml, loads);
+  if (const auto tasks = xml.root().child("IKTaskSet")) return tasks_contents(xml, tasks);
   const OpensimSetup setup(path);
   ordered_json j{{"kind", "set-up of an OpenSim tool"}, {"tool", setup.kind()}, {"name", setup.name()}};
   for (const std::filesystem::path& input : setup.inputs()) {

@@ -41,6 +41,21 @@ TEST(RecordingContents, ATableOfMarkersAloneIsToldByItsMarkersAndTheirGaps) {
   EXPECT_FALSE(contents->contains("channels"));
 }
 
+TEST(RecordingContents, TheUnitOfAnglesIsToldOfFilesThatMayHoldAngles) {
+  const test::TemporaryFolder folder;
+  const auto angles = [&](const char* title, const char* columns) {
+    recording::write_file(folder / "e.sto", std::string(title) +
+                                                "\nnRows=2\nnColumns=3\ninDegrees=no\nendheader\ntime\t" + columns +
+                                                "\n0.0\t1\t2\n0.1\t2\t3\n");
+    return recording_contents(folder / "e.sto")->contains("angles");
+  };
+  EXPECT_TRUE(angles("Coordinates", "elbow_flexion\tpro_sup"));
+  EXPECT_TRUE(angles("trial 3", "elbow_flexion\tforce"));
+  EXPECT_FALSE(angles("Ground reaction", "ground_force_vx\tground_torque_y"));
+  EXPECT_FALSE(angles("Inverse Dynamics Generalized Forces", "knee_angle_r_moment\tpelvis_tx_force"));
+  EXPECT_FALSE(angles("raw surface EMG", "BIC\tTRI"));
+}
+
 TEST(RecordingContents, OneSampleHasAStartAndNoRate) {
   const test::TemporaryFolder folder;
   recording::write_file(folder / "e.sto", "x\nnRows=1\nnColumns=2\nendheader\ntime\tBIC\n0.5\t2\n");

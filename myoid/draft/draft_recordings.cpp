@@ -59,10 +59,13 @@ bool says_emg(const std::string& text) {
 
 std::string trial_stem(const fs::path& path) {
   static const std::set<std::string, std::less<>> kKinds{
-      "emg",   "raw",    "uv",     "mv",  "v",      "env",       "envelope", "markers", "marker",
-      "mocap", "analog", "motion", "ik",  "imu",    "landmarks", "kalman",   "elbow",   "angles",
-      "trc",   "c3d",    "mot",    "grf", "forces", "loads",     "external"};
+      "emg",     "raw",     "uv",     "mv",  "v",      "env",       "envelope", "envelopes", "filt",   "filtered",
+      "emgraw",  "emgfilt", "imu",    "ik",  "motion", "landmarks", "kalman",   "elbow",     "angles", "mocap",
+      "markers", "marker",  "analog", "trc", "c3d",    "mot",       "grf",      "forces",    "loads",  "external"};
   std::vector<std::string> words = words_of(path.stem().string());
+  const fs::path folder = fs::absolute(path).lexically_normal().parent_path().filename();
+  if (!folder.empty() && std::ranges::all_of(words, [](const std::string& w) { return kKinds.contains(w); }))
+    words = words_of(folder.string());
   while (words.size() > 1 && kKinds.contains(words.back())) words.pop_back();
   while (words.size() > 1 && kKinds.contains(words.front())) words.erase(words.begin());
   return fmt::format("{}", fmt::join(words, "_"));

@@ -40,7 +40,8 @@ struct FoundBeside {
 [[nodiscard]] std::filesystem::path loads_data_file(const std::filesystem::path& external_loads);
 
 /// Returns the name of the trial that a file belongs to: small letters, without words for the kind
-/// of file at its begin and end ("flex_2kg" of "Flex_2kg_emg_raw.sto", "walk" of "grf_walk.xml").
+/// of file at its begin and end ("flex_2kg" of "Flex_2kg_emg_raw.sto", "walk" of "grf_walk.xml"). A file whose name
+/// says nothing but the kind belongs to the trial that its folder names ("walk36" of "walk36/ik.sto").
 [[nodiscard]] std::string trial_stem(const std::filesystem::path& path);
 
 /// Returns the use that the trial's name suggests: "mvc", "static", "passive", else "calibration".

@@ -16,7 +16,8 @@ namespace {
 TEST(TrialStem, IsTheNameWithoutWhatAFileSaysOfItsOwnKind) {
   EXPECT_EQ(trial_stem("a/Flex_2kg_emg_raw_uV.sto"), "flex_2kg");
   EXPECT_EQ(trial_stem("load2p75_T1_imu_landmarks.trc"), "load2p75_t1");
-  EXPECT_EQ(trial_stem("markers.trc"), "markers");
+  EXPECT_EQ(trial_stem("in/walk36/ik.sto"), "walk36");
+  EXPECT_EQ(trial_stem("in/walk36/emgFilt.sto"), "walk36");
   EXPECT_EQ(trial_stem("emg_walk_raw.anc"), "walk");
   EXPECT_EQ(trial_stem("grf_walk.xml"), "walk");
 }

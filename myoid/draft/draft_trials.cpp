@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -11,17 +14,30 @@
 namespace myoid {
 namespace {
 
-/// Returns the EMG file of a trial: the file itself, an equal stem, or one stem that begins with the other.
-FoundRecording* emg_of(FoundRecording& motion, std::vector<FoundRecording>& found) {
-  if (!motion.channels.empty()) return &motion;
-  for (FoundRecording& f : found) {
-    if (!f.channels.empty() && !f.emg_taken && f.stem == motion.stem) return &f;
-  }
-  FoundRecording* best = nullptr;
-  for (FoundRecording& f : found) {
-    if (f.channels.empty() || f.emg_taken) continue;
-    if (!f.stem.starts_with(motion.stem + "_") && !motion.stem.starts_with(f.stem + "_")) continue;
-    if (best == nullptr || f.stem.size() > best->stem.size()) best = &f;
+/// How surely two files belong to one trial: by an equal name, then by the folders that both are in, then by a long
+/// name.
+using Likeness = std::tuple<bool, std::ptrdiff_t, std::size_t>;
+
+std::optional<Likeness> likeness(const FoundRecording& motion, const FoundRecording& emg) {
+  const bool equal = emg.stem == motion.stem;
+  if (!equal && !emg.stem.starts_with(motion.stem + "_") && !motion.stem.starts_with(emg.stem + "_"))
+    return std::nullopt;
+  const auto a = motion.path.parent_path(), b = emg.path.parent_path();
+  const auto apart = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
+  return Likeness{equal, std::distance(a.begin(), apart), emg.stem.size()};
+}
+
+/// Returns the EMG of a movement that no trial has yet: of its own file, else of the file most like it.
+const FoundRecording* emg_of(const FoundRecording& motion, const std::vector<FoundRecording>& found, bool raw) {
+  if (!motion.channels.empty()) return motion.raw == raw ? &motion : nullptr;
+  const FoundRecording* best = nullptr;
+  std::optional<Likeness> most;
+  for (const FoundRecording& f : found) {
+    if (f.channels.empty() || f.emg_taken || f.raw != raw) continue;
+    const auto alike = likeness(motion, f);
+    if (!alike || (most && *alike <= *most)) continue;
+    most = alike;
+    best = &f;
   }
   return best;
 }
@@ -64,7 +80,7 @@ class TrialWriter {
       }
     }
     for (const FoundRecording& f : found_) {
-      if (!f.channels.empty() && !f.emg_taken && !f.motion_taken) emg_trial(f);
+      if (!f.channels.empty() && !f.emg_taken && !f.motion_taken && f.raw == around_.raw_emg) emg_trial(f);
     }
     if (!any_calibration_) out_.todo("no trial has use = \"calibration\", from which parameters are found");
     for (const std::string& note : notes_) out_.line(note);
@@ -80,11 +96,11 @@ class TrialWriter {
   /// Adds a trial with the EMG of equal name; `key` names the kind of its file.
   void motion_trial(FoundRecording& f, const std::string& key) {
     f.motion_taken = true;
-    FoundRecording* emg = emg_of(f, found_);
+    const FoundRecording* emg = emg_of(f, found_, around_.raw_emg);
     std::string use = guessed_use(f.stem);
     const bool without_emg = emg == nullptr && use != "static";
     if (without_emg && use != "passive") use = "static";
-    if (emg != nullptr) emg->emg_taken = true;
+    if (emg != nullptr) found_[static_cast<std::size_t>(emg - found_.data())].emg_taken = true;
     out_.line("[[trial]]");
     out_.line("name = " + in_quotes(unique(f.stem)));
     out_.line(key + " = " + in_quotes(around_.relative(f.path)));
@@ -92,7 +108,7 @@ class TrialWriter {
     two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
     out_.line("use = " + in_quotes(use));
     any_calibration_ = any_calibration_ || use == "calibration";
-    if (without_emg) out_.todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
+    if (without_emg) without(emg_of(f, found_, !around_.raw_emg), f.stem);
     for (const std::filesystem::path& loads : around_.external_loads) {
       if (trial_stem(loads) == f.stem) out_.line("external_loads = " + in_quotes(around_.relative(loads)));
     }
@@ -102,6 +118,16 @@ class TrialWriter {
     }
     held_mass(f.stem, around_.own_model, out_);
     out_.line("");
+  }
+
+  /// Says why a trial has no EMG: `other` is of the kind that the study does not take, or null.
+  void without(const FoundRecording* other, const std::string& stem) {
+    const std::string why = other == nullptr
+                                ? fmt::format("no EMG was found for '{}'", stem)
+                                : fmt::format("the EMG of '{}' ({}) is {}", stem, other->path.filename().string(),
+                                              other->raw ? "raw, and the study takes envelopes"
+                                                         : "an envelope, and the study takes raw EMG");
+    out_.todo(fmt::format("{}; '{}' gives motion and torque only", why, stem));
   }
 
   /// Writes a maximal contraction if the name says so, otherwise a question.
@@ -141,6 +167,19 @@ bool starts_from_markers(const FoundRecording& recording, const std::vector<Foun
   return recording.markers.frame_count() > 0 && std::ranges::none_of(found, [&](const FoundRecording& other) {
            return !other.angles.empty() && other.stem == recording.stem;
          });
+}
+
+bool takes_raw_emg(const std::vector<FoundRecording>& found) {
+  const auto movements = [&](bool raw) {
+    return std::ranges::count_if(found, [&](const FoundRecording& f) {
+      return (!f.angles.empty() || starts_from_markers(f, found)) && emg_of(f, found, raw) != nullptr;
+    });
+  };
+  const auto files = [&](bool raw) {
+    return std::ranges::count_if(found, [&](const FoundRecording& f) { return !f.channels.empty() && f.raw == raw; });
+  };
+  if (files(true) == 0 || files(false) == 0) return files(false) == 0;
+  return movements(true) >= movements(false);
 }
 
 void draft_trials(std::vector<FoundRecording>& found, const TrialSurroundings& around, DraftText& out) {

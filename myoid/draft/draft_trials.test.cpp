@@ -1,5 +1,6 @@
 #include "myoid/draft/draft_trials.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,6 +55,48 @@ TEST(DraftTrials, EmgOfSomeMovementIsNotTakenForAMaximum) {
   EXPECT_THAT(out.toml, HasSubstr("# emg = \"run_emg.csv\"\n# use = \"mvc\""));
   EXPECT_THAT(out.toml, HasSubstr("external_loads = \"in/grf_walk.xml\""));
   EXPECT_THAT(out.toml, Not(HasSubstr("grf_run")));
+}
+
+TEST(DraftTrials, AFolderWithOneSetOfFilesIsATrial) {
+  std::vector<FoundRecording> files{found("a/walk36/ik.sto", true, false), found("a/walk36/emgFilt.sto", false, true),
+                                    found("b/walk36/ik.sto", true, false), found("b/walk36/emgFilt.sto", false, true)};
+  std::swap(files[1], files[3]);
+  DraftText out;
+  draft_trials(files,
+               {.external_loads = {"a/walk36/loads.xml"},
+                .own_model = true,
+                .relative = [](const std::filesystem::path& path) { return path.string(); }},
+               out);
+  for (const char* folder : {"a", "b"})
+    EXPECT_THAT(out.toml, HasSubstr(fmt::format("motion = \"{0}/walk36/ik.sto\"\nemg = \"{0}/walk36/emgFilt.sto\"\n"
+                                                "use = \"calibration\"",
+                                                folder)));
+  EXPECT_THAT(out.toml, HasSubstr("name = \"walk36\""));
+  EXPECT_TRUE(out.questions.empty());
+}
+
+TEST(DraftTrials, TakeTheKindOfEmgOfMostMovementsAndSayWhichKindTheOthersHave) {
+  std::vector<FoundRecording> files{found("bend.mot", true, false),      found("bend_emg.sto", false, true),
+                                    found("stretch.mot", true, false),   found("stretch_emg.sto", false, true),
+                                    found("other_raw.sto", false, true), found("other.mot", true, false)};
+  EXPECT_TRUE(takes_raw_emg(files));
+  files[1].raw = files[3].raw = false;
+  EXPECT_FALSE(takes_raw_emg(files));
+  DraftText out;
+  draft_trials(files,
+               {.external_loads = {},
+                .own_model = true,
+                .raw_emg = false,
+                .relative = [](const std::filesystem::path& path) { return path.string(); }},
+               out);
+  EXPECT_THAT(out.toml, HasSubstr("emg = \"bend_emg.sto\"\nuse = \"calibration\""));
+  EXPECT_EQ(out.questions,
+            std::vector<std::string>{
+                "the EMG of 'other' (other_raw.sto) is raw, and the study takes envelopes; 'other' gives "
+                "motion and torque only"});
+  files[3].raw = true;  // as many raw as envelopes
+  files.resize(4);
+  EXPECT_TRUE(takes_raw_emg(files));
 }
 
 }  // namespace

@@ -12,8 +12,10 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 #include "myoid/draft/channel_muscles.h"
 #include "myoid/draft/draft_coordinate.h"
+#include "myoid/draft/draft_persons.h"
 #include "myoid/draft/draft_recordings.h"
 #include "myoid/draft/draft_text.h"
 #include "myoid/draft/draft_trials.h"
@@ -39,7 +41,8 @@ class Draft {
     for (const fs::path& loads : beside.external_loads) loads_data_.insert(loads_data_file(loads).lexically_normal());
     choose_model(beside.models);
     for (const fs::path& file : files) read(file);
-    leave_envelopes_of_raw_out();
+    raw_emg_ = takes_raw_emg(found_);
+    note_other_kind();
     if (coordinate_.empty()) choose_coordinate();
     if (std::ranges::none_of(found_, [](const FoundRecording& f) {
           return f.markers.frame_count() > 0 || !f.angles.empty() || !f.channels.empty();
@@ -58,6 +61,7 @@ class Draft {
     draft_trials(found_,
                  {.external_loads = beside.external_loads,
                   .own_model = model_file_.has_value(),
+                  .raw_emg = raw_emg_,
                   .relative = [&](const fs::path& path) { return relative(path); }},
                  out_);
     tail();
@@ -111,6 +115,7 @@ class Draft {
     FoundRecording f;
     f.path = path;
     f.stem = trial_stem(path);
+    bool torques = false;
     try {
       const auto format = recording::format_of(path);
       recording::Recording file = recording::read_recording(path);
@@ -119,6 +124,9 @@ class Draft {
       f.markers = std::move(file.markers);
       for (const Channel& c : file.analog.channels()) {
         if (format == recording::FileFormat::storage && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
+        torques = torques || std::ranges::any_of(model_.coordinates, [&](const model::Coordinate& q) {
+                    return c.name == q.name + "_moment";
+                  });
       }
       if (f.angles.empty() && !file.analog.empty() && format != recording::FileFormat::bids_motion)
         find_emg(path, file.analog.series(), file.plates, f);
@@ -128,8 +136,11 @@ class Draft {
     }
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
-      draft_.notes.push_back(
-          fmt::format("{}: no markers, no coordinate of the model, no EMG; not used", path.filename().string()));
+      draft_.notes.push_back(fmt::format(
+          "{}: {}; not used", path.filename().string(),
+          torques
+              ? "joint torques, which a study computes from motion and forces (`myoid identify --torques` reads them)"
+              : "no markers, no coordinate of the model, no EMG"));
       return;
     }
     if (f.markers.frame_count() > 0) {
@@ -185,6 +196,11 @@ class Draft {
     std::error_code error;
     const fs::path at = fs::absolute(folder_, error).lexically_normal();
     line("name = " + in_quotes((at.has_filename() ? at : at.parent_path()).filename().string()));
+    if (const std::vector<std::string> persons = persons_in(found_); persons.size() > 1)
+      todo(fmt::format(
+          "{} in the names: are these {} persons? A study is of one person: draft one for each (`myoid init "
+          "DIR --from` that person's files) and run all with `myoid cohort`",
+          name_list(persons), persons.size()));
     if (!model_file_) {
       todo("the person's mass, for the segments of the built-in arm");
       line("# mass_kg = 70.0");
@@ -251,23 +267,21 @@ class Draft {
     line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }
 
-  /// Leaves files out that hold nothing but envelopes, where others hold raw EMG.
-  void leave_envelopes_of_raw_out() {
-    if (std::none_of(found_.begin(), found_.end(),
-                     [](const FoundRecording& f) { return f.raw && !f.channels.empty(); }))
-      return;
-    std::erase_if(found_, [&](const FoundRecording& f) {
-      const bool envelopes_alone = !f.raw && !f.channels.empty() && f.angles.empty() && f.markers.frame_count() == 0;
-      if (envelopes_alone)
-        draft_.notes.push_back(
-            fmt::format("{}: envelopes of EMG, and other files hold raw EMG; not used", f.path.filename().string()));
-      return envelopes_alone;
-    });
+  [[nodiscard]] bool of_other_kind(const FoundRecording& f) const { return !f.channels.empty() && f.raw != raw_emg_; }
+
+  void note_other_kind() {
+    for (const FoundRecording& f : found_) {
+      if (of_other_kind(f))
+        draft_.notes.push_back(fmt::format("{}: {} not used", f.path.filename().string(),
+                                           f.raw ? "raw EMG, and more of the movements have envelopes;"
+                                                 : "envelopes of EMG, and the study takes raw EMG;"));
+    }
   }
 
   [[nodiscard]] std::vector<std::string> all_channels() const {
     std::vector<std::string> channels;
     for (const FoundRecording& f : found_) {
+      if (of_other_kind(f)) continue;
       for (const std::string& c : f.channels) {
         if (std::ranges::find(channels, c) == channels.end()) channels.push_back(c);
       }
@@ -276,18 +290,12 @@ class Draft {
   }
 
   void emg_table() {
-    bool any_raw = false, any_envelope = false, unit = true;
-    for (const FoundRecording& f : found_) {
-      if (!f.channels.empty()) (f.raw ? any_raw : any_envelope) = true;
-      unit = unit && f.has_unit;
-    }
-    const bool raw = !any_envelope;
+    const bool unit =
+        std::ranges::all_of(found_, [&](const FoundRecording& f) { return f.has_unit || of_other_kind(f); });
     line("[emg]");
-    line(fmt::format("kind = \"{}\"   # {}", raw ? "raw" : "envelope",
-                     raw ? "by how often it goes through its median" : "it changes slowly"));
-    if (any_raw && any_envelope)
-      todo("some files hold raw EMG, others envelopes: a study takes one kind; leave the others out");
-    if (raw && !unit) {
+    line(fmt::format("kind = \"{}\"   # {}", raw_emg_ ? "raw" : "envelope",
+                     raw_emg_ ? "by how often it goes through its median" : "it changes slowly"));
+    if (raw_emg_ && !unit) {
       todo("the unit of the EMG, where the file does not say: V, mV or uV");
       line("# unit = \"uV\"");
     }
@@ -393,6 +401,7 @@ class Draft {
   bool guessed_coordinate_ = false;
   std::set<fs::path> loads_data_;
   std::vector<FoundRecording> found_;
+  bool raw_emg_ = true;
   std::map<std::string, std::string> similar_;
   Eigen::Index most_known_ = 0;
   char up_ = ' ';

@@ -109,6 +109,29 @@ TEST(StudyDraft, OfAWalkingTrialTheJointIsThatOfTheChannelsAndTheGroundReactionC
   EXPECT_THAT(draft.notes, Contains(HasSubstr("electromyography.sto: envelopes of EMG")));
 }
 
+TEST(StudyDraft, OfOnePersonsEnvelopesAndAnothersRawEmgTakesTheEnvelopes) {
+  const auto data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "upper-limb-optical");
+  const test::TemporaryFolder folder;
+  const StudyDraft draft = draft_study(folder.path(), {.from = {data / "upper-limb-optical"}});
+  EXPECT_THAT(draft.toml, HasSubstr("kind = \"envelope\""));
+  for (const std::string& question : draft.todo) EXPECT_EQ(question.find("no EMG was found"), std::string::npos);
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("the EMG of 'biosiglive_abd' (biosiglive_abd_emg_raw_V.sto) is raw")));
+}
+
+TEST(StudyDraft, OfSeveralPersonsAsksForAStudyEachAndOfJointTorquesNamesTheirCommand) {
+  const test::TemporaryFolder folder;
+  for (const char* stem : {"subject_1_bend", "subject_2_bend"}) write_trial(folder.path(), stem);
+  recording::write_file(folder / "id.sto",
+                        "Inverse Dynamics\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\n"
+                        "time\telbow_flexion_moment\n0.0\t1.0\n0.1\t2.0\n");
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  EXPECT_THAT(draft.todo, Contains("subject_1, subject_2 in the names: are these 2 persons? A study is of one person: "
+                                   "draft one for each (`myoid init DIR --from` that person's files) and run all with "
+                                   "`myoid cohort`"));
+  EXPECT_THAT(draft.notes, Contains(HasSubstr("id.sto: joint torques")));
+}
+
 TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {
   const auto data = test::data_folder();
   MYOID_REQUIRE_DATA(data / "elbow-emg");

@@ -219,8 +219,6 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
   solution.kkt_residual = certificate(problem, solution);
   solution.solved = best.balanced && solution.kkt_residual <= 1e-9;
   if (!best.balanced) take_nearest(problem, dual, scale, solution);
-  const double greatest = std::max(problem.required.cwiseAbs().maxCoeff(), 1e-300);
-  solution.shortfall = (problem.required - problem.forces * solution.control).cwiseAbs().maxCoeff() / greatest;
   return solution;
 }
 

@@ -22,10 +22,9 @@ struct ActuatorSolution {
   /// Greatest violation of the optimality conditions, each relative to the greatest term in it: balance of every row, p
   /// |x|^(p-1) sign x = A' lambda for a free control, its right sign at a bound.
   double kkt_residual = 0.0;
-  double shortfall = 0.0;  ///< Greatest |b - A x| relative to the greatest |b|.
   int iterations = 0;
   bool solved = false;   ///< Certified: kkt_residual <= 1e-9.
-  bool feasible = true;  ///< Otherwise: the controls that come nearest, with `shortfall`.
+  bool feasible = true;  ///< Otherwise: the controls that come nearest.
 };
 
 /// Solves by Newton's method on the concave dual: given lambda, every control follows in closed form, x_i = clip((A'

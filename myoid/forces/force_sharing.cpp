@@ -277,7 +277,7 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
       problem.optimal_force = optimal_force_n.row(frame).transpose();
       problem.torque = torques.values().row(frame).transpose();
       problem.lower = Eigen::VectorXd::Constant(muscles, options.min_activation);
-      problem.upper = Eigen::VectorXd::Constant(muscles, options.max_activation);
+      problem.upper = Eigen::VectorXd::Ones(muscles);
       problem.reserve = Eigen::VectorXd::Constant(coordinates, options.reserve_nm);
       problem.exponent = options.exponent;
       if (options.objective != SharingObjective::activation)

@@ -75,7 +75,6 @@ struct SharingOptions {
   double exponent = 2.0;
   double reserve_nm = 1.0;
   double min_activation = 0.0;
-  double max_activation = 1.0;
   TimeSeries emg;  ///< Optional: activations by muscle name, on the same clock.
   double emg_weight = 0.0;
   MuscleForceLaw law{};  ///< Optional; else F_opt x. The weights use F_opt in both cases.

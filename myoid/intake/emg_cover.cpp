@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -40,6 +41,27 @@ std::string which_rate(const TrialLengths& t) {
       "the other: correct the rate or the times in the file that is wrong",
       t.of_loads ? "Loads" : "EMG", t.emg_rate_hz * t.emg_s / t.motion_s, t.emg_rate_hz,
       t.motion_rate_hz * t.motion_s / t.emg_s, t.motion_rate_hz);
+}
+
+/// Finds the only two trials whose EMG and motion differ in length, if the EMG of each is as long as the other's
+/// motion.
+std::optional<Remark> exchanged_emg(const std::vector<TrialLengths>& trials) {
+  const auto unlike = [](double a_s, double b_s) { return std::abs(a_s - b_s) > kLimits.uncovered_s; };
+  std::vector<const TrialLengths*> apart;
+  for (const TrialLengths& t : trials) {
+    if (unlike(t.emg_s, t.motion_s)) apart.push_back(&t);
+  }
+  if (apart.size() != 2) return std::nullopt;
+  const TrialLengths &a = *apart[0], &b = *apart[1];
+  if (unlike(a.emg_s, b.motion_s) || unlike(b.emg_s, a.motion_s)) return std::nullopt;
+  return Remark{
+      .code = RemarkCode::emg_length,
+      .severity = Severity::warning,
+      .where = a.trial,
+      .says = fmt::format("{}; the EMG of '{}' lasts {:.4g} s, and its motion {:.4g} s: each EMG is as long as the "
+                          "other trial's motion",
+                          lasts(a), b.trial, b.emg_s, b.motion_s),
+      .remedy = "exchange emg of the two trials if the files are mixed up"};
 }
 
 }  // namespace
@@ -148,6 +170,7 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
                              "the start_s and end_s that both have",
                              lasts(t), which_rate(t))});
   }
+  if (auto exchanged = exchanged_emg(of_emg); exchanged && found.empty()) found.push_back(std::move(*exchanged));
   // Recordings stopped by hand differ by some seconds, not by one factor.
   if (of_emg.empty() || !found.empty() || !all || most > (1.0 + kLimits.same_factor) * least) return found;
   const TrialLengths& first = of_emg.front();

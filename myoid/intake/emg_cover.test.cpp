@@ -105,6 +105,16 @@ TEST(UnlikeLengths, OneFactorInEveryTrialNamesTheRate) {
   EXPECT_TRUE(unlike_lengths({lengths(24.0, 20.0), lengths(12.0, 12.0)}).empty());
 }
 
+TEST(UnlikeLengths, EmgOfTwoTrialsThatFitsTheOthersMotionIsCalledExchanged) {
+  const std::vector<Remark> found =
+      unlike_lengths({lengths(26.6, 25.6), lengths(25.64, 26.62), lengths(24.0, 24.02), lengths(28.0, 28.0)});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].says.find("each EMG is as long as the other trial's motion"), std::string::npos) << found[0].says;
+  // Recordings stopped by hand.
+  EXPECT_TRUE(unlike_lengths({lengths(26.6, 25.6), lengths(25.64, 26.62), lengths(24.0, 24.3)}).empty());
+  EXPECT_TRUE(unlike_lengths({lengths(26.6, 25.6), lengths(25.3, 24.6)}).empty());
+}
+
 TEST(RowsWithEmg, AreThoseThatTheEmgCovers) {
   const Eigen::VectorXd motion = Eigen::VectorXd::LinSpaced(101, 0.0, 10.0);
   const Rows all = rows_with_emg(motion, Eigen::VectorXd::LinSpaced(100, 0.04, 9.96));

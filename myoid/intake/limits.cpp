@@ -78,13 +78,15 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
                               percent(l.covered), l.shortest_trial_s, l.uncovered_s)});
   rows.push_back(
       {"EMG and motion of unlike length", "error or warning",
-       fmt::format("the ratio of the lengths is 2, 3, 4, 5 or 10, within {:g} %: a wrong rate. An error if the EMG is "
-                   "the shorter one, or if both end within {:g} % of each other at the corrected rate; else a warning. "
-                   "Also a warning: one ratio in every trial, with differences of {:g} s or more; in a single trial, "
-                   "EMG that is {:g} times as long; such a ratio of `external_loads` and motion. Maximal contractions, "
-                   "trials with their own window or clock, and "
-                   "beginnings more than {:g} s apart are not checked",
-                   percent(l.same_factor), percent(l.ends_together), l.by_hand_s, l.alone_longer, l.same_begin_s)});
+       fmt::format(
+           "the ratio of the lengths is 2, 3, 4, 5 or 10, within {:g} %: a wrong rate. An error if the EMG is "
+           "the shorter one, or if both end within {:g} % of each other at the corrected rate; else a warning. "
+           "Also a warning: one ratio in every trial, with differences of {:g} s or more; in a single trial, "
+           "EMG that is {:g} times as long; the only two trials of unlike length, where each EMG is as long as "
+           "the other's motion: exchanged files; such a ratio of `external_loads` and motion. Maximal contractions, "
+           "trials with their own window or clock, and "
+           "beginnings more than {:g} s apart are not checked",
+           percent(l.same_factor), percent(l.ends_together), l.by_hand_s, l.alone_longer, l.same_begin_s)});
 }
 
 void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
@@ -146,6 +148,13 @@ void add_markers(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
                    "side). Needs two segments with three markers or more. A model with a free base fits with any "
                    "axis up: the next row",
                    1000.0 * l.sides_m, percent(l.sides_better))});
+  rows.push_back(
+      {"trials of two persons", "warning",
+       fmt::format("lengths of segments differ between two trials by more than {0:g} % at the median: between any two "
+                   "markers of a body, and of the forearm between epicondyles and styloids. Lengths below {1:g} m and "
+                   "lengths that change by more than {0:g} % within the trial (5th to 95th percentile) do not count, "
+                   "because skin moves markers",
+                   percent(l.other_size), l.shortest_segment_m)});
   rows.push_back({"the vertical lies across the trunk", "warning",
                   fmt::format("markers of the body on the ground joint are more than {:.0f} degrees from upright by "
                               "`[markers] up`, and less than {:.0f} by another axis, up or down",

@@ -58,6 +58,8 @@ struct PlausibilityLimits {
   double sides_m = 0.04;       ///< Rms distance of a frame's markers from the model.
   double sides_better = 0.5;   ///< Ratio of this distance with left and right exchanged.
   int sides_pairs = 3;
+  double other_size = 0.06;          ///< Markers set anew land within a centimeter, 4 % of a forearm.
+  double shortest_segment_m = 0.10;  ///< Skin moves markers by 1 to 2 cm: shorter lengths tell no person.
   // Loads.
   double plate_far_m = 0.3;        ///< A marker farther from a contact does not stand on it.
   double off_body_m = 0.2;         ///< A foot is 0.27 m long: half of it, and the error of markers.

@@ -232,8 +232,8 @@ TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Reme
   if (const auto cover = check_cover(*trial.emg, "EMG", emg.time_s(), input))
     warn(input, RemarkCode::emg_cover,
          cover->lacks +
-             ": those seconds are not fitted. If both were recorded together, the rate of one of them is wrong; else "
-             "start_s and end_s leave the rest out");
+             ": those seconds are not fitted. If both were recorded together, the rate of one of them is wrong, or the "
+             "EMG is another trial's; else start_s and end_s leave the rest out");
   return emg;
 }
 

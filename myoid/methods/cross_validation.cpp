@@ -42,16 +42,29 @@ void cut(const TrialData& trial, int b, Split& split) {
   if (n - end > 2 * gap) to.push_back(used(part(trial, end + gap, n - end - gap), true));
 }
 
-std::vector<Split> block_splits(const StudyData& data,
-                                const std::vector<const TrialData*>& trials,
-                                std::string& why_not) {
+/// Says which other part can be left out, or how long a recording must be if none can.
+std::string other_part(const std::vector<const TrialData*>& trials, const CrossValidationOptions& how) {
   double longest_s = 0.0;
   for (const TrialData* trial : trials) longest_s = std::max(longest_s, duration_s(*trial));
-  if (longest_s < kLeastForBlocks_s) {
-    why_not = fmt::format(
-        "blocks need trials of {:.2g} s or more ({:g} s on either side of a block serve neither side, and half of a "
-        "trial must be left to fit); the longest has {:.2g} s; leave out whole trials",
-        kLeastForBlocks_s, kGap_s, longest_s);
+  const bool blocks = longest_s >= kLeastForBlocks_s;
+  if (blocks || trials.size() > 1)
+    return fmt::format("; {} can be: set {} to \"{}\"", trials.size() > 1 ? "whole trials" : "blocks of it",
+                       how.setting, trials.size() > 1 ? "trial" : "block");
+  return fmt::format(
+      ", and its {:.2g} s are too short for blocks ({:g} s on either side of a block serve neither side, and half of "
+      "the trial must be left to fit); record a second trial, or one of {:.2g} s or more",
+      longest_s, kGap_s, kLeastForBlocks_s);
+}
+
+std::vector<Split> block_splits(const StudyData& data,
+                                const std::vector<const TrialData*>& trials,
+                                const CrossValidationOptions& how,
+                                std::string& why_not) {
+  if (std::ranges::none_of(trials, [](const TrialData* t) { return duration_s(*t) >= kLeastForBlocks_s; })) {
+    why_not =
+        (trials.size() > 1 ? fmt::format("no trial has the {:.2g} s from which blocks are left out", kLeastForBlocks_s)
+                           : "there is only one trial to fit") +
+        other_part(trials, how);
     return {};
   }
   std::vector<Split> result;
@@ -86,8 +99,8 @@ std::vector<Split> named_splits(const StudyData& data,
     result.push_back(std::move(split));
   }
   if (result.size() >= 2) return result;
-  why_not = fmt::format("there is only one {} to fit; leave out blocks of it",
-                        how.kind == FoldKind::condition ? "condition" : "trial");
+  why_not = fmt::format("there is only one {} to fit{}", how.kind == FoldKind::condition ? "condition" : "trial",
+                        other_part(trials, how));
   return {};
 }
 
@@ -315,7 +328,7 @@ std::vector<Split> splits(const StudyData& data, const CrossValidationOptions& h
   }
   std::string reason;
   std::vector<Split> result =
-      how.kind == FoldKind::block ? block_splits(data, trials, reason) : named_splits(data, trials, how, reason);
+      how.kind == FoldKind::block ? block_splits(data, trials, how, reason) : named_splits(data, trials, how, reason);
   if (why_not != nullptr) *why_not = std::move(reason);
   return result;
 }

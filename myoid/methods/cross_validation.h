@@ -12,6 +12,8 @@ namespace myoid::identification {
 
 struct CrossValidationOptions {
   FoldKind kind = FoldKind::trial;
+  /// The setting of the caller that chooses `kind`, for messages.
+  std::string setting = "folds";
   bool paper = true;  ///< Also fits method `paper` to the others, if there are forces.
 };
 

@@ -61,7 +61,8 @@ TEST(CrossValidate, TrialsThatAreTooShortForBlocksAreNotCut) {
   std::string why_not;
   const StudyData brief = elbow_study({.trials = 2, .seconds = 2.0}).data;
   EXPECT_TRUE(splits(brief, {.kind = FoldKind::block}, &why_not).empty());
-  EXPECT_NE(why_not.find("3.3 s or more"), std::string::npos) << why_not;
+  EXPECT_EQ(why_not,
+            "no trial has the 3.3 s from which blocks are left out; whole trials can be: set folds to \"trial\"");
   StudyData mixed = elbow_study({.trials = 1, .seconds = 10.0}).data;
   mixed.trials.push_back(brief.trials[0]);
   const std::vector<Split> all = splits(mixed, {.kind = FoldKind::block}, &why_not);
@@ -73,6 +74,24 @@ TEST(CrossValidate, TrialsThatAreTooShortForBlocksAreNotCut) {
       (t.calibration ? seen_s : held_s) += t.time_s[t.time_s.size() - 1] - t.time_s[0];
     EXPECT_NEAR(held_s, 2.0, 0.02);
     EXPECT_GT(seen_s, 2.0 + 0.5 * 10.0);  // the short trial whole, and half of the long one
+  }
+}
+
+TEST(CrossValidate, NamesTheOtherPartOnlyIfItCanBeLeftOut) {
+  const auto reason = [](int trials, double seconds, FoldKind kind) {
+    std::string why_not;
+    EXPECT_TRUE(
+        splits(elbow_study({.trials = trials, .seconds = seconds}).data, {.kind = kind, .setting = "--folds"}, &why_not)
+            .empty());
+    return why_not;
+  };
+  EXPECT_EQ(reason(1, 5.0, FoldKind::trial),
+            "there is only one trial to fit; blocks of it can be: set --folds to \"block\"");
+  for (const FoldKind kind : {FoldKind::trial, FoldKind::block, FoldKind::condition}) {
+    const std::string text = reason(1, 2.0, kind);
+    EXPECT_EQ(text.find("--folds"), std::string::npos) << text;
+    EXPECT_NE(text.find("its 2 s are too short for blocks"), std::string::npos) << text;
+    EXPECT_NE(text.find("record a second trial, or one of 3.3 s or more"), std::string::npos) << text;
   }
 }
 

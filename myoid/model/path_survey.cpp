@@ -94,10 +94,8 @@ Eigen::VectorXd random_posture(const BodyModel& model, std::uint64_t seed, std::
   return q;
 }
 
-std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
-                                                 int postures,
-                                                 std::uint64_t seed,
-                                                 double least_m) {
+std::vector<PathDifference> compare_with_opensim(const BodyModel& model, int postures, std::uint64_t seed) {
+  constexpr double kLeast_m = 1e-6;
   BodyModel exact = model;
   exact.compat = Compat{};
   BodyModel opensim = model;
@@ -127,13 +125,14 @@ std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
       d.postures_above_1mm += length > 1e-3 ? 1 : 0;
     }
   }
-  std::erase_if(all, [&](const PathDifference& d) { return !(d.length_m > least_m || d.moment_arm_m > least_m); });
+  std::erase_if(all, [&](const PathDifference& d) { return !(d.length_m > kLeast_m || d.moment_arm_m > kLeast_m); });
   for (PathDifference& d : all) d.typical_length_m = std::sqrt(d.typical_length_m);
   std::ranges::stable_sort(all, std::ranges::greater(), &PathDifference::length_m);
   return all;
 }
 
-std::vector<PathJump> find_jumps(const BodyModel& model, int steps, double length_tolerance_m, double arm_tolerance_m) {
+std::vector<PathJump> find_jumps(const BodyModel& model, int steps) {
+  constexpr double kLength_m = 1e-5, kArm_m = 1e-3;
   std::vector<PathJump> jumps;
   for (int m = 0; m < static_cast<int>(model.muscles.size()); ++m) {
     for (int c = 0; c < static_cast<int>(model.coordinates.size()); ++c) {
@@ -145,8 +144,7 @@ std::vector<PathJump> find_jumps(const BodyModel& model, int steps, double lengt
       Sweep::Point before = sweep.at(range.lower);
       for (int i = 1; i <= steps; ++i) {
         const Sweep::Point here = sweep.at(range.lower + step * i);
-        const bool suspicious =
-            excess(before, here) > length_tolerance_m || std::abs(here.arm_m - before.arm_m) > arm_tolerance_m;
+        const bool suspicious = excess(before, here) > kLength_m || std::abs(here.arm_m - before.arm_m) > kArm_m;
         if (suspicious) {
           // Halve towards the half that departs more, until nothing smooth is left.
           Sweep::Point a = before;
@@ -159,9 +157,8 @@ std::vector<PathJump> find_jumps(const BodyModel& model, int steps, double lengt
           }
           const double length = std::abs(b.length_m - a.length_m);
           const double arm = std::abs(b.arm_m - a.arm_m);
-          if (length > length_tolerance_m || arm > arm_tolerance_m) {
-            jumps.push_back({m, c, 0.5 * (a.q + b.q), length > length_tolerance_m ? length : 0.0,
-                             arm > arm_tolerance_m ? arm : 0.0});
+          if (length > kLength_m || arm > kArm_m) {
+            jumps.push_back({m, c, 0.5 * (a.q + b.q), length > kLength_m ? length : 0.0, arm > kArm_m ? arm : 0.0});
           }
         }
         before = here;

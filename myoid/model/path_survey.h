@@ -31,12 +31,11 @@ struct PathDifference {
   Eigen::VectorXd worst_posture;  ///< Posture of the greatest length difference.
 };
 
-/// Returns the muscles that differ by more than `least_m` in length or moment arm at some posture, the greatest length
+/// Returns the muscles that differ by more than 1 um in length or moment arm at some posture, the greatest length
 /// difference first. A moment arm of a coordinate in meters counts as well; a NaN of OpenSim counts as infinite.
 [[nodiscard]] std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
                                                                int postures,
-                                                               std::uint64_t seed = 1,
-                                                               double least_m = 1e-6);
+                                                               std::uint64_t seed = 1);
 
 /// A jump of a muscle's length or moment arm while one coordinate moves through its range.
 struct PathJump {
@@ -49,11 +48,8 @@ struct PathJump {
 
 /// Sweeps every free coordinate through its range in `steps` steps, the others at their default.
 /// Finds the places at which the path changes by more than its moment arms predict: steps of more
-/// than `length_tolerance_m` or `arm_tolerance_m`, in the mode of `model.compat`.
-[[nodiscard]] std::vector<PathJump> find_jumps(const BodyModel& model,
-                                               int steps = 200,
-                                               double length_tolerance_m = 1e-5,
-                                               double arm_tolerance_m = 1e-3);
+/// than 0.01 mm or, of the moment arm, 1 mm, in the mode of `model.compat`.
+[[nodiscard]] std::vector<PathJump> find_jumps(const BodyModel& model, int steps = 200);
 
 /// Returns the muscle's moment arms by the coordinate at steps + 1 places from end to end of its
 /// range. Other coordinates have their default values; those that couplers or constraints bind to

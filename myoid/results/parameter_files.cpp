@@ -245,6 +245,13 @@ ordered_json resting_json(const identification::RestingJoint& joint) {
           {"residual_nm", joint.torque.residual_nm}};
 }
 
+/// Returns true if a trial took no part in the fits and was predicted.
+bool any_held_back(const std::vector<IdentificationResult>& methods) {
+  return std::ranges::any_of(methods, [](const IdentificationResult& method) {
+    return std::ranges::any_of(method.trials, [](const identification::TrialFit& trial) { return !trial.calibration; });
+  });
+}
+
 }  // namespace
 
 std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
@@ -291,6 +298,11 @@ std::string fold_parameters_csv(const std::vector<identification::Fold>& folds) 
   return text;
 }
 
+ordered_json force_loop_json(const identification::ForceLoop& loop) {
+  return {
+      {"end", std::string(identification::name(loop.end))}, {"message", loop.message}, {"rounds", loop.rounds.size()}};
+}
+
 std::string parameters_json(const std::vector<IdentificationResult>& methods,
                             const std::vector<identification::Fold>& folds,
                             const Provenance& provenance,
@@ -301,13 +313,8 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
   for (const TrialPhases& trial : context.phases) {
     for (const Phase& phase : trial.phases) object["segments"].push_back(phase_json(trial.trial, phase));
   }
-  if (context.force_loop != nullptr) {
-    const identification::ForceLoop& loop = *context.force_loop;
-    object["force_loop"] = {{"end", std::string(identification::name(loop.end))},
-                            {"message", loop.message},
-                            {"rounds", loop.rounds.size()}};
-  }
-  object["left_out"] = context.left_out;
+  if (context.force_loop != nullptr) object["force_loop"] = force_loop_json(*context.force_loop);
+  object["left_out"] = !folds.empty() ? context.left_out : any_held_back(methods) ? "validation" : "none";
   object["max_rate_hz"] = context.max_rate_hz ? ordered_json(*context.max_rate_hz) : nullptr;
   if (!context.starting_values.empty()) object["starting_values"] = context.starting_values;
   object["resting_torque"] = array_of(context.resting, resting_json);

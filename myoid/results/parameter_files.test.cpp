@@ -125,6 +125,20 @@ TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
   EXPECT_EQ(json.at("methods").at(0).at("estimates").at(0).at("intervals").at(0).at("ci_low"), 0.24);
 }
 
+TEST(ParametersJson, LeftOutIsTheKindOfAFoldOrThatTrialsWereHeldBack) {
+  const auto left_out = [](const identification::IdentificationResult& result, std::size_t folds) {
+    const std::vector<identification::Fold> of(folds);
+    return nlohmann::json::parse(parameters_json({result}, of, {}, {.left_out = "block"})).at("left_out");
+  };
+  identification::IdentificationResult result = one_estimate();
+  EXPECT_EQ(left_out(result, 0), "none");
+  EXPECT_EQ(left_out(result, 2), "block");
+  result.trials.resize(2);
+  result.trials[1].calibration = false;
+  EXPECT_EQ(left_out(result, 0), "validation");
+  EXPECT_EQ(left_out(result, 2), "block");
+}
+
 TEST(ParametersJson, SearchesTellWhereTheirStartsEnded) {
   identification::IdentificationResult torque = one_estimate();
   const auto none = nlohmann::json::parse(parameters_json({torque}, {}, {}));

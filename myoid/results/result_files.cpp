@@ -130,11 +130,7 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
   run["end_s"] = report::number_or_null(result.end_s);
   run["seconds"] = ordered_json::object();
   for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
-  if (result.fit.force_loop) {
-    run["force_loop"] = {{"end", std::string(identification::name(result.fit.force_loop->end))},
-                         {"message", result.fit.force_loop->message},
-                         {"rounds", result.fit.force_loop->rounds.size()}};
-  }
+  if (result.fit.force_loop) run["force_loop"] = force_loop_json(*result.fit.force_loop);
   run["trials"] = array_of(result.trials, trial_record);
   const signals::EmgChain emg = emg_chain(result, nullptr);
   run["emg"] = {{"steps", emg.steps}, {"methods", emg.methods}};

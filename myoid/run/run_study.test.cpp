@@ -236,7 +236,8 @@ TEST(WriteResults, ALoopThatDivergedFailsAGateAndStandsInTheJson) {
                gate.value == "diverged after 2 rounds: the changes grow: do not use it";
   }
   EXPECT_TRUE(failed);
-  const std::string json = parameters_json({}, {}, {}, parameter_context(result));
+  const std::vector<identification::Fold> one_fold(1);
+  const std::string json = parameters_json({}, one_fold, {}, parameter_context(result));
   EXPECT_NE(json.find("the changes grow: do not use it"), std::string::npos);
   EXPECT_NE(json.find("\"left_out\": \"trial\""), std::string::npos);
 }

@@ -40,7 +40,7 @@ FitInput without_left_out(const FitSource& source, const identification::StudyDa
 }  // namespace
 
 StudyValidation study_validation(const FitSource& source, const FitInput& input, const Progress& progress) {
-  const identification::CrossValidationOptions how{.kind = source.study.identify.folds};
+  const identification::CrossValidationOptions how{.kind = source.study.identify.folds, .setting = "[identify] folds"};
   const auto fit = [&](identification::StudyData& split, identification::EstimatorOptions& options) {
     if (how.kind != identification::FoldKind::block) {
       FitInput of_fold = without_left_out(source, split, progress);

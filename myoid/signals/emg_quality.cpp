@@ -71,7 +71,8 @@ class ChannelCheck {
     if (rms(x_) < kLimits.flat_v) {
       add(faults, RemarkCode::emg_flat, true, 0, x_.size() - 1, rms(x_),
           fmt::format("channel '{}' shows nothing: {:.2g} uV rms", name_, 1e6 * rms(x_)),
-          "was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }");
+          treatment_.in_study ? "was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }"
+                              : "was the electrode connected? Leave it out: name the others with --channel");
       return {};
     }
     const bool railed = clipping(faults);
@@ -80,21 +81,23 @@ class ChannelCheck {
       add(faults, RemarkCode::emg_flat, true, flat.begin, flat.begin + flat.length - 1, seconds(flat.length),
           fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_, time_s_[flat.begin],
                       time_s_[flat.begin + flat.length - 1]),
-          "was the transmission lost? Cut that part off with start_s and end_s");
+          fmt::format("was the transmission lost? Cut that part off with {}",
+                      treatment_.in_study ? "start_s and end_s" : "--start and --end"));
     }
     if (smoothed) {
       add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
           fmt::format("channel '{}' is never negative and hardly goes up and down: it has been rectified and smoothed",
                       name_),
-          "an envelope that is high-passed and rectified once more is no activation: set [emg] kind = \"envelope\"");
+          fmt::format("an envelope that is high-passed and rectified once more is no activation: {}",
+                      treatment_.in_study ? "set [emg] kind = \"envelope\"" : "give the raw EMG"));
       return {};
     }
     if (rectified) {
       add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
           fmt::format("channel '{}' goes up and down as raw EMG does and is never negative: it has been rectified",
                       name_),
-          "the high-pass makes another signal of it: give the raw EMG, or low-pass it and set [emg] kind = "
-          "\"envelope\"");
+          fmt::format("the high-pass makes another signal of it: give the raw EMG{}",
+                      treatment_.in_study ? ", or low-pass it and set [emg] kind = \"envelope\"" : ""));
       return {};
     }
     if (rate_hz_ < 4.0 * kEmgFrom_hz || x_.size() < static_cast<Eigen::Index>(rate_hz_)) return {};
@@ -193,8 +196,10 @@ class ChannelCheck {
     add(faults, RemarkCode::emg_drift, !treatment_.high_passed, 0, x_.size() - 1, value,
         fmt::format("channel '{}': its baseline wanders by {:.3g} uV, {:.2g} times the EMG", name_, 1e6 * rms(means),
                     value),
-        treatment_.high_passed ? "the high-pass takes it out; check the skin's preparation"
-                               : "without a high-pass it becomes activation: set [emg] highpass_hz");
+        treatment_.high_passed
+            ? "the high-pass takes it out; check the skin's preparation"
+            : fmt::format("without a high-pass it becomes activation: {}",
+                          treatment_.in_study ? "set [emg] highpass_hz" : "leave out --as-published"));
   }
 
   void artifact(std::vector<Remark>& faults) const {

@@ -11,7 +11,8 @@ namespace myoid::signals {
 /// The filters that the EMG will pass.
 struct EmgTreatment {
   bool high_passed = true;
-  bool notched = true;  ///< Notches take out hum.
+  bool notched = true;   ///< Notches take out hum.
+  bool in_study = true;  ///< Remedies name keys of study.toml, else options of `myoid emg`.
 };
 
 /// Checks one trial's raw EMG (volts, finite), channel by channel and pair by pair:

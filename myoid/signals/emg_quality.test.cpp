@@ -131,6 +131,20 @@ TEST(EmgQuality, AWanderingBaselineMattersWithoutAHighPassOnly) {
   EXPECT_EQ(check_emg(recording({x}), {.high_passed = false})[0].severity, Severity::warning);
 }
 
+TEST(EmgQuality, OutsideAStudyARemedyNamesNoKeyOfIt) {
+  Eigen::VectorXd lost = muscle(1);
+  lost.segment(4000, 1000).setConstant(lost[4000]);
+  for (const Eigen::VectorXd& x :
+       {Eigen::VectorXd(Eigen::VectorXd::Constant(kSamples, 1e-3)), lost, Eigen::VectorXd(muscle(3).cwiseAbs()),
+        Eigen::VectorXd(1e-4 * (1.0 - (1.3 * seconds()).cos())),
+        Eigen::VectorXd(muscle(1) + (1e-3 * (0.6 * seconds()).sin()).matrix())}) {
+    const auto faults = check_emg(recording({x}), {.high_passed = false, .in_study = false});
+    ASSERT_FALSE(faults.empty());
+    for (const char* key : {"[emg]", "same_as", "start_s", "highpass_hz"})
+      EXPECT_EQ(faults[0].remedy.find(key), std::string::npos) << faults[0].remedy;
+  }
+}
+
 TEST(EmgQuality, AMovementOfTheCableIsAnArtifactAtItsTime) {
   Eigen::VectorXd x = muscle(1);
   for (Eigen::Index i = 0; i < 500; ++i) x[10000 + i] += 3e-3 * std::sin(2.0 * kPi * static_cast<double>(i) / 250.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <variant>
 
@@ -23,28 +24,11 @@
 namespace myoid {
 namespace {
 
-/// Returns the mean distance from the elbow (or the middle of the epicondyles) to the middle of the styloids.
+/// Returns the mean length; empty if the markers do not show it.
 std::optional<double> forearm_length(const recording::MarkerSeries& markers) {
-  const auto find = [&](std::string_view name) -> Eigen::Index {
-    const auto it = std::ranges::find(markers.names, name);
-    return it == markers.names.end() ? -1 : it - markers.names.begin();
-  };
-  const Eigen::Index lateral = find("r_epicondyle_lateral");
-  const Eigen::Index medial = find("r_epicondyle_medial");
-  const Eigen::Index radial = find("r_styloid_radial");
-  const Eigen::Index ulnar = find("r_styloid_ulnar");
-  if (lateral < 0 || medial < 0 || radial < 0 || ulnar < 0) return std::nullopt;
-  double sum = 0.0;
-  int count = 0;
-  for (Eigen::Index frame = 0; frame < markers.frame_count(); ++frame) {
-    const Vec3 elbow = 0.5 * (markers.position(frame, lateral) + markers.position(frame, medial));
-    const Vec3 wrist = 0.5 * (markers.position(frame, radial) + markers.position(frame, ulnar));
-    const double length = (wrist - elbow).norm();
-    if (!std::isfinite(length)) continue;
-    sum += length;
-    ++count;
-  }
-  return count > 0 ? std::optional<double>(sum / count) : std::nullopt;
+  const std::vector<double> lengths_m = forearm_lengths_m(markers);
+  if (lengths_m.empty()) return std::nullopt;
+  return std::accumulate(lengths_m.begin(), lengths_m.end(), 0.0) / static_cast<double>(lengths_m.size());
 }
 
 model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries* markers) {
@@ -125,6 +109,26 @@ model::BodyModel prepared(const Study& study, model::BodyModel model) {
 }
 
 }  // namespace
+
+std::vector<double> forearm_lengths_m(const recording::MarkerSeries& markers) {
+  const auto find = [&](std::string_view name) -> Eigen::Index {
+    const auto it = std::ranges::find(markers.names, name);
+    return it == markers.names.end() ? -1 : it - markers.names.begin();
+  };
+  const Eigen::Index lateral = find("r_epicondyle_lateral");
+  const Eigen::Index medial = find("r_epicondyle_medial");
+  const Eigen::Index radial = find("r_styloid_radial");
+  const Eigen::Index ulnar = find("r_styloid_ulnar");
+  if (lateral < 0 || medial < 0 || radial < 0 || ulnar < 0) return {};
+  std::vector<double> lengths_m;
+  for (Eigen::Index frame = 0; frame < markers.frame_count(); ++frame) {
+    const Vec3 elbow = 0.5 * (markers.position(frame, lateral) + markers.position(frame, medial));
+    const Vec3 wrist = 0.5 * (markers.position(frame, radial) + markers.position(frame, ulnar));
+    const double length = (wrist - elbow).norm();
+    if (std::isfinite(length)) lengths_m.push_back(length);
+  }
+  return lengths_m;
+}
 
 std::string model_text(const Study& study) {
   if (!study.model.text.empty()) return study.model.text;

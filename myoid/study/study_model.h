@@ -20,6 +20,10 @@ namespace myoid {
 [[nodiscard]] model::BodyModel load_model(const Study& study, const std::string& text);
 [[nodiscard]] model::BodyModel load_model(const Study& study);
 
+/// Returns the distance from the middle of the epicondyles to the middle of the styloids in every frame that shows all
+/// four; empty without these markers of the built-in arm.
+[[nodiscard]] std::vector<double> forearm_lengths_m(const recording::MarkerSeries& markers);
+
 /// Returns the built-in arm with the forearm length (elbow to middle of the styloids) that these
 /// markers measure; the upper arm follows in de Leva's proportion. Empty if the study has a model
 /// file or states the length, or if the markers do not show it.

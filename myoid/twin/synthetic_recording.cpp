@@ -71,7 +71,6 @@ TrueTrial true_trial(const Performance& performance, const Truth& truth, double 
   Eigen::MatrixXd torque(n, 3);
   Eigen::MatrixXd activation(n, 4);
   Eigen::MatrixXd force(n, 4);
-  Eigen::MatrixXd length(n, 4);
   for (Eigen::Index k = 0; k < n; ++k) {
     const Instant now = performance.at(time_s(k));
     motion.row(k) << now.q.value, now.q.first, now.q.second;
@@ -80,7 +79,6 @@ TrueTrial true_trial(const Performance& performance, const Truth& truth, double 
       const auto muscle = static_cast<std::size_t>(i);
       activation(k, i) = now.activation[muscle];
       force(k, i) = now.force_n[muscle];
-      length(k, i) = now.fiber_length_m[muscle];
     }
   }
   return {.motion = {time_s,
@@ -95,7 +93,6 @@ TrueTrial true_trial(const Performance& performance, const Truth& truth, double 
                      torque},
           .activation = {time_s, per_muscle(Unit::dimensionless), activation},
           .force = {time_s, per_muscle(Unit::newton), force},
-          .length = {time_s, per_muscle(Unit::meter), length},
           .heads = true_heads(performance, truth, time_s),
           .state = true_state(performance, time_s),
           .fatigued = performance.fatigued(0.5 * performance.script().duration_s),

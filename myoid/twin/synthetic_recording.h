@@ -42,7 +42,6 @@ struct TrueTrial {
                           ///< ..._passive_moment (of the joint) [N m].
   TimeSeries activation;  ///< Per muscle: activation, after the delay.
   TimeSeries force;       ///< Per muscle [N].
-  TimeSeries length;      ///< Per muscle: fiber length [m].
   /// L2: for each head HEAD_activation, HEAD_fiber_length [m] and HEAD_tendon_force [N].
   std::optional<TimeSeries> heads;
   TimeSeries state;         ///< `cold`, 1 to 0 in a warm-up; fatigued_MUSCLE, share of strength.

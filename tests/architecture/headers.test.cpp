@@ -27,7 +27,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/commands/compare.h", "exercised by running the program"},
     {"myoid/commands/design.h", "exercised by running the program"},
     {"myoid/commands/identify.h", "exercised by running the program"},
-    {"myoid/commands/info.h", "exercised by running the program"},
     {"myoid/commands/init.h", "exercised by running the program"},
     {"myoid/commands/model_page.h", "exercised by running the program"},
     {"myoid/commands/predict.h", "exercised by running the program"},
