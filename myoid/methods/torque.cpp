@@ -12,6 +12,7 @@
 #include "myoid/intervals/estimates.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/methods/basins.h"
+#include "myoid/methods/late_emg.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/smooth_prediction.h"
@@ -169,6 +170,7 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
     result = by_least_squares(data, options);
   }
   if (!options.measured_is_force) judge_motion_alone(data, result);
+  if (options.predictions && !options.measured_is_force) judge_late_emg(data, options, result);
   return result;
 }
 
