@@ -18,16 +18,6 @@ const Eigen::VectorXd* motion_clock(const TrialInput& input) {
   return input.markers ? &input.markers->time_s : input.motion ? &input.motion->time_s() : nullptr;
 }
 
-/// Returns the ratio 2, 3, 4, 5, 10 or its reciprocal that equals this one.
-std::optional<double> whole_factor(double ratio) {
-  for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
-    for (const double f : {factor, 1.0 / factor}) {
-      if (std::abs(ratio / f - 1.0) < kLimits.same_factor) return f;
-    }
-  }
-  return std::nullopt;
-}
-
 std::string lasts(const TrialLengths& t) {
   return fmt::format("the EMG lasts {:.4g} s and the motion {:.4g} s, {:.3g} times as long", t.emg_s, t.motion_s,
                      t.emg_s / t.motion_s);
@@ -41,6 +31,15 @@ std::string which_rate(const TrialLengths& t) {
 }
 
 }  // namespace
+
+std::optional<double> whole_factor(double ratio, double tolerance) {
+  for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
+    for (const double f : {factor, 1.0 / factor}) {
+      if (std::abs(ratio / f - 1.0) < tolerance) return f;
+    }
+  }
+  return std::nullopt;
+}
 
 std::optional<Cover> check_cover(const std::filesystem::path& file,
                                  std::string_view recorded,
@@ -109,7 +108,7 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
       all = false;
       continue;
     }
-    const auto factor = whole_factor(ratio);
+    const auto factor = whole_factor(ratio, kLimits.same_factor);
     if (!factor) continue;
     const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kLimits.ends_together;
     found.push_back(

@@ -35,6 +35,9 @@ struct Rows {
 };
 [[nodiscard]] Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s);
 
+/// Returns the factor 2, 3, 4, 5, 10 or its reciprocal from which the ratio is no farther than this share.
+[[nodiscard]] std::optional<double> whole_factor(double ratio, double tolerance);
+
 /// Durations of a trial's EMG and motion, for files of their own without a window.
 struct TrialLengths {
   std::string trial;
