@@ -23,17 +23,19 @@ std::vector<Remark> unlikely_mass(const Study& study, const model::BodyModel& mo
     return finding(Severity::error,
                    fmt::format("{}, more than any person{}: are its masses in grams?", found,
                                person_kg ? fmt::format(" (this one weighs {:g} kg)", *person_kg) : ""),
-                   "write the masses and inertias in kg and kg m2, or scale the model to the person (myoid scale)");
+                   "write the masses and inertias in kg and kg m2, or scale the model to the person (myoid run-tool "
+                   "with a set-up of the Scale tool)");
   if (mass_kg < kLimits.lightest_kg)
     return finding(Severity::warning,
                    fmt::format("{}: weight and inertia of the limb are missing from its torque", found),
                    "give the bodies their masses [kg]");
   if (person_kg && mass_kg > kLimits.heavier_than * *person_kg)
-    return finding(Severity::warning,
-                   fmt::format("{}, {:.3g} times the person's {:g} kg ([subject] mass_kg): every torque by weight and "
-                               "inertia is too large by that",
-                               found, mass_kg / *person_kg, *person_kg),
-                   "scale the model to the person (myoid scale), or correct mass_kg");
+    return finding(
+        Severity::warning,
+        fmt::format("{}, {:.3g} times the person's {:g} kg ([subject] mass_kg): every torque by weight and "
+                    "inertia is too large by that",
+                    found, mass_kg / *person_kg, *person_kg),
+        "scale the model to the person (myoid run-tool with a set-up of the Scale tool), or correct mass_kg");
   return {};
 }
 
