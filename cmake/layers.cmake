@@ -41,7 +41,7 @@ set(MYOID_LAYER_results core math files muscle tables model kinematics forces si
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model)
 set(MYOID_LAYER_identify_files core math files muscle tables recording signals dynamics
-    identification methods checks)
+    identification methods intake checks)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
 set(MYOID_LAYER_virtual_person core math files muscle model osim arm beliefs

@@ -1,5 +1,7 @@
 #include "myoid/commands/muscle.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -41,6 +43,10 @@ void print_fit(const MuscleResult& result) {
   for (const muscle::IsolatedEstimate& e : fit.all.estimates)
     fmt::print("{:<28}{:>14.6g}{:>14.6g}{:>14.2g} {}{}\n", e.parameter, e.start, e.value, e.std_error, symbol(e.unit),
                e.at_bound ? ", at its bound" : "");
+  if (std::ranges::any_of(fit.all.estimates, &muscle::IsolatedEstimate::at_bound))
+    fmt::print(
+        "the standard errors of the others hold only if the value at the bound is true: the recordings pull beyond "
+        "it\n");
   fmt::print("\n{:<34}{:>12}{:>12}{:>12}\n", fmt::format("mean absolute error [% of {:.4g} N]", fit.relative_to_n),
              "start", "fitted", "predicted");
   for (const commands::RecordingErrors& error : fit.errors)

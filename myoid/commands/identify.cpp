@@ -26,6 +26,8 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
   files.torque = o.method == "torque";
   files.start_s = o.call.start_s;
   files.end_s = o.call.end_s;
+  files.resting_torque_is_free = std::ranges::any_of(
+      o.free_more, [](const std::string& name) { return name == "joint_torque_offset" || name == "joint_stiffness"; });
   StudyData data = read_identify_data(files, table, [&](const std::string& text) { remarks.warn(text); });
   for (const std::string& name : o.free_more) {
     (void)identification::parameter_field(name);

@@ -8,9 +8,11 @@
 
 #include "myoid/checks/same_recording.h"
 #include "myoid/core/error.h"
+#include "myoid/identification/options.h"
 #include "myoid/identify_files/identify_input.h"
 #include "myoid/identify_files/identify_trial.h"
 #include "myoid/identify_files/joint_of_arms.h"
+#include "myoid/methods/exchanged_electrodes.h"
 
 namespace myoid {
 namespace {
@@ -117,6 +119,11 @@ StudyData read_identify_data(const IdentifySources& sources, const MuscleTable& 
   require_something_to_fit(data, sources);
   compare_activations(data, sources, remark);
   compare_trials(data, sources, remark);
+  if (sources.torque) {
+    if (const auto exchanged =
+            identification::exchanged_electrodes(data, identification::EstimatorOptions{}.delay_prior_mean_s))
+      remark(fmt::format("{}: {}", sources.activations.front(), exchanged->sentence()));
+  }
   return data;
 }
 

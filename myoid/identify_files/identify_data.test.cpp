@@ -5,6 +5,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
@@ -121,11 +122,11 @@ TEST(IdentifyData, AFileThatLeavesOutMostOfATrialIsNamed) {
   const identification::TrialData& truth = files.study.data.trials[0];
   recording::write_series(
       files.folder / "id.sto",
-      TimeSeries(truth.time_s, {{"elbow_moment", Unit::newton_meter}}, truth.torque_nm).slice(0.0, 1.0), "torque");
-  EXPECT_NEAR(files.read().time_s.maxCoeff(), 1.0, 1e-9);
+      TimeSeries(truth.time_s, {{"elbow_moment", Unit::newton_meter}}, truth.torque_nm).slice(0.0, 1.3), "torque");
+  EXPECT_NEAR(files.read().time_s.maxCoeff(), 1.3, 1e-9);
   ASSERT_EQ(files.remarks.size(), 1U);
-  EXPECT_NE(files.remarks[0].find("1 of 5 s are used"), std::string::npos) << files.remarks[0];
-  EXPECT_NE(files.remarks[0].find("id.sto leaves out most"), std::string::npos);
+  EXPECT_NE(files.remarks[0].find("1.3 of 5 s are used"), std::string::npos) << files.remarks[0];
+  EXPECT_NE(files.remarks[0].find("id.sto 0 to 1.3 s"), std::string::npos);
   // Part of a trial that is asked for is not a part that is missing.
   files.remarks.clear();
   files.sources.end_s = 1.0;
@@ -163,7 +164,7 @@ TEST(IdentifyData, WhereAFileHasNoSamplesNothingIsFittedAndThatIsSaid) {
     ASSERT_EQ(trial.excluded.size(), 1U);
     EXPECT_NEAR(trial.excluded[0].begin_s, 1.9, 0.02);
     EXPECT_NEAR(trial.excluded[0].end_s, name == "a.sto" ? 3.3 : 3.1, 0.02);
-    ASSERT_EQ(files.remarks.size(), 1U);
+    ASSERT_EQ(files.remarks.size(), 1U) << fmt::format("{}", fmt::join(files.remarks, "; "));
     EXPECT_NE(files.remarks[0].find(name), std::string::npos) << files.remarks[0];
     EXPECT_NE(files.remarks[0].find("no samples from 2.0"), std::string::npos) << files.remarks[0];
     // Noise-free data give F_max back but for what splines do beside the gap; with what they make
@@ -210,7 +211,9 @@ TEST(IdentifyData, AnEffortThatIsAlwaysTheGreatestIsNoDeadElectrode) {
                             "a");
     files.remarks.clear();
     (void)files.read();
-    EXPECT_EQ(files.remarks.size(), level < 0.5 ? 1U : 0U) << level;
+    const auto dead = std::ranges::count_if(
+        files.remarks, [](const std::string& text) { return text.find("never changes") != std::string::npos; });
+    EXPECT_EQ(dead, level < 0.5 ? 1 : 0) << level;
   }
 }
 
@@ -327,6 +330,36 @@ TEST(IdentifyData, AMotionThatIsNotTheJointsOrNoAngleIsRefused) {
   EXPECT_EQ(motion({{"a", Unit::radian}}, 1.0), "(no error)");
   files.sources.coordinates = {"elbow"};
   EXPECT_NE(motion({{"a", Unit::radian}}, 1.0).find("no column 'elbow'"), std::string::npos);
+}
+
+TEST(IdentifyData, AFileAtAnotherRateIsNamedWithBothDurations) {
+  for (const double factor : {0.5, 2.0}) {
+    Written files;
+    const identification::TrialData& trial = files.study.data.trials[0];
+    const TimeSeries slow(factor * trial.time_s, {{"elbow_moment", Unit::newton_meter}}, trial.torque_nm);
+    recording::write_series(files.folder / "id.sto", slow, "torque");
+    (void)files.read();
+    ASSERT_FALSE(files.remarks.empty()) << factor;
+    const std::string& said = files.remarks.front();
+    for (const std::string& part : {files.path("id.sto") + ": lasts", fmt::format("{:.4g} s", factor * 5.0),
+                                    files.path("l.sto") + " 5 s", fmt::format("{:g} times", factor)})
+      EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
+    for (const std::string& remark : files.remarks) EXPECT_EQ(remark.find("are used"), std::string::npos) << remark;
+  }
+}
+
+TEST(IdentifyData, ExchangedElectrodesAreNamed) {
+  Written files;
+  const TimeSeries& a = files.study.data.trials[0].activation;
+  (void)files.read();
+  for (const std::string& remark : files.remarks) EXPECT_EQ(remark.find("exchanged"), std::string::npos) << remark;
+  files.remarks.clear();
+  std::vector<Channel> channels = a.channels();
+  std::swap(channels[0], channels[3]);
+  recording::write_series(files.folder / "a.sto", {a.time_s(), channels, a.values()}, "activation");
+  (void)files.read();
+  ASSERT_FALSE(files.remarks.empty());
+  EXPECT_NE(files.remarks.back().find("exchanged"), std::string::npos) << files.remarks.back();
 }
 
 }  // namespace

@@ -26,10 +26,13 @@ constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
 constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
 constexpr double kHighestActivation = 1.25, kCertainlyHigh = 2.0;
+constexpr double kPercent = 20.0;  ///< the largest activation in percent exceeds this
 constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
 constexpr double kSpike_s = 0.1;  ///< a shorter time above kCertainlyHigh is an artefact
 constexpr double kWindow_s = 0.1;
-constexpr double kMoves_m = 5e-4;  ///< a smaller change of length within a window is noise
+constexpr double kRests = 0.1;          ///< share of the samples at rest that shows the resting torque
+constexpr double kRestingTorque = 0.1;  ///< over the torque's peak; a smaller one is the offset of a sensor
+constexpr double kMoves_m = 5e-4;       ///< a smaller change of length within a window is noise
 constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3, kLargestFactor = 3.0;
 
 /// Optimal fiber lengths beyond which fibers make hardly any active force.
@@ -69,6 +72,7 @@ class TrialCheck {
     length_changes();
     torque_sizes();
     torques();
+    torque_at_rest();
     return std::move(remarks_);
   }
 
@@ -176,7 +180,9 @@ class TrialCheck {
       if (high > kCertainlyHigh && !spike)
         fail(files_.activations,
              fmt::format("{}, expected 0 to 1 (1: the greatest effort); {}", found,
-                         high <= 200.0 ? "in percent? Divide by 100" : "divide by the EMG of a maximal contraction"));
+                         high > kPercent && high <= 200.0
+                             ? "in percent? Divide by 100"
+                             : "divide by the largest value of a maximal contraction, the same for all trials"));
       if (low < kCertainlyLow)
         fail(files_.activations,
              found + ", expected 0 to 1; is this raw EMG? Rectify, low-pass and normalise it (myoid emg)");
@@ -266,7 +272,8 @@ class TrialCheck {
 
   /// Returns the share of the changes of length that dl = -r dq explains with the best dq of each
   /// window, for all muscles but one.
-  [[nodiscard]] double explained(const Changes& c, Eigen::Index without) const {
+  /// `turned` is a muscle whose moment arms get the other sign; -1: none.
+  [[nodiscard]] double explained(const Changes& c, Eigen::Index without, Eigen::Index turned = -1) const {
     double total = 0.0, left = 0.0;
     std::vector<Eigen::Index> muscles;
     for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
@@ -275,14 +282,35 @@ class TrialCheck {
     const auto joints = static_cast<Eigen::Index>(files_.moment_arms.size());
     if (static_cast<Eigen::Index>(muscles.size()) <= joints) return 0.0;
     Eigen::MatrixXd r(static_cast<Eigen::Index>(muscles.size()), joints);
+    const auto place = std::ranges::find(muscles, turned);
     for (Eigen::Index w = 0; w < c.of_length.rows(); ++w) {
       for (Eigen::Index j = 0; j < joints; ++j)
         r.col(j) = arms(static_cast<std::size_t>(j)).row(c.middle[static_cast<std::size_t>(w)])(muscles).transpose();
+      if (place != muscles.end()) r.row(place - muscles.begin()) *= -1.0;
       const Eigen::VectorXd dl = c.of_length.row(w)(muscles).transpose();
       total += dl.squaredNorm();
       left += (dl - r * math::nearest_solution(r, dl)).squaredNorm();
     }
     return total > 0.0 ? 1.0 - left / total : 1.0;
+  }
+
+  /// Names the muscle whose sign or absence makes the changes of length follow from the moment arms.
+  [[nodiscard]] std::string suspect(const Changes& c) const {
+    double best = 0.0, second = 0.0;
+    Eigen::Index turned = 0;
+    std::string who;
+    for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
+      if (explained(c, k) > kTogether) who = muscle(k);
+      const double share = explained(c, -1, k);
+      second = std::max(second, std::min(share, best));
+      if (share > best) turned = k;
+      best = std::max(best, share);
+    }
+    if (best > kDoubtful && best > second + kClearly)
+      return fmt::format("; with the sign of {} reversed it explains {:.0f} %: is the sign of {} wrong?",
+                         muscle(turned), 100.0 * best, muscle(turned));
+    return (who.empty() ? "" : fmt::format("; without {} they do", who)) +
+           "; is a sign wrong, or the file of another trial or joint?";
   }
 
   void length_changes() {
@@ -293,14 +321,10 @@ class TrialCheck {
     if (c.of_length.cols() <= static_cast<Eigen::Index>(files_.moment_arms.size())) return;
     const double all = explained(c, -1);
     if (all >= kDoubtful) return;
-    std::string who;
-    for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
-      if (explained(c, k) > kTogether) who = muscle(k);
-    }
-    remark(files_.moment_arms.front(),
-           fmt::format("the changes of length do not follow from the moment arms (dl = -r dq explains {:.0f} % of "
-                       "them){}; is a sign wrong, or the file of another trial or joint?",
-                       100.0 * std::max(0.0, all), who.empty() ? "" : fmt::format("; without {} they do", who)));
+    const std::string found =
+        fmt::format("the changes of length do not follow from the moment arms (dl = -r dq explains {:.0f} % of them)",
+                    100.0 * std::max(0.0, all));
+    remark(files_.moment_arms.front(), found + suspect(c));
   }
 
   void torque_sizes() {
@@ -354,6 +378,45 @@ class TrialCheck {
           files_.torques, r);
       if (r < kAgainst) fail(files_.moment_arms[j], found);
       if (r < -kDoubtful) remark(files_.moment_arms[j], found);
+    }
+  }
+
+  /// Returns the samples before which all EMG was quiet, for longer than torque lags behind EMG.
+  [[nodiscard]] std::vector<Eigen::Index> resting_rows() const {
+    constexpr double kLag_s = 0.3;
+    const Eigen::VectorXd& t = trial_.activation.time_s();
+    std::vector<Eigen::Index> rows;
+    Eigen::Index emg = 0;
+    double quiet_since_s = t[0];
+    for (Eigen::Index i = 0; i < trial_.time_s.size(); ++i) {
+      for (; emg < t.size() && t[emg] <= trial_.time_s[i]; ++emg) {
+        if (emg > 0 && t[emg] - t[emg - 1] > kLag_s) quiet_since_s = t[emg];
+        for (const identification::MuscleSetup& setup : data_.muscles) {
+          if (trial_.activation.values()(emg, trial_.activation.index(setup.emg_channel)) >= kFlatActivation)
+            quiet_since_s = t[emg];
+        }
+      }
+      const bool has_emg = emg > 0 && trial_.time_s[i] - t[emg - 1] < kLag_s;
+      if (has_emg && trial_.time_s[i] - quiet_since_s > kLag_s) rows.push_back(i);
+    }
+    return rows;
+  }
+
+  void torque_at_rest() {
+    if (files_.moment_arms.empty() || files_.torques.empty() || files_.resting_torque_is_free) return;
+    const std::vector<Eigen::Index> rows = resting_rows();
+    if (static_cast<double>(rows.size()) < kRests * static_cast<double>(trial_.time_s.size())) return;
+    for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
+      const Eigen::VectorXd here = torque(j)(rows);
+      const double usual = median_of(here);
+      if (std::abs(usual) < kRestingTorque * usual_peak(torque(j))) continue;
+      remark(
+          files_.torques,
+          fmt::format("{:.3g} to {:.3g} N m{} while all EMG is below {:g}, expected about 0: torque without activity "
+                      "is that of gravity and passive tissue. Subtract them, or fit them: --free "
+                      "joint_torque_offset, and --free joint_stiffness with --motion",
+                      here.minCoeff(), here.maxCoeff(),
+                      files_.moment_arms.size() > 1 ? fmt::format(" (joint {})", j + 1) : "", kFlatActivation));
     }
   }
 

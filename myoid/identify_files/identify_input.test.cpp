@@ -116,6 +116,10 @@ TEST(IdentifyInput, ActivationsInPercentOrRawAreNamed) {
   };
   scale(percent, 100.0, 0.0);
   expect_in(percent.error(), {"a.sto", "percent", "100"});
+  Spoiled tenfold;
+  scale(tenfold, 10.0 / tenfold.trial().activation.values().maxCoeff(), 0.0);
+  expect_in(tenfold.error(), {"a.sto", "largest value of a maximal contraction"});
+  EXPECT_EQ(tenfold.error().find("percent"), std::string::npos) << tenfold.error();
   scale(raw, 1.0, -0.3);
   expect_in(raw.error(), {"a.sto", "raw EMG"});
   const double highest = beyond.trial().activation.values().maxCoeff();
@@ -168,7 +172,7 @@ TEST(IdentifyInput, MomentArmsOfAWrongUnitSignOrMuscleAreNamed) {
   one.trial().moment_arm_m.col(0) *= -1.0;
   const auto remarks = one.check();
   ASSERT_FALSE(remarks.empty());
-  expect_in(remarks[0], {"r.sto", "without BIC"});
+  expect_in(remarks[0], {"r.sto", "is the sign of BIC wrong?"});
 }
 
 TEST(IdentifyInput, TorqueInNewtonMillimetersIsNamed) {
@@ -205,6 +209,28 @@ TEST(IdentifyInput, MomentArmsOfTwoJointsInTheWrongOrderAreNamed) {
     for (const std::string& remark : two.check()) said += remark;
   }
   expect_in(said, {"rA.sto", "--coordinate"});
+}
+
+TEST(IdentifyInput, TorqueWhileAllEmgIsQuietIsNamed) {
+  const auto resting = [](double offset_nm, Eigen::Index rows) {
+    Spoiled s;
+    const TimeSeries& a = s.trial().activation;
+    Eigen::MatrixXd values = a.values();
+    values.topRows(rows).setConstant(0.005);
+    s.trial().activation = TimeSeries(a.time_s(), a.channels(), values);
+    s.trial().torque_nm.head(rows).setZero();
+    s.trial().torque_nm.array() += offset_nm;
+    return s;
+  };
+  const double peak_nm = Spoiled{}.trial().torque_nm.cwiseAbs().maxCoeff();
+  EXPECT_TRUE(resting(0.02 * peak_nm, 400).check().empty());
+  EXPECT_TRUE(resting(0.2 * peak_nm, 40).check().empty());  // too short to tell
+  Spoiled raw = resting(0.2 * peak_nm, 400);
+  const std::vector<std::string> remarks = raw.check();
+  ASSERT_EQ(remarks.size(), 1U);
+  expect_in(remarks[0], {"id.sto", "while all EMG is below 0.02", "gravity", "--free joint_torque_offset"});
+  raw.files.resting_torque_is_free = true;
+  EXPECT_TRUE(raw.check().empty());
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
                       .lengths = s.lengths[trial],
                       .velocities = of_trial(s.velocities),
                       .moment_arms = {},
-                      .torques = s.torque ? of_trial(s.torques) : ""};
+                      .torques = s.torque ? of_trial(s.torques) : "",
+                      .resting_torque_is_free = s.resting_torque_is_free};
   const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
   for (std::size_t j = 0; s.torque && j < joints; ++j) files.moment_arms.push_back(s.moment_arms[joints * trial + j]);
   return files;

@@ -21,6 +21,7 @@ struct IdentifySources {
   std::vector<std::string> held_back;
   bool torque = true;                    ///< Fits torques; false: forces.
   std::optional<double> start_s, end_s;  ///< [s]
+  bool resting_torque_is_free = false;   ///< The torque of the joint without activity is fitted.
 };
 
 /// Receives a sentence on the files or their values.
@@ -32,6 +33,7 @@ struct IdentifyFiles {
   std::string velocities;                ///< Empty: rates of the spline through the lengths.
   std::vector<std::string> moment_arms;  ///< By joint; empty: not given.
   std::string torques;                   ///< Empty: not given.
+  bool resting_torque_is_free = false;   ///< IdentifySources::resting_torque_is_free.
 };
 
 /// Throws InvalidInput if a kind of files does not match the number of trials.

@@ -9,6 +9,8 @@
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 #include "myoid/identify_files/joint_of_arms.h"
+#include "myoid/intake/emg_cover.h"
+#include "myoid/intake/limits.h"
 #include "myoid/math/spline.h"
 #include "myoid/math/statistics.h"
 #include "myoid/recording/recording.h"
@@ -150,7 +152,11 @@ class TrialReader {
     if (sources_.start_s || sources_.end_s)
       lengths = lengths.slice(sources_.start_s.value_or(-1e300), sources_.end_s.value_or(1e300));
     if (lengths.sample_count() < 2) throw ReadError(files.lengths, 0, "fewer than two samples in the time asked for");
-    const double asked_s = span_s(lengths);
+    const double asked_s = span_s(lengths), asked_from_s = lengths.time_s()[0];
+    std::vector<std::string> all{files.lengths, files.activations, files.velocities, files.torques};
+    all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), files.moment_arms.begin(), files.moment_arms.end());
+    const bool other_rate = !sources_.start_s && !sources_.end_s && say_other_rate(all);
     std::string shortest;  // the file that leaves out most
     double most_left_out_s = 0.0;
     std::vector<std::string> others{files.activations, files.velocities, files.torques};
@@ -179,12 +185,37 @@ class TrialReader {
       }
     }
     constexpr double kMost = 0.5;  // of the lengths' time
-    if (span_s(lengths) < kMost * asked_s)
+    if (span_s(lengths) < kMost * asked_s && !other_rate)
       remark_(
-          fmt::format("{}: {:.3g} of {:.3g} s are used, the time that all files of the trial cover; {} leaves out "
-                      "most. Was a file cut off, or is its clock another?",
-                      files.lengths, span_s(lengths), asked_s, shortest));
+          fmt::format("{}: {:.3g} of {:.3g} s are used, the time that all files of the trial cover; it has {:.4g} to "
+                      "{:.4g} s, and {} {:.4g} to {:.4g} s. Was one of them cut off, or is its clock another?",
+                      files.lengths, span_s(lengths), asked_s, asked_from_s, asked_from_s + asked_s, shortest,
+                      series(shortest).time_s()[0], series(shortest).time_s()[0] + span_s(series(shortest))));
     return lengths.time_s();
+  }
+
+  /// Remarks on files that begin with the others and last a whole multiple, or part, of their time.
+  bool say_other_rate(std::vector<std::string> files) {
+    std::erase(files, "");
+    const auto ratio = [&](const std::string& a, const std::string& b) {
+      return span_s(series(a)) / span_s(series(b));
+    };
+    const auto like = [&](const std::string& file) {
+      return std::ranges::count_if(
+          files, [&](const std::string& other) { return std::abs(ratio(other, file) - 1.0) < kLimits.ends_together; });
+    };
+    const std::string usual = *std::ranges::max_element(files, {}, like);
+    bool said = false;
+    for (const std::string& file : files) {
+      const std::optional<double> factor = whole_factor(ratio(file, usual), kLimits.ends_together);
+      if (!factor || std::abs(series(file).time_s()[0] - series(usual).time_s()[0]) > kLimits.same_begin_s) continue;
+      remark_(
+          fmt::format("{}: lasts {:.4g} s, and {} {:.4g} s: {:g} times as long; is the rate of one of them wrong? "
+                      "Correct its times, or give --start and --end if both did last so",
+                      file, span_s(series(file)), usual, span_s(series(usual)), *factor));
+      said = true;
+    }
+    return said;
   }
 
   static double span_s(const TimeSeries& series) {

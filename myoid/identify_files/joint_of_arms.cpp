@@ -19,6 +19,8 @@ constexpr double kNoArm_m = 1e-4;
 constexpr double kAngleWindow_s = 0.1;
 constexpr double kMovesByAngle_m = 5e-4;  ///< root mean square of a length's changes over a window
 constexpr double kExplains = 0.5;
+// A muscle whose length follows the angles this closely crosses no other joint.
+constexpr double kFollows = 0.97, kOtherFactor = 1.5;
 
 bool one_holds_the_other(std::string_view a, std::string_view b) {
   const std::string x = recording::small_letters(std::string(a)), y = recording::small_letters(std::string(b));
@@ -93,7 +95,8 @@ double share_explained(const Eigen::VectorXd& change, const Eigen::VectorXd& by)
   return 1.0 - (change - by).squaredNorm() / change.squaredNorm();
 }
 
-void compare_with_angles(const TrialData& trial,
+void compare_with_angles(const StudyData& data,
+                         const TrialData& trial,
                          const std::vector<JointArms>& joints,
                          const IdentifyFiles& files,
                          std::vector<std::string>& remarks) {
@@ -105,13 +108,24 @@ void compare_with_angles(const TrialData& trial,
   if (count < 5.0) return;
   double best = -1e300, best_reversed = -1e300;
   bool any = false;
+  std::vector<std::string> suspects;
   for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
     const Eigen::VectorXd change = c.of_length.col(k), by = c.by_angles.col(k);
     if (change.norm() < kMovesByAngle_m * std::sqrt(count)) continue;
     any = true;
     best = std::max(best, share_explained(change, by));
     best_reversed = std::max(best_reversed, share_explained(change, -by));
+    const double r = change.dot(by) / std::max(change.norm() * by.norm(), 1e-300);
+    const double factor = by.norm() / change.norm();
+    if (r < -kFollows || (r > kFollows && std::max(factor, 1.0 / factor) > kOtherFactor))
+      suspects.push_back(
+          fmt::format("{} (times {:.2g})", data.muscles[static_cast<std::size_t>(k)].name, r > 0.0 ? factor : -factor));
   }
+  if (any && best >= kExplains && !suspects.empty())
+    remarks.push_back(
+        fmt::format("{}: with the angles of --motion the moment arms make another change of length than {} has: {}; "
+                    "expected times 1 (dl = -r dq): mend the sign or the unit of these muscles",
+                    files.moment_arms.front(), files.lengths, fmt::join(suspects, ", ")));
   if (!any || best >= kExplains) return;
   remarks.push_back(fmt::format(
       "{}: {}", files.moment_arms.front(),
@@ -153,7 +167,7 @@ std::vector<std::string> check_joint_of_arms(const StudyData& data,
   if (files.moment_arms.empty()) return remarks;
   const std::vector<JointArms> joints = joints_of(trial);
   add_muscles_without_arm(data, joints, files, remarks);
-  compare_with_angles(trial, joints, files, remarks);
+  compare_with_angles(data, trial, joints, files, remarks);
   return remarks;
 }
 

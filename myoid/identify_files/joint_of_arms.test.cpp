@@ -71,6 +71,14 @@ TEST(JointOfArms, LengthsFollowTheAnglesByTheArmsOfTheirJointOnly) {
   }
   data.muscles.resize(2);
   EXPECT_TRUE(check_joint_of_arms(data, trial, kArmFiles).empty());
+  for (const auto& [factor, said] : {std::pair{-1.0, "BRA (times -1)"}, std::pair{2.0, "BRA (times 2)"}}) {
+    identification::TrialData wrong = trial;
+    wrong.moment_arm_m.col(1) *= factor;
+    const std::vector<std::string> named = check_joint_of_arms(data, wrong, kArmFiles);
+    ASSERT_EQ(named.size(), 1U);
+    EXPECT_NE(named[0].find(said), std::string::npos) << named[0];
+    EXPECT_EQ(named[0].find("BIC"), std::string::npos) << named[0];
+  }
   identification::TrialData reversed = trial;
   reversed.angle_rad = -trial.angle_rad;
   const std::vector<std::string> sign = check_joint_of_arms(data, reversed, kArmFiles);

@@ -20,16 +20,6 @@ const Eigen::VectorXd* motion_clock(const TrialInput& input) {
   return input.markers ? &input.markers->time_s : input.motion ? &input.motion->time_s() : nullptr;
 }
 
-/// Returns the ratio 2, 3, 4, 5, 10 or its reciprocal that equals this one.
-std::optional<double> whole_factor(double ratio) {
-  for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
-    for (const double f : {factor, 1.0 / factor}) {
-      if (std::abs(ratio / f - 1.0) < kLimits.same_factor) return f;
-    }
-  }
-  return std::nullopt;
-}
-
 std::string lasts(const TrialLengths& t) {
   return fmt::format("the {} {:.4g} s and the motion {:.4g} s, {:.3g} times as long",
                      t.of_loads ? "loads last" : "EMG lasts", t.emg_s, t.motion_s, t.emg_s / t.motion_s);
@@ -65,6 +55,15 @@ std::optional<Remark> exchanged_emg(const std::vector<TrialLengths>& trials) {
 }
 
 }  // namespace
+
+std::optional<double> whole_factor(double ratio, double tolerance) {
+  for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
+    for (const double f : {factor, 1.0 / factor}) {
+      if (std::abs(ratio / f - 1.0) < tolerance) return f;
+    }
+  }
+  return std::nullopt;
+}
 
 std::optional<Cover> check_cover(const std::filesystem::path& file,
                                  std::string_view recorded,
@@ -145,7 +144,7 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
       all = false;
       continue;
     }
-    const auto factor = whole_factor(ratio);
+    const auto factor = whole_factor(ratio, kLimits.same_factor);
     if (!factor) continue;
     const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kLimits.ends_together;
     found.push_back(
@@ -158,7 +157,8 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
                              lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?", which_rate(t))});
   }
   for (const TrialLengths& t : trials) {
-    if (!t.of_loads || std::abs(t.emg_s - t.motion_s) < kLimits.by_hand_s || !whole_factor(t.emg_s / t.motion_s) ||
+    if (!t.of_loads || std::abs(t.emg_s - t.motion_s) < kLimits.by_hand_s ||
+        !whole_factor(t.emg_s / t.motion_s, kLimits.same_factor) ||
         std::ranges::any_of(found, [&](const Remark& of_emg_too) { return of_emg_too.where == t.trial; }))
       continue;
     found.push_back(

@@ -35,6 +35,9 @@ struct Rows {
 };
 [[nodiscard]] Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s);
 
+/// Returns the factor 2, 3, 4, 5, 10 or its reciprocal from which the ratio is no farther than this share.
+[[nodiscard]] std::optional<double> whole_factor(double ratio, double tolerance);
+
 /// Returns the durations of EMG and of `external_loads` beside the motion's; empty where they need not agree: one file,
 /// a window or a clock of their own, no motion, different beginnings, a maximal contraction or a static pose. Of a
 /// trial that was cut to its loads, the durations before the cut.

@@ -240,8 +240,9 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
       {"muscles too weak for the torque", "warning",
        fmt::format("a reserve acts in {:g} % of the frames or more", l.reserve_percent)},
       {"a torque that is not explained", "warning; fails",
-       fmt::format("R² below {:g}; errors larger than the torque, or larger than {:g} % of it at an R² below {:g}",
-                   l.explains, percent(l.unrelated_share), l.unrelated)},
+       fmt::format("R² below {:g}; errors larger than the torque, or larger than {:g} % of it at an R² below {:g}; of "
+                   "the fitted samples an R² below {:g}",
+                   l.explains, percent(l.unrelated_share), l.unrelated, l.mean)},
       {"a reservation of the fit", "warning",
        "any: several minima, a wrong model, or motion that tells the torque without EMG"},
       {"an outlier among the trials left out", "warning",

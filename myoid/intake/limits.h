@@ -93,6 +93,7 @@ struct GateLimits {
   double least_range_deg = 5.0;   ///< A joint that moves less was not moved.
   double reserve_percent = 5.0;   ///< Share of the frames in which a reserve acts.
   double explains = 0.5;          ///< R2 of a good prediction.
+  double mean = 0.0;              ///< R2 of the torque's mean; a fit below describes nothing.
   double unrelated = -1.0;        ///< R2 of a prediction unrelated to the torque.
   double unrelated_share = 0.5;   ///< Share of the torque that its errors must exceed, too.
   double far_fold = 3.0;          ///< Robust deviations of an error from the other folds' errors.

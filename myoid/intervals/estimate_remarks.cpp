@@ -45,7 +45,7 @@ void RouteRemarks::compare(ParameterEstimate& e) {
       if (!b.low || !b.high) continue;
       const double here = width_of(a) / width_of(b);
       const double by_chance = std::exp(kDeviations * std::hypot(a.spread, b.spread));
-      if (here <= std::max(kDisagreement, by_chance) || here <= ratio) continue;
+      if (!(here > std::max(kDisagreement, by_chance)) || !(here > ratio)) continue;  // nor without a number
       ratio = here;
       wide = &a;
       narrow = &b;

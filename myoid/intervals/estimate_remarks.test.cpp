@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +109,16 @@ TEST(KnownBeforehand, IsTheStudysTheLiteraturesOrAnyEffort) {
   Unknown delay;
   delay.field = &parameter_field("emg_delay");
   EXPECT_EQ(known_beforehand(delay, true), "what is expected beforehand");
+}
+
+TEST(RouteRemarks, ARouteOfEndlessWidthDoesNotDisagreeWithItself) {
+  ParameterEstimate e;
+  e.parameter = "max_isometric_force";
+  e.estimate = 1.0;
+  e.routes = {{"sandwich", 0.0, std::numeric_limits<double>::infinity(), 0.0}};
+  RouteRemarks routes;
+  routes.compare(e);
+  EXPECT_FALSE(e.routes_disagree);
 }
 
 TEST(RouteRemarks, SayOnceWhichProfilesAreOpen) {

@@ -129,9 +129,9 @@ std::vector<std::string> warnings_of(const IdentificationResult& result,
   }
   if (result.r2 < kVerdictRules.least_r2) {
     warnings.push_back(fmt::format(
-        "the fit explains little of the fitted samples (R2 {:.2f}, of the joint that is explained least, without the "
-        "ends of the trials): no number is called identified; look for a wrong sign, unit, order of files or column",
-        result.r2));
+        "{} (R2 {:.2f}, of the joint that is explained least, without the ends of the trials): no number is called "
+        "identified; look for a wrong sign, unit, offset, clock, order of files or column",
+        kExplainsLittle, result.r2));
   }
   if (result.model_error > kVerdictRules.model_error) {
     warnings.push_back(fmt::format(

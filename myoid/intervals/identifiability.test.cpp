@@ -161,13 +161,25 @@ TEST(Judge, NeverTrustsWhatIsNotAnAnswer) {
   EXPECT_EQ(verdict_of(open), Verdict::not_identifiable);
 }
 
+TEST(Judge, AFitThatErrsMoreThanTheMeanKnowsNothing) {
+  for (const double half : {0.005, 0.4}) {
+    ParameterEstimate e = estimate(half, "max_isometric_force");
+    judge(e, {.r2 = -0.01});
+    EXPECT_EQ(e.verdict, Verdict::not_identifiable) << half;
+    EXPECT_NE(e.reason.find("R2 -0.01"), std::string::npos) << e.reason;
+  }
+  ParameterEstimate prior = estimate(0.4, "max_isometric_force");
+  prior.shrinkage = 0.01;
+  EXPECT_EQ(verdict_of(prior, {.r2 = -1.0}), Verdict::prior_dominated);
+}
+
 TEST(Judge, AFitThatExplainsLittleIdentifiesNothing) {
   for (const char* parameter : {"optimal_fiber_length", "joint_viscosity", "emg_delay"}) {
     ParameterEstimate e = estimate(0.005, parameter);
     e.prior_sd = 0.2;
     EXPECT_EQ(verdict_of(e, {.r2 = 0.51}), Verdict::identified) << parameter;
     EXPECT_EQ(verdict_of(e, {.r2 = 0.49}), Verdict::weak) << parameter;
-    EXPECT_EQ(verdict_of(e, {.r2 = -0.2}), Verdict::weak) << parameter;
+    EXPECT_EQ(verdict_of(e, {.r2 = 0.01}), Verdict::weak) << parameter;
   }
   ParameterEstimate none = estimate(0.005, "emg_delay");
   none.estimate = 0.0;

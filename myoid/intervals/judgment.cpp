@@ -250,16 +250,8 @@ MaybeJudgment weakened(const ParameterEstimate& e, const std::string& known, con
   return std::nullopt;
 }
 
-}  // namespace
-
-double half_width(const ParameterEstimate& e) { return std::max(*e.ci_high - e.estimate, e.estimate - *e.ci_low); }
-
-std::string deviations(double distance, const VerdictContext& context) {
-  return fmt::format("{:.1f} standard deviations of the prior{}", distance,
-                     context.prior_of_logarithm ? " (of the logarithm)" : "");
-}
-
-Judgment judgment_of(const ParameterEstimate& e, const VerdictContext& context) {
+/// Returns the judgment by the first rule that applies.
+Judgment by_first_rule(const ParameterEstimate& e, const VerdictContext& context) {
   for (const auto& rule : {without_fit, without_muscle, on_a_bound, without_effect, mostly_prior}) {
     if (MaybeJudgment judgment = rule(e, context)) return std::move(*judgment);
   }
@@ -270,6 +262,24 @@ Judgment judgment_of(const ParameterEstimate& e, const VerdictContext& context) 
   }
   judgment.reason += beside_the_maximum(e.parameter, context.from_mvc);
   return judgment;
+}
+
+}  // namespace
+
+double half_width(const ParameterEstimate& e) { return std::max(*e.ci_high - e.estimate, e.estimate - *e.ci_low); }
+
+std::string deviations(double distance, const VerdictContext& context) {
+  return fmt::format("{:.1f} standard deviations of the prior{}", distance,
+                     context.prior_of_logarithm ? " (of the logarithm)" : "");
+}
+
+Judgment judgment_of(const ParameterEstimate& e, const VerdictContext& context) {
+  Judgment judgment = by_first_rule(e, context);
+  const bool known = judgment.verdict == Verdict::identified || judgment.verdict == Verdict::weak;
+  if (!known || context.r2 >= kVerdictRules.mean_r2) return judgment;
+  return {Verdict::not_identifiable,
+          fmt::format("the fit errs more than the mean of the torque would (R2 {:.2f}): none of its numbers is known",
+                      context.r2)};
 }
 
 std::string beside_the_maximum(std::string_view parameter, bool from_mvc) {

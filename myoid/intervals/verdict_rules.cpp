@@ -32,6 +32,7 @@ std::string verdict_rules_markdown() {
   row("torque of moving joints that their angle, rate and acceleration explain, of `weak` at best",
       fmt::format("above {}", percent(r.motion_alone)));
   row("R² of the fit, of `weak` at best", fmt::format("below {:g}", r.least_r2));
+  row("R² of the fit, of neither `identified` nor `weak`", fmt::format("below {:g}", r.mean_r2));
   row("l_mˢʰ over l_m⁰ that a muscle can have",
       fmt::format("{:g} to {:g}", r.relative_width.lower, r.relative_width.upper));
   row("span of the active lengths that tells l_m⁰ and l_mˢʰ",

@@ -33,6 +33,7 @@ struct VerdictRules {
     return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
   }
   double least_r2 = 0.50;        ///< A fit that explains less of the torque identifies nothing.
+  double mean_r2 = 0.0;          ///< A fit that explains less errs more than the mean of the torque: it tells nothing.
   double on_bound = 0.001;       ///< Share of the possible range: an interval that ends nearer to a bound is cut off.
   double no_delay_s = 1e-6;      ///< Limit up to which a delay on its bound counts as 0.
   double any_shrinkage = 0.005;  ///< Below, the recording does not narrow the prior at all.

@@ -12,6 +12,7 @@
 #include "myoid/intervals/estimates.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/methods/basins.h"
+#include "myoid/methods/late_emg.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/smooth_prediction.h"
@@ -83,6 +84,28 @@ double preference_for_lags(const Estimator& by_delay,
     }
   }
   return delayed.weighting.share * sum;
+}
+
+/// Where the fit explains little: says so if the priors, and no fault of the files, are the cause.
+void judge_priors(const StudyData& data, const TorqueOptions& options, IdentificationResult& result) {
+  if (!options.predictions || !options.priors || options.estimator == EstimatorKind::posterior ||
+      result.r2 >= kVerdictRules.least_r2)
+    return;
+  TorqueOptions plain = options;
+  plain.priors = plain.weights = false;
+  plain.gain_prior_sd.clear();
+  plain.intervals = {};
+  const Estimator estimator(data, plain);
+  const Estimator::Solution found = estimator.solve(estimator.model().parameters().start());
+  const double r2 = report_estimates(estimator, found, data).r2;
+  constexpr double kDescribes = 0.9;  // other faults also fit somewhat better without priors
+  if (!(r2 >= kDescribes)) return;
+  std::erase_if(result.warnings, [](const std::string& text) { return text.starts_with(kExplainsLittle); });
+  result.warnings.push_back(
+      fmt::format("{} (R2 {:.2f}), and without the priors R2 is {:.2f}: the priors hold the numbers away from what the "
+                  "recording tells, and no number is called identified; start from values that are nearer to the "
+                  "person's, such as the strength",
+                  kExplainsLittle, result.r2, r2));
 }
 
 /// Returns the best of the minima from many starts and the table of all minima, at the weights of the best.
@@ -168,7 +191,9 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   } else {
     result = by_least_squares(data, options);
   }
+  if (!options.measured_is_force) judge_priors(data, options, result);
   if (!options.measured_is_force) judge_motion_alone(data, result);
+  if (options.predictions && !options.measured_is_force) judge_late_emg(data, options, result);
   return result;
 }
 

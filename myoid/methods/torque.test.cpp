@@ -400,6 +400,19 @@ TEST(IdentifyTorque, OneJointAngleTellsNothingOfTheForceLengthCurve) {
   EXPECT_EQ(judged, 4 * 2 * 8);
 }
 
+TEST(IdentifyTorque, SaysWhereThePriorsAndNoFaultOfTheFilesSpoilTheFit) {
+  // A person eight times as strong as expected, and too few samples to tell so against the priors.
+  ElbowStudy study = elbow_study({.trials = 1, .seconds = 3.0, .with_priors = true});
+  study.data.trials[0].torque_nm *= 8.0;
+  const IdentificationResult result = identify_torque(study.data, {});
+  ASSERT_LT(result.r2, 0.5);
+  const auto says = [&](const char* text) {
+    return std::ranges::count_if(result.warnings, [&](const std::string& w) { return w.find(text) != w.npos; });
+  };
+  EXPECT_EQ(says("the priors hold the numbers"), 1);
+  EXPECT_EQ(says("look for a wrong sign"), 0);
+}
+
 TEST(MotionAlone, WarnsWhereASpringAndAnInertiaTellTheTorque) {
   StudyData data;
   data.trials = {test::swing(0.0), test::swing(0.0)};

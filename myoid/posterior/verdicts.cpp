@@ -111,7 +111,9 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
                        100.0 * facts.model_error, text);
   if (finding == Finding::unexplained)
     text = fmt::format(
-        "the fit explains little of the torque (R2 {:.2f}): a sign, a unit, the order of files or a column is wrong, "
+        "the fit explains little of the torque (R2 {:.2f}): a sign, a unit, an offset, a clock, the order of files or "
+        "a "
+        "column is wrong, "
         "or the EMG is not that of these muscles; {}",
         facts.r2, text);
   if (facts.approximate) text += "; approximate: the normal approximation could not be checked";

@@ -175,9 +175,13 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   if (const Explained own = explained(fit, true); own.samples > 0) {
     // The fit's own R2 leaves out the ends of trials, and is of the joint that is explained least.
     const bool fitted = fit.r2 >= identification::kVerdictRules.least_r2;
-    gates.push_back({"Describes the torque it was fitted to", status_of(own, fitted),
+    const bool none = fit.r2 < kGateLimits.mean;
+    gates.push_back({"Describes the torque it was fitted to", none ? GateStatus::fail : status_of(own, fitted),
                      own.text() + (fitted ? "" : fmt::format("; R2 {:.2f} of the fitted samples", fit.r2)),
-                     "R2 of whole trials and of the fitted samples above 0.5; " + when_wrong(),
+                     fmt::format("R2 of whole trials and of the fitted samples above 0.5; below {:g} of the fitted "
+                                 "samples it fails, and it ",
+                                 kGateLimits.mean) +
+                         when_wrong(),
                      "Muscles that do not even make the torque they were fitted to are none."});
   }
   if (const Explained held = explained(fit, false); held.samples > 0) {

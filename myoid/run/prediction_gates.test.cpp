@@ -77,6 +77,8 @@ TEST(FitGates, WhatIsWorseThanAnUnrelatedTorqueFails) {
 TEST(FitGates, AFitThatExplainsLittleOfItsSamplesDoesNotDescribeThem) {
   IdentificationResult fit;
   fit.trials = {trial(2.0, 1.0, 0.3, true)};
+  fit.r2 = -0.1;  // worse than the mean
+  EXPECT_EQ(status_of(fit_gates(fit), "Describes the torque it was fitted to"), GateStatus::fail);
   fit.r2 = 0.4;
   const Gate gate = fit_gates(fit)[0];
   EXPECT_EQ(gate.status, GateStatus::warn);

@@ -85,7 +85,7 @@ TEST(Documentation, TheCitationFileIsValid) {
   EXPECT_NE(text.find("cff-version: 1.2.0\n"), std::string::npos);
 }
 
-TEST(Documentation, EveryCommandHasItsPage) {
+std::set<std::string> commands_of_the_program() {
   const std::regex subcommand(R"re(add_subcommand\(\s*"([\w-]+)")re");
   std::set<std::string> commands;
   for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "cli")) {
@@ -94,11 +94,35 @@ TEST(Documentation, EveryCommandHasItsPage) {
       commands.insert((*it)[1]);
     }
   }
+  return commands;
+}
+
+TEST(Documentation, EveryCommandHasItsPage) {
+  const std::set<std::string> commands = commands_of_the_program();
   EXPECT_TRUE(commands.contains("run"));
   for (const std::string& command : commands) {
     const std::string page = content(kRoot / "docs" / "guide" / (command + ".md"));
     EXPECT_TRUE(page.starts_with("# myoid " + command)) << "docs/guide/" << command << ".md";
   }
+}
+
+TEST(Documentation, NoPageAndNoMessageNamesACommandThatIsNone) {
+  std::set<std::string> commands = commands_of_the_program();
+  commands.insert("help-files");  // the package's, which --help does not list
+  const std::regex named(R"re([`(']myoid ([a-z][a-z-]*))re");
+  std::vector<fs::path> files = pages();
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "myoid")) {
+    if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h") files.push_back(entry.path());
+  }
+  int seen = 0;
+  for (const fs::path& file : files) {
+    const std::string text = content(file);
+    for (std::sregex_iterator it(text.begin(), text.end(), named), end; it != end; ++it) {
+      EXPECT_TRUE(commands.contains((*it)[1])) << file << " names 'myoid " << (*it)[1] << "'";
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 50);
 }
 
 /// The option that a command's source adds: in its page, or among the common ones.
