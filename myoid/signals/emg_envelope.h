@@ -48,7 +48,7 @@ struct EmgStages {
   Eigen::VectorXd flatness;
   std::vector<Notch> notches;
   std::vector<MendedSpikes> spikes;
-  std::vector<std::string> findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
+  std::vector<std::string> findings;  ///< A rate too low for the EMG, an envelope clipped at 0.
 };
 
 /// Replaces spikes, removes the mean, high-passes and removes hum, every filter without delay: fills `raw`,

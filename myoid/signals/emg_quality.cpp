@@ -71,35 +71,27 @@ class ChannelCheck {
     if (rms(x_) < kLimits.flat_v) {
       add(faults, RemarkCode::emg_flat, true, 0, x_.size() - 1, rms(x_),
           fmt::format("channel '{}' shows nothing: {:.2g} uV rms", name_, 1e6 * rms(x_)),
-          "was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }");
+          treatment_.study ? "was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }"
+                           : "was an electrode connected?");
       return {};
     }
-    const bool railed = clipping(faults);
+    const bool railed = !smoothed && clipping(faults);
     const Run flat = longest_run(x_);
     if (!railed && seconds(flat.length) >= kLimits.flat_s) {
       add(faults, RemarkCode::emg_flat, true, flat.begin, flat.begin + flat.length - 1, seconds(flat.length),
           fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_, time_s_[flat.begin],
                       time_s_[flat.begin + flat.length - 1]),
-          "was the transmission lost? Cut that part off with start_s and end_s");
+          treatment_.study ? "was the transmission lost? Cut that part off with start_s and end_s"
+                           : "was the transmission lost?");
     }
-    if (smoothed) {
-      add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
-          fmt::format("channel '{}' is never negative and hardly goes up and down: it has been rectified and smoothed",
-                      name_),
-          "an envelope that is high-passed and rectified once more is no activation: set [emg] kind = \"envelope\"");
-      return {};
-    }
-    if (rectified) {
-      add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
-          fmt::format("channel '{}' goes up and down as raw EMG does and is never negative: it has been rectified",
-                      name_),
-          "the high-pass makes another signal of it: give the raw EMG, or low-pass it and set [emg] kind = "
-          "\"envelope\"");
+    if (smoothed || rectified) {
+      envelope(smoothed, faults);
       return {};
     }
     if (rate_hz_ < 4.0 * kEmgFrom_hz || x_.size() < static_cast<Eigen::Index>(rate_hz_)) return {};
     emg_ = filtered(x_, FilterBand::high_pass, kEmgFrom_hz, rate_hz_);
     hum(faults);
+    if (is_noise(emg_, rate_hz_, kEmgFrom_hz)) return {};
     drift(faults);
     artifact(faults);
     return std::move(emg_);
@@ -123,6 +115,23 @@ class ChannelCheck {
                       .value = value,
                       .says = std::move(text),
                       .remedy = std::move(remedy)});
+  }
+
+  void envelope(bool smoothed, std::vector<Remark>& faults) const {
+    const std::string says =
+        smoothed
+            ? fmt::format(
+                  "channel '{}' is never negative and hardly goes up and down: it has been rectified and smoothed",
+                  name_)
+            : fmt::format("channel '{}' goes up and down as raw EMG does and is never negative: it has been rectified",
+                          name_);
+    const char* const remedy =
+        !treatment_.study ? "the checks of raw EMG do not apply to it"
+        : smoothed ? "an envelope that is high-passed and rectified once more is no activation: set [emg] kind = "
+                     "\"envelope\""
+                   : "the high-pass makes another signal of it: give the raw EMG, or low-pass it and set [emg] kind = "
+                     "\"envelope\"";
+    add(faults, RemarkCode::emg_envelope, treatment_.study, 0, x_.size() - 1, 0.0, says, remedy);
   }
 
   void amplitude(std::vector<Remark>& faults) const {

@@ -12,6 +12,7 @@ namespace myoid::signals {
 struct EmgTreatment {
   bool high_passed = true;
   bool notched = true;  ///< Notches take out hum.
+  bool study = true;    ///< A study can set the kind of the EMG, and name another channel for a muscle.
 };
 
 /// Checks one trial's raw EMG (volts, finite), channel by channel and pair by pair:
@@ -21,9 +22,10 @@ struct EmgTreatment {
 /// - envelope: never negative, and through its median less than `raw_hz` times a second, so that the signal has been
 ///   rectified and smoothed, or `is_rectified`. Of the other checks only flat stretches then apply;
 /// - flat: no change at all for `flat_s`, or an rms below `flat_v` throughout;
-/// - clipped: flat tops of three samples or more, and more samples on the largest (or smallest) value than in the
+/// - clipped (no envelope, whose samples are few and smooth): flat tops of three samples or more, and more samples on the largest (or smallest) value than in the
 ///   twentieth of the range next to it; saturated: one such top for `saturated_s`;
-/// - hum: `find_hum` above `hum_share`;
+/// - hum: `find_hum` above `hum_share`. Of a channel of nothing but noise (`is_noise`) nothing more is said:
+///   `check_emg_levels` does;
 /// - drift: standard deviation of the means over 1 s, divided by the rms above 20 Hz. Grave only if the EMG will not be
 ///   high-passed (`high_passed` false);
 /// - artifact: rms between 1 and 15 Hz in some quarter second, divided by the largest rms above 20 Hz of any quarter
