@@ -314,7 +314,8 @@ std::vector<Remark> foreign_contacts(const model::BodyModel& model,
          .where = trial,
          .says = fmt::format(
              "'{}' is applied to {}, but not all that it bears is {}'s, in {} of {} contacts and {:.0f} % of the "
-             "loaded time: {}; leave these times out (start_s, end_s), or give them to the body that bears them",
+             "loaded time: {}; make two trials of it, with end_s before and start_s after such a time, or give these "
+             "forces to the body that bears them",
              force.name, model.bodies[static_cast<std::size_t>(force.body)].name,
              model.bodies[static_cast<std::size_t>(force.body)].name, touched, contacts.of(k).size(),
              100.0 * static_cast<double>(foreign) / static_cast<double>(loaded), fmt::join(said, "; "))});

@@ -104,7 +104,8 @@ struct ChannelNormalisation {
 };
 
 struct NormalisationOptions {
-  double window_s = 0.5;  ///< Window of the moving mean; shorter trials do not count.
+  double window_s = 0.5;   ///< Window of the moving mean; shorter trials do not count.
+  bool held_back = false;  ///< For `add_normalisation`: trials for validation took no part.
 };
 
 /// Returns one entry for each channel of the first trial. All trials must have the same channels. Throws InvalidInput
