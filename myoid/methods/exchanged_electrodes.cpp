@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,19 @@ constexpr double kCutoff_hz = 1.5;
 struct Sides {
   Eigen::VectorXd measured, predicted;
 };
+
+/// True if the channel's largest value in one of three calibration trials or more is far above that of all others: with
+/// another gain, or as the electrode of another muscle, that trial alone sets what activation 1 is.
+bool rests_on_one_trial(const StudyData& data, const std::string& channel) {
+  constexpr double kFar = 2.5;
+  std::vector<double> peaks;
+  for (const TrialData& trial : data.trials) {
+    if (trial.calibration) peaks.push_back(trial.activation.column(channel).maxCoeff());
+  }
+  if (peaks.size() < 3) return false;
+  std::ranges::sort(peaks, std::greater<>());
+  return peaks[0] > kFar * peaks[1];
+}
 
 }  // namespace
 
@@ -83,7 +97,8 @@ std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, d
   constexpr double kDescribes = 0.5;
   std::vector<std::string> channels;
   for (const MuscleSetup& setup : data.muscles) {
-    if (!contains(channels, setup.emg_channel)) channels.push_back(setup.emg_channel);
+    if (!contains(channels, setup.emg_channel) && !rests_on_one_trial(data, setup.emg_channel))
+      channels.push_back(setup.emg_channel);
   }
   const LabelFit now = fit_of_labels(data, delay_s);
   std::optional<ExchangedElectrodes> best;

@@ -31,7 +31,8 @@ struct ExchangedElectrodes {
 
 /// Finds the pair of channels whose exchange lowers the error of the literature's muscles most. The gain must exceed
 /// the uncertainty of their strengths (beliefs::kStrengthRatio) in at least three of four trials, and the exchanged fit
-/// must describe the torque (R2 above 0.5). Empty if there is no such pair.
+/// must describe the torque (R2 above 0.5). A channel whose reference one trial alone sets, 2.5 times above all others,
+/// is not compared. Empty if there is no such pair.
 [[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, double delay_s);
 
 }  // namespace myoid::identification

@@ -316,6 +316,12 @@ Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
           "Every number of the two muscles is then the other's."};
 }
 
+Gate clock_gate(const identification::ShiftedEmg& shifted) {
+  return {"EMG and torque on one clock", GateStatus::warn, shifted.sentence(),
+          "no other clock of the EMG with which the muscles make the torque better",
+          "[sync] offset_s moves the clock of the EMG; every number of the fit rests on it."};
+}
+
 }  // namespace
 
 std::vector<report::Gate> quality_gates(const StudyResult& result) {
@@ -334,9 +340,11 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   add(sharing_gates(result.trials));
   add(reference_gates(result.source.study, result.emg));
   if (const IdentificationResult* torque = torque_of(result.fit)) add(parameter_gates(*torque));
-  add(fold_gates(result.folds));
+  add(fold_gates(result.folds, std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) !=
+                                   result.level_faults.end()));
   if (result.fit.force_loop) list.push_back(loop_gate(*result.fit.force_loop));
   if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
+  if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   return list;
 }
 

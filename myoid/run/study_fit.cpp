@@ -11,6 +11,7 @@
 #include "myoid/methods/paper.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
+#include "myoid/signals/quality_limits.h"
 
 namespace myoid {
 
@@ -38,6 +39,8 @@ StudyFit study_fit(const Study& study, const FitInput& input, const Progress& pr
   if (wants_torque(study)) {
     found.exchanged = identification::exchanged_electrodes(
         input.data, study.emg.delay_s.value_or(identification::TorqueOptions{}.delay_prior_mean_s));
+    found.shifted =
+        identification::shifted_emg(input.data, {signals::kLimits.earliest_offset_s, signals::kLimits.latest_offset_s});
   }
   for (const identification::Method method : study.identify.methods) {
     progress.check();

@@ -9,6 +9,7 @@
 #include "myoid/intervals/result.h"
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/force_loop.h"
+#include "myoid/methods/shifted_emg.h"
 #include "myoid/run/fit_input.h"
 
 namespace myoid {
@@ -18,6 +19,7 @@ struct StudyFit {
   std::vector<identification::IdentificationResult> methods;
   /// Two channels that fit better with exchanged names.
   std::optional<identification::ExchangedElectrodes> exchanged;
+  std::optional<identification::ShiftedEmg> shifted;  ///< EMG on another clock than the torque.
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
   std::vector<identification::InformedForces> informed;
