@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "myoid/core/progress.h"
+#include "myoid/intake/study_activation.h"
 #include "myoid/intervals/result.h"
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/force_loop.h"
@@ -40,7 +41,10 @@ struct StudyFit {
 [[nodiscard]] bool wants_torque(const Study& study);
 
 /// Computes the parameters by every method that the study names.
-[[nodiscard]] StudyFit study_fit(const Study& study, const FitInput& input, const Progress& progress);
+[[nodiscard]] StudyFit study_fit(const Study& study,
+                                 const FitInput& input,
+                                 const EmgScale& emg,
+                                 const Progress& progress);
 
 /// Returns the forces informed by the EMG, for `StudyFit::informed`.
 [[nodiscard]] std::vector<identification::InformedForces> informed_forces(
