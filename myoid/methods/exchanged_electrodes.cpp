@@ -169,10 +169,9 @@ std::optional<ExchangedElectrodes> exchanged_in_a_trial(const StudyData& data,
     if (!contains(channels, setup.emg_channel)) channels.push_back(setup.emg_channel);
   }
   const LabelFit now = fit_of_labels(calibration, delay_s);
-  const double usual_nm = math::median(now.trial_rms_nm);
+  if (now.r2 > kDescribes) return std::nullopt;
   std::optional<ExchangedElectrodes> best;
   for (std::size_t t = 0; t < calibration.trials.size(); ++t) {
-    if (now.r2 > kDescribes && now.trial_rms_nm[t] < kFar * usual_nm) continue;
     for (std::size_t i = 0; i < channels.size(); ++i) {
       for (std::size_t j = i + 1; j < channels.size(); ++j) {
         LabelFit fit = fit_of_labels(with_exchange(calibration, t, channels[i], channels[j], references), delay_s);

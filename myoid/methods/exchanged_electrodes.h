@@ -40,8 +40,8 @@ struct ExchangedElectrodes {
 /// Finds the calibration trial and pair of channels whose exchange in that trial alone lowers the error of the
 /// literature's muscles most: the trial's by more than the uncertainty of the strengths, to at most 1.5 times the other
 /// trials' median error, with R2 above 0.5 over all trials. `references` are the amplitudes [V] that are activation 1,
-/// by channel; the channels are normalized anew, because the exchange may have set them. Three trials or more are
-/// needed, and a trial is suspected only if all trials have R2 below 0.5 or its error is 1.5 times the median.
+/// by channel; the channels are normalized anew, because the exchange may have set them. Empty for fewer than three
+/// trials, and where R2 is above 0.5 as named: there a synergist may fit one trial better by chance.
 [[nodiscard]] std::optional<ExchangedElectrodes> exchanged_in_a_trial(const StudyData& data,
                                                                       double delay_s,
                                                                       const std::map<std::string, double>& references);

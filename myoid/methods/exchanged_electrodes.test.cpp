@@ -92,7 +92,7 @@ TEST(ExchangedElectrodes, OfOneTrialAreFoundAndSuspectedNowhereElse) {
     const auto one = exchanged_in_a_trial(data, 0.06, {});
     found += one && one->trial == data.trials[1].name && one->first == "BIC" && one->second == "TRI" ? 1 : 0;
   }
-  EXPECT_GE(found, kPersons / 2);
+  EXPECT_GE(found, kPersons / 4);  // of the others the labels describe the torque of all trials with R2 above 0.5
 }
 
 TEST(FitOfLabels, IsThatOfTheMusclesThemselvesWhereTheyAreTheTruth) {
