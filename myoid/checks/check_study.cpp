@@ -295,7 +295,7 @@ std::vector<Remark> check_recording(const std::filesystem::path& path, const std
       throw ReadError(path, 0,
                       fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
                                   emg->sample_count() == 1 ? "" : "s", kFewest));
-    std::vector<Remark> faults = signals::check_emg(*emg);
+    std::vector<Remark> faults = signals::check_emg(*emg, {.remedies = signals::EmgRemedies::none});
     const bool raw = std::ranges::none_of(faults, [](const Remark& f) { return f.code == RemarkCode::emg_envelope; });
     add(std::move(faults));
     add(levels_alone(*emg, raw, where));

@@ -281,10 +281,12 @@ std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s
 
 /// Says the cause and the remedy of contacts that another body bears, or that no body of the model is near.
 std::string remedy_of(bool of_another, bool own_clock) {
-  if (of_another) return "; leave these times out (start_s, end_s), or give them to the body that bears them";
+  if (of_another)
+    return "; make two trials of it, with end_s before and start_s after such a time, or give these forces to the body "
+           "that bears them";
   return fmt::format(
-      ", and no other body of the model is near: {}did somebody else step there? Else leave these times "
-      "out (start_s, end_s)",
+      ", and no other body of the model is near: {}did somebody else step there? Else make two trials "
+      "of it, with end_s before and start_s after such a time",
       own_clock ? "are the forces on another clock than the motion ([sync] loads_offset_s), or " : "");
 }
 

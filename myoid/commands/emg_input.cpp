@@ -88,8 +88,9 @@ void warn_of_faults(const std::string& path,
                     const signals::EnvelopeOptions& chain,
                     GroupedWarnings& warnings) {
   std::vector<std::string> envelopes;
-  const std::vector<Remark> faults = signals::check_emg(
-      emg, {.high_passed = !chain.as_published, .notched = chain.notch && !chain.as_published, .in_study = false});
+  const std::vector<Remark> faults = signals::check_emg(emg, {.high_passed = !chain.as_published,
+                                                              .notched = chain.notch && !chain.as_published,
+                                                              .remedies = signals::EmgRemedies::options_of_emg});
   for (const Channel& channel : emg.channels()) {
     if (signals::is_envelope(emg.column(channel.name), emg.mean_rate_hz())) envelopes.push_back(channel.name);
   }

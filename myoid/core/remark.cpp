@@ -27,6 +27,7 @@ constexpr std::array kNames = {
     "emg_drift",
     "emg_artifact",
     "emg_over_reference",
+    "emg_gain",
     "clock_uneven",
     "clock_offset",
     "clock_drift",

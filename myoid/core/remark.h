@@ -37,6 +37,7 @@ enum class RemarkCode {
   emg_drift,
   emg_artifact,
   emg_over_reference,
+  emg_gain,
   clock_uneven,
   clock_offset,
   clock_drift,

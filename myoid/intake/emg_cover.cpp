@@ -73,7 +73,7 @@ std::optional<Cover> check_cover(const std::filesystem::path& file,
   if (motion_s == nullptr) return std::nullopt;
   const double begin_s = (*motion_s)[0], end_s = (*motion_s)[motion_s->size() - 1];
   const double first_s = time_s[0], last_s = time_s[time_s.size() - 1];
-  const Cover both{.begin_s = std::max(first_s, begin_s), .end_s = std::min(last_s, end_s)};
+  const Cover both{.begin_s = std::max(first_s, begin_s), .end_s = std::min(last_s, end_s), .lacks = {}};
   const double overlap = both.end_s - both.begin_s;
   if (end_s - begin_s < kLimits.shortest_trial_s) {
     throw ReadError(file, 0,
@@ -89,10 +89,12 @@ std::optional<Cover> check_cover(const std::filesystem::path& file,
                                 recorded, first_s, last_s, begin_s, end_s));
   }
   if (!(overlap < end_s - begin_s - kLimits.uncovered_s)) return std::nullopt;
-  return Cover{
-      both.begin_s, both.end_s,
-      fmt::format("{}: the {} ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} to {:.5g} s)",
-                  file.filename().string(), recorded, first_s, last_s, end_s - begin_s - overlap, begin_s, end_s)};
+  return Cover{.begin_s = both.begin_s,
+               .end_s = both.end_s,
+               .lacks = fmt::format("{}: the {} ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} to {:.5g} s)",
+                                    file.filename().string(), recorded, first_s, last_s, end_s - begin_s - overlap,
+                                    begin_s, end_s),
+               .as_long = last_s - first_s > end_s - begin_s - kLimits.uncovered_s};
 }
 
 Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s) {

@@ -18,6 +18,7 @@ namespace myoid {
 struct Cover {
   double begin_s = 0.0, end_s = 0.0;
   std::string lacks;
+  bool as_long = false;  ///< The file lasts as long as the motion: it begins apart.
 };
 /// Returns the covered part if more than 0.1 s of the motion in `input` lies outside the clock of a
 /// file with `recorded` ("EMG", "torque"). Throws ReadError if the trial is shorter than half a

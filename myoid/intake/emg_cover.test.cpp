@@ -63,6 +63,8 @@ TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
   EXPECT_EQ(cover->begin_s, 1.0);
   EXPECT_EQ(cover->end_s, 7.0);
   EXPECT_EQ(cover->lacks, "e.sto: the EMG (1 to 7 s) lacks 4 s of the motion (0 to 10 s)");
+  EXPECT_FALSE(cover->as_long);
+  EXPECT_TRUE(check(10.0, 0.3, 10.3)->as_long);
   EXPECT_FALSE(check(10.0, 0.05, 10.0));
 }
 

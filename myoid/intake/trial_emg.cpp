@@ -116,10 +116,12 @@ void require_channels(const Study& study, const std::filesystem::path& path, con
     std::vector<std::string> names;
     for (const Channel& channel : emg.channels()) names.push_back(channel.name);
     const auto near = recording::nearest_word(muscle.emg, names);
-    throw ReadError(
-        path, 0,
-        fmt::format("no EMG channel '{}' for muscle {}; found {}{}; correct [[muscle]] emg in the study", muscle.emg,
-                    muscle.name, channel_names(emg), near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
+    throw ReadError(path, 0,
+                    fmt::format("no EMG channel '{}' for muscle {}; found {}{}; rename the column of this file or, if "
+                                "all files name it so, correct "
+                                "[[muscle]] emg in the study",
+                                muscle.emg, muscle.name, channel_names(emg),
+                                near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
   }
 }
 
@@ -231,9 +233,11 @@ TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Reme
     warn(input, RemarkCode::clock_pause, std::move(pauses));
   if (const auto cover = check_cover(*trial.emg, "EMG", emg.time_s(), input))
     warn(input, RemarkCode::emg_cover,
-         cover->lacks +
-             ": those seconds are not fitted. If both were recorded together, the rate of one of them is wrong, or the "
-             "EMG is another trial's; else start_s and end_s leave the rest out");
+         fmt::format("{}: those seconds are not fitted. If both were recorded together, {}; else start_s and end_s "
+                     "leave the rest out",
+                     cover->lacks,
+                     cover->as_long ? "their clocks begin apart: [sync] offset_s moves that of the EMG"
+                                    : "the rate of one of them is wrong, or the EMG is another trial's"));
   return emg;
 }
 

@@ -27,6 +27,7 @@ TEST(ReadTrialEmg, AMissingEmgChannelIsNamedWithThoseThereAre) {
   const std::string message = message_of([&] { (void)read_trial_input(arm_study(), trial, arm()); });
   EXPECT_NE(message.find("no EMG channel 'BIC'"), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean 'BICC'"), std::string::npos) << message;
+  EXPECT_NE(message.find("rename the column of this file or, if all files name it so"), std::string::npos) << message;
 }
 
 TEST(ReadTrialEmg, ChannelsOfSeveralClocksArePutOnTheFastest) {

@@ -1,5 +1,7 @@
 #include "myoid/methods/exchanged_electrodes.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/elbow_study.h"
@@ -53,6 +55,44 @@ TEST(ExchangedElectrodes, OfTwoSidesAreFoundAndOfOneSideWhereTheirSignalsDiffer)
   }
   EXPECT_GE(opposed, 3 * kPersons / 4);
   EXPECT_GE(synergists, kPersons / 5);
+}
+
+TEST(ExchangedElectrodes, AreNotComparedWhereOneTrialAloneSetsTheReference) {
+  int suspected = 0, with_a_gain = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    StudyData data = person(seed);
+    exchange(data, 0, 3);
+    suspected += exchanged_electrodes(data, 0.06) ? 1 : 0;
+    TrialData& strongest = *std::ranges::max_element(
+        data.trials, {}, [](const TrialData& t) { return t.activation.column("BIC").maxCoeff(); });
+    const TimeSeries a = strongest.activation;
+    Eigen::MatrixXd values = a.values();
+    values.col(a.index("BIC")) *= 3.0;
+    strongest.activation = TimeSeries(a.time_s(), a.channels(), values);
+    const auto found = exchanged_electrodes(data, 0.06);
+    with_a_gain += found && (found->first == "BIC" || found->second == "BIC") ? 1 : 0;
+  }
+  EXPECT_GE(suspected, 15);
+  EXPECT_EQ(with_a_gain, 0);
+}
+
+TEST(ExchangedElectrodes, OfOneTrialAreFoundAndSuspectedNowhereElse) {
+  int found = 0;
+  constexpr int kPersons = 20;
+  for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {
+    StudyData data = person(seed);
+    const auto none = exchanged_in_a_trial(data, 0.06, {});
+    EXPECT_FALSE(none) << seed << ": " << none->sentence();
+    const TimeSeries a = data.trials[1].activation;
+    Eigen::MatrixXd values = a.values();
+    values.col(a.index("BIC")) = a.column("TRI");
+    values.col(a.index("TRI")) = a.column("BIC");
+    data.trials[1].activation = TimeSeries(a.time_s(), a.channels(), values);
+    EXPECT_FALSE(exchanged_electrodes(data, 0.06));
+    const auto one = exchanged_in_a_trial(data, 0.06, {});
+    found += one && one->trial == data.trials[1].name && one->first == "BIC" && one->second == "TRI" ? 1 : 0;
+  }
+  EXPECT_GE(found, kPersons / 4);  // of the others the labels describe the torque of all trials with R2 above 0.5
 }
 
 TEST(FitOfLabels, IsThatOfTheMusclesThemselvesWhereTheyAreTheTruth) {

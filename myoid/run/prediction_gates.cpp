@@ -201,7 +201,7 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   return gates;
 }
 
-std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
+std::vector<Gate> fold_gates(const std::vector<Fold>& folds, bool other_gain) {
   std::vector<Gate> gates;
   if (folds.empty()) return gates;
   const Explained all = explained(folds);
@@ -216,10 +216,9 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
   }
   std::string hint = fmt::format("Better in {} of the {} left out.", better, folds.size());
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
-    hint += fmt::format(
-        " EMG beyond all that was fitted ({}): that prediction extrapolates. Record a maximal contraction, or trials "
-        "of like effort.",
-        beyond);
+    hint += fmt::format(" EMG beyond all that was fitted ({}): that prediction extrapolates. {}", beyond,
+                        other_gain ? "Correct the gain that the recordings' faults name first."
+                                   : "Record a maximal contraction, or trials of like effort.");
   const bool beats = identified < literature && 2 * better > static_cast<int>(folds.size());
   gates.push_back(
       {"Predicts torque it has not seen", status_of(all, beats),

@@ -55,6 +55,8 @@ struct OutlyingFold {
 [[nodiscard]] std::vector<report::Gate> fit_gates(const identification::IdentificationResult& fit);
 
 /// Tests whether the fit predicts left-out trials, better than the literature, and all of them equally well.
-[[nodiscard]] std::vector<report::Gate> fold_gates(const std::vector<identification::Fold>& folds);
+/// `other_gain`: a trial's EMG has another gain, which explains efforts beyond those that were fitted.
+[[nodiscard]] std::vector<report::Gate> fold_gates(const std::vector<identification::Fold>& folds,
+                                                   bool other_gain = false);
 
 }  // namespace myoid

@@ -208,6 +208,10 @@ TEST(FoldGates, SayWhichPredictionGoesBeyondTheEffortsThatWereFitted) {
   folds[2].unseen = {"triceps", 3.0};  // predicted well: nothing to explain
   const std::string hint = fold_gates(folds)[0].why;
   EXPECT_NE(hint.find("beyond all that was fitted ('heavy': biceps 2.8 times)"), std::string::npos) << hint;
+  EXPECT_NE(hint.find("Record a maximal contraction"), std::string::npos) << hint;
+  const std::string gain = fold_gates(folds, true)[0].why;
+  EXPECT_EQ(gain.find("Record a maximal contraction"), std::string::npos) << gain;
+  EXPECT_NE(gain.find("Correct the gain"), std::string::npos) << gain;
   folds[1].unseen.ratio = 1.4;
   EXPECT_EQ(fold_gates(folds)[0].why.find("beyond"), std::string::npos);
 }

@@ -312,12 +312,20 @@ Gate loop_gate(const identification::ForceLoop& loop) {
 
 Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
   // A larger difference of the synergists' strengths than usual could explain this, too.
-  return {"Electrodes on the muscles that they are named for",
-          exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail, exchanged.sentence(),
-          fmt::format("no two channels that fit {:.0f} % better as each other; fails where they make less than half of "
-                      "the torque as they are (R2 0.5)",
-                      100.0 * identification::beliefs::kStrengthRatio.sd),
-          "Every number of the two muscles is then the other's."};
+  return {
+      "Electrodes on the muscles that they are named for",
+      exchanged.as_named.r2 > kGateLimits.explains || !exchanged.trial.empty() ? GateStatus::warn : GateStatus::fail,
+      exchanged.sentence(),
+      fmt::format("no two channels that fit {:.0f} % better as each other; fails where they make less than half of "
+                  "the torque as they are (R2 0.5)",
+                  100.0 * identification::beliefs::kStrengthRatio.sd),
+      "Every number of the two muscles is then the other's."};
+}
+
+Gate clock_gate(const identification::ShiftedEmg& shifted) {
+  return {"EMG and torque on one clock", GateStatus::warn, shifted.sentence(),
+          "no other clock of the EMG with which the muscles make the torque better",
+          "[sync] offset_s moves the clock of the EMG; every number of the fit rests on it."};
 }
 
 }  // namespace
@@ -338,9 +346,11 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   add(sharing_gates(result.trials));
   add(reference_gates(result.source.study, result.emg));
   if (const IdentificationResult* torque = torque_of(result.fit)) add(parameter_gates(*torque));
-  add(fold_gates(result.folds));
+  add(fold_gates(result.folds, std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) !=
+                                   result.level_faults.end()));
   if (result.fit.force_loop) list.push_back(loop_gate(*result.fit.force_loop));
   if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
+  if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   return list;
 }
 

@@ -164,8 +164,8 @@ StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& st
 void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& stages) {
   const Study& study = result.source.study;
   const FitInput& input = result.fit_input;
-  StudyFit fit =
-      stages.run("fit", 0.72, 0.8, [&](const Progress& progress) { return study_fit(study, input, progress); });
+  StudyFit fit = stages.run("fit", 0.72, 0.8,
+                            [&](const Progress& progress) { return study_fit(study, input, result.emg, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
   if (study.identify.force_loop)
     fit.force_loop = stages.run("forces and parameters", 0.8, 0.85, [&](const Progress&) { return force_loop(input); });

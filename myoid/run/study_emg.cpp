@@ -1,5 +1,6 @@
 #include "myoid/run/study_emg.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,11 @@ signals::EmgChain emg_chain(const StudyResult& result, const identification::Ide
     chain.methods.push_back(fmt::format("The input was {} that were processed beforehand.", kind));
   }
   if (emg.kind != EmgKind::activation) {
-    signals::add_normalisation(result.emg.normalisation, {.window_s = emg.normalise_window_s}, chain);
+    const auto held_back = std::ranges::count(result.trials, Use::validation, [](const auto& t) { return t.spec.use; });
+    signals::add_normalisation(
+        result.emg.normalisation,
+        {.window_s = emg.normalise_window_s, .held_back = held_back > 0 && held_back < std::ssize(result.trials)},
+        chain);
     chain.steps.push_back(fmt::format("resampled to {:g} Hz where it has twice that rate or more", kActivationRate_hz));
   }
   chain.steps.push_back(method == nullptr

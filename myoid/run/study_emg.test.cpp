@@ -35,5 +35,17 @@ TEST(EmgChain, OnlyEnvelopesAreResampledAndBothSayThatTheyCameProcessed) {
   EXPECT_THAT(activation.steps.front(), HasSubstr("activations as the files hold them"));
 }
 
+TEST(EmgChain, TrialsForValidationAreSaidToTakeNoPartInTheNormalization) {
+  StudyResult result = with_activation(EmgKind::envelope);
+  result.trials.push_back(result.trials[0]);
+  EXPECT_THAT(emg_chain(result, nullptr).steps, Contains(HasSubstr("over all trials and maximal")));
+  result.trials[1].spec.use = Use::validation;
+  const signals::EmgChain chain = emg_chain(result, nullptr);
+  EXPECT_THAT(chain.steps, Contains(HasSubstr("over all trials but those for validation and maximal")));
+  EXPECT_THAT(chain.methods, Contains(HasSubstr("(trials for validation took no part)")));
+  result.trials[0].spec.use = Use::validation;
+  EXPECT_THAT(emg_chain(result, nullptr).steps, Contains(HasSubstr("over all trials and maximal")));
+}
+
 }  // namespace
 }  // namespace myoid

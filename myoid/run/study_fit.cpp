@@ -1,6 +1,8 @@
 #include "myoid/run/study_fit.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -11,6 +13,7 @@
 #include "myoid/methods/paper.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
+#include "myoid/signals/quality_limits.h"
 
 namespace myoid {
 
@@ -33,11 +36,16 @@ bool wants_torque(const Study& study) {
   return std::ranges::find(methods, identification::Method::torque) != methods.end();
 }
 
-StudyFit study_fit(const Study& study, const FitInput& input, const Progress& progress) {
+StudyFit study_fit(const Study& study, const FitInput& input, const EmgScale& emg, const Progress& progress) {
   StudyFit found;
   if (wants_torque(study)) {
-    found.exchanged = identification::exchanged_electrodes(
-        input.data, study.emg.delay_s.value_or(identification::TorqueOptions{}.delay_prior_mean_s));
+    const double delay_s = study.emg.delay_s.value_or(identification::TorqueOptions{}.delay_prior_mean_s);
+    found.exchanged = identification::exchanged_electrodes(input.data, delay_s);
+    std::map<std::string, double> references;
+    for (const signals::ChannelNormalisation& n : emg.normalisation) references[n.channel] = n.reference_v;
+    if (!found.exchanged) found.exchanged = identification::exchanged_in_a_trial(input.data, delay_s, references);
+    found.shifted =
+        identification::shifted_emg(input.data, {signals::kLimits.earliest_offset_s, signals::kLimits.latest_offset_s});
   }
   for (const identification::Method method : study.identify.methods) {
     progress.check();

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "myoid/core/progress.h"
+#include "myoid/intake/study_activation.h"
 #include "myoid/intervals/result.h"
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/force_loop.h"
+#include "myoid/methods/shifted_emg.h"
 #include "myoid/run/fit_input.h"
 
 namespace myoid {
@@ -18,6 +20,7 @@ struct StudyFit {
   std::vector<identification::IdentificationResult> methods;
   /// Two channels that fit better with exchanged names.
   std::optional<identification::ExchangedElectrodes> exchanged;
+  std::optional<identification::ShiftedEmg> shifted;  ///< EMG on another clock than the torque.
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
   std::vector<identification::InformedForces> informed;
@@ -38,7 +41,10 @@ struct StudyFit {
 [[nodiscard]] bool wants_torque(const Study& study);
 
 /// Computes the parameters by every method that the study names.
-[[nodiscard]] StudyFit study_fit(const Study& study, const FitInput& input, const Progress& progress);
+[[nodiscard]] StudyFit study_fit(const Study& study,
+                                 const FitInput& input,
+                                 const EmgScale& emg,
+                                 const Progress& progress);
 
 /// Returns the forces informed by the EMG, for `StudyFit::informed`.
 [[nodiscard]] std::vector<identification::InformedForces> informed_forces(

@@ -19,8 +19,7 @@ namespace {
 
 constexpr double kRate_hz = 50.0;
 constexpr double kMotionBelow_hz = 4.0;
-constexpr double kUsualReach_s = 0.6;
-constexpr double kUnique = 0.95;
+constexpr double kUnique = 0.98;
 constexpr double kLeastLength_s = 3.0;
 constexpr double kLeastCorrelation = 0.6;
 constexpr double kMostSd_s = 0.1;
@@ -208,8 +207,8 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   }
   const Peak peak = peak_of(whole, x.cols(), reach_s);
   if (!peak.inside || peak.correlation < kLeastCorrelation) return std::nullopt;
-  // A periodic movement fits at a lag of one period as well.
-  if (reach_s > kUsualReach_s && peak.elsewhere > kUnique * peak.correlation) return std::nullopt;
+  // A periodic movement such as gait fits at several lags.
+  if (peak.elsewhere > kUnique * peak.correlation) return std::nullopt;
   std::array<double, kBlocks> leads{};
   double mean = 0.0;
   for (std::size_t k = 0; k < leads.size(); ++k) {

@@ -26,8 +26,8 @@ struct ClockOffset {
 /// inertia. At most four principal components of the envelopes and two of the motion take part, at 50 Hz, the motion
 /// below 4 Hz. The search covers d within `reach_s` to either side. Empty where the lead cannot be told: less than 3 s
 /// in common, no motion or a motion slower than a sine of 0.5 Hz (posture then correlates with the EMG at any delay), a
-/// correlation below 0.6, the best d at the end of the range, another d nearly as good (tested if the search goes
-/// beyond 0.6 s), or a scatter above 0.1 s. In virtual recordings whose clocks agree, estimates ranged from -70 to +450
+/// correlation below 0.6, the best d at the end of the range, another d as good (gait and other periodic movements),
+/// or a scatter above 0.1 s. In virtual recordings whose clocks agree, estimates ranged from -70 to +450
 /// ms for movements with a period of 1.2 s. The estimate finds clock errors of half a second; it does not measure the
 /// electromechanical delay.
 [[nodiscard]] std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,

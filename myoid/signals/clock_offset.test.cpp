@@ -109,6 +109,32 @@ TEST(ClockOffset, OutsideWhatABodyCanDoItIsAWarning) {
   EXPECT_NE(late[0].says.find("behind the motion"), std::string::npos);
 }
 
+/// Steps of 1.1 s: two joints move, a calf muscle works at the end of stance, a shin muscle in swing, each step a
+/// little more or less strongly.
+TEST(ClockOffset, OfGaitWhichRepeatsItselfNothingIsSaid) {
+  const Eigen::Index n = 2000;
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(n, 0.0, 0.01 * static_cast<double>(n - 1));
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    math::Random random(seed);
+    std::vector<double> strength;
+    for (int k = 0; k < 30; ++k) strength.push_back(1.0 + 0.05 * random.normal());
+    Eigen::MatrixXd q(n, 2), a(n, 2);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double step = t[i] / 1.1, phase = 2.0 * kPi * step, within = step - std::floor(step);
+      const double size = strength[static_cast<std::size_t>(step)];
+      q(i, 0) = size * (0.15 * std::sin(phase) + 0.15 * std::sin(2.0 * phase + 1.0) + 0.05 * std::sin(3.0 * phase));
+      q(i, 1) = size * (0.4 * std::sin(phase + 2.0) + 0.2 * std::sin(2.0 * phase + 0.5));
+      a(i, 0) = size * std::exp(-0.5 * std::pow((within - 0.45) / 0.08, 2.0)) + 0.02 * (1.0 + 0.2 * random.normal());
+      a(i, 1) = size * std::exp(-0.5 * std::pow((within - 0.75) / 0.12, 2.0)) + 0.02 * (1.0 + 0.2 * random.normal());
+    }
+    for (const double late_s : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+      const TimeSeries emg(Eigen::VectorXd(t.array() + late_s), {{"GAS", Unit::volt}, {"TA", Unit::volt}}, a);
+      EXPECT_TRUE(check_clock_offset(emg, {t, {{"ankle", Unit::radian}, {"knee", Unit::radian}}, q}).empty())
+          << seed << " " << late_s;
+    }
+  }
+}
+
 TEST(ClockOffset, AClockThatRunsFastIsADrift) {
   const Swing swing{3};
   bool drift = false;

@@ -98,10 +98,10 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
                        const NormalisationOptions& options,
                        EmgChain& chain) {
   chain.steps.push_back(
-      fmt::format("amplitude normalization over all trials and maximal contractions together: root of (envelope "
+      fmt::format("amplitude normalization over all trials{} and maximal contractions together: root of (envelope "
                   "squared less rest squared) over the reference; rest is the mean of the quiet seconds, the reference "
                   "that of the greatest moving means of {:g} s that differ by chance only, less rest likewise",
-                  options.window_s));
+                  options.held_back ? " but those for validation" : "", options.window_s));
   const auto level = [](const ChannelNormalisation& n, double value) {
     const bool volts = n.unit != Unit::dimensionless;
     return fmt::format("{:.6g}{}", value, volts ? fmt::format(" {}", symbol(n.unit)) : "");
@@ -120,12 +120,13 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
   chain.methods.push_back(fmt::format(
       "The baseline noise was subtracted in quadrature, and the EMG amplitude of each muscle was normalized to the "
       "average of its greatest {:g} s moving means{} (those that differ by no more than the noise of such a mean) "
-      "recorded in {}.",
+      "recorded in {}{}.",
       options.window_s,
       mvc    ? " during maximal voluntary contractions (MVC)"
       : task ? ""
              : " during maximal voluntary contractions (MVC) and tasks",
-      task ? "the tasks, because no maximal voluntary contraction (MVC) exceeded it" : "all trials of the session"));
+      task ? "the tasks, because no maximal voluntary contraction (MVC) exceeded it" : "all trials of the session",
+      options.held_back ? " (trials for validation took no part)" : ""));
 }
 
 std::vector<std::string> header_lines(const EmgChain& chain) {

@@ -5,12 +5,12 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/core/normal.h"
 #include "myoid/math/statistics.h"
+#include "myoid/signals/emg_kind.h"
 #include "myoid/signals/emg_spikes.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/mains_hum.h"
@@ -20,7 +20,6 @@
 namespace myoid::signals {
 namespace {
 
-constexpr double kSpectrumSegment_s = 0.25;
 constexpr double kUsualBandwidth_hz = 150.0;  ///< Of surface EMG whose raw signal is not available.
 constexpr double kRest_s = 1.0;
 /// Spreads of a mean over a pause by which a pause is quieter than the quietest second, so that the
@@ -112,20 +111,15 @@ bool is_flat(const Means& means) {
   return !(most > least * (1.0 + 1e-6));
 }
 
-/// Reports hum and, with `notch`, removes it.
-void take_out_hum(bool notch, EmgStages& stages) {
+/// Removes hum; `check_emg` reports it.
+void take_out_hum(EmgStages& stages) {
   const double rate_hz = stages.filtered.mean_rate_hz();
   Eigen::MatrixXd values = stages.filtered.values();
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
     const auto hum = find_hum(values.col(c), rate_hz);
     if (!hum || hum->share < kLimits.hum_share) continue;
-    const std::string& name = stages.filtered.channels()[at(c)].name;
-    stages.findings.push_back(fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz; {}", name,
-                                          100.0 * hum->share, fmt::join(hum->lines_hz, ", "),
-                                          notch ? "taken out by notches" : "check the reference electrode"));
-    if (!notch) continue;
     values.col(c) = without_hum(values.col(c), rate_hz, *hum);
-    stages.notches.push_back({name, hum->lines_hz});
+    stages.notches.push_back({stages.filtered.channels()[at(c)].name, hum->lines_hz});
   }
   stages.filtered = TimeSeries(stages.filtered.time_s(), stages.filtered.channels(), std::move(values));
 }
@@ -140,24 +134,6 @@ Eigen::MatrixXd take_out_spikes(const TimeSeries& raw, EmgStages& stages) {
     stages.spikes.push_back({raw.channels()[static_cast<std::size_t>(c)].name, spikes.size()});
   }
   return values;
-}
-
-/// Returns `EmgStages::flatness` of a channel; 0 for a rate without such a band.
-double flatness_of(const Eigen::VectorXd& x, double rate_hz, double highpass_hz) {
-  constexpr double kMost_hz = 450.0;  // amplifiers and converters hold back what is above
-  const double from_hz = 1.25 * highpass_hz;
-  const double to_hz = std::min(kMost_hz, 0.45 * rate_hz);
-  PowerSpectrum spectrum = power_spectrum(x, rate_hz, kSpectrumSegment_s);
-  Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < spectrum.density.size(); ++i) {
-    const bool inside = spectrum.frequency_hz[i] >= from_hz && spectrum.frequency_hz[i] <= to_hz;
-    count += inside ? 1 : 0;
-    if (!inside) spectrum.density[i] = 0.0;
-  }
-  if (count < 10) return 0.0;
-  const double white_hz = static_cast<double>(count) * (spectrum.frequency_hz[1] - spectrum.frequency_hz[0]);
-  const double bandwidth_hz = statistical_bandwidth_hz(spectrum);
-  return std::isfinite(bandwidth_hz) ? bandwidth_hz / white_hz : 0.0;
 }
 
 }  // namespace
@@ -184,7 +160,7 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
                         ? stages.raw
                         : zero_phase_filter(stages.raw, math::FilterBand::high_pass, options.highpass_hz,
                                             {.order = 2, .ends = math::Ends::even});
-  take_out_hum(options.notch && !options.as_published, stages);
+  if (options.notch && !options.as_published) take_out_hum(stages);
   stages.flatness.setZero(raw.channel_count());
   for (Eigen::Index c = 0; c < raw.channel_count(); ++c)
     stages.flatness[c] = flatness_of(stages.filtered.values().col(c), rate, options.highpass_hz);

@@ -48,7 +48,7 @@ struct EmgStages {
   Eigen::VectorXd flatness;
   std::vector<Notch> notches;
   std::vector<MendedSpikes> spikes;
-  std::vector<std::string> findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
+  std::vector<std::string> findings;  ///< A rate too low for the EMG, an envelope clipped at 0.
 };
 
 /// Replaces spikes, removes the mean, high-passes and removes hum, every filter without delay: fills `raw`,
@@ -104,7 +104,8 @@ struct ChannelNormalisation {
 };
 
 struct NormalisationOptions {
-  double window_s = 0.5;  ///< Window of the moving mean; shorter trials do not count.
+  double window_s = 0.5;   ///< Window of the moving mean; shorter trials do not count.
+  bool held_back = false;  ///< For `add_normalisation`: trials for validation took no part.
 };
 
 /// Returns one entry for each channel of the first trial. All trials must have the same channels. Throws InvalidInput

@@ -12,4 +12,12 @@ namespace myoid::signals {
 /// a tenth of the median (of rectified Gaussian noise 5 %). Raw EMG on an offset keeps far from zero.
 [[nodiscard]] bool is_rectified(const Eigen::Ref<const Eigen::VectorXd>& samples);
 
+/// Returns the statistical bandwidth between 1.25 `highpass_hz` and 450 Hz over that of white noise, of high-passed
+/// EMG; 0 for a rate without such a band.
+[[nodiscard]] double flatness_of(const Eigen::VectorXd& samples, double rate_hz, double highpass_hz);
+
+/// True for high-passed EMG [V] that is nothing but the noise of an amplifier: steady (`noise_rises`), weak (`noise_v`)
+/// and white (`noise_flatness`).
+[[nodiscard]] bool is_noise(const Eigen::VectorXd& samples, double rate_hz, double highpass_hz);
+
 }  // namespace myoid::signals

@@ -1,6 +1,7 @@
 #include "myoid/signals/emg_levels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -124,22 +125,34 @@ void add(const Levels& here, Levels& all) {
   all.flatness = std::min(all.flatness, here.flatness);
 }
 
-Remark low_signal(const std::string& channel, const Levels& all, double greatest_s) {
+Remark low_signal(const std::string& channel, const Levels& all, double greatest_s, std::size_t trials) {
   const bool noise = !all.rises() && all.flatness > kLimits.noise_flatness && all.greatest < kLimits.noise_v;
-  return {.code = RemarkCode::emg_low_signal,
-          .severity = noise ? Severity::error : Severity::warning,
-          .about = channel,
-          .when = Stretch{greatest_s - 0.5 * kEffort_s, greatest_s + 0.5 * kEffort_s},
-          .value = all.peak / all.least,
-          .says = noise ? fmt::format("channel '{}' never rises and is nothing but noise, {:.2g} uV with the spectrum "
-                                      "of an open amplifier, in all trials together",
-                                      channel, 1e6 * all.greatest)
-                        : fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all trials "
-                                      "together",
-                                      channel, all.peak / all.least),
-          .remedy = noise ? "was the electrode connected? Leave it out"
-                          : "noise, or a muscle that neither rests nor works here: record a second of rest and a "
-                            "strong effort, and check the electrode"};
+  const bool works =
+      all.rises() && all.flatness > 0.0 && all.flatness <= kLimits.noise_flatness && all.least > kLimits.noise_v;
+  const char* const together = trials > 1 ? ", in all trials together" : "";
+  Remark remark{.code = RemarkCode::emg_low_signal,
+                .severity = noise ? Severity::error : Severity::warning,
+                .about = channel,
+                .when = Stretch{greatest_s - 0.5 * kEffort_s, greatest_s + 0.5 * kEffort_s},
+                .value = all.peak / all.least};
+  if (noise) {
+    remark.says = fmt::format(
+        "channel '{}' never rises and is nothing but noise, {:.2g} uV with the spectrum of an open amplifier{}",
+        channel, 1e6 * all.greatest, together);
+    remark.remedy = "was the electrode connected? Leave it out";
+  } else if (works) {
+    remark.severity = Severity::note;
+    remark.says = fmt::format("channel '{}' is never below {:.2g} uV{}: its muscle works throughout", channel,
+                              1e6 * all.least, together);
+    remark.remedy = "no rest was recorded, so that the resting level is unknown: record a second of rest";
+  } else {
+    remark.says = fmt::format("channel '{}' rises to only {:.2g} times its lowest level{}", channel,
+                              all.peak / all.least, together);
+    remark.remedy =
+        "noise, or a muscle that rests throughout or works throughout: record a second of rest and a strong effort, "
+        "and check the electrode";
+  }
+  return remark;
 }
 
 using LevelsByTrial = std::vector<std::pair<const TrialEnvelope*, LevelsByChannel>>;
@@ -158,28 +171,127 @@ std::optional<double> rest_elsewhere(const std::string& channel, const LevelsByT
   return quiet[kTrials - 1] <= kLimits.noise_rises * least ? std::optional(least) : std::nullopt;
 }
 
+/// True if the channel rises far above `level` in each of three or more other trials, and another channel does in this
+/// one: nobody rested.
+bool works_elsewhere(const std::string& channel, double level, const LevelsByTrial& trials, std::size_t except) {
+  constexpr int kTrials = 3;
+  int count = 0;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (i == except) continue;
+    const auto found = trials[i].second.find(channel);
+    if (found == trials[i].second.end()) continue;
+    if (found->second.greatest < kLimits.signal_to_rest * level) return false;
+    ++count;
+  }
+  return count >= kTrials && std::ranges::any_of(trials[except].second, [&](const auto& other) {
+           return other.first != channel && other.second.peak > kLimits.signal_to_rest * other.second.least;
+         });
+}
+
 /// Finds trials in which the electrode of a channel was not on its muscle: the level never rises there, and is neither
-/// the resting level of the other trials (a muscle at rest) nor an effort (a spectrum of EMG).
+/// the resting level of the other trials (a muscle at rest) nor an effort (a spectrum of EMG), or is white noise while
+/// the muscle works in all other trials.
 void lost_in_trials(const std::string& channel, const LevelsByTrial& trials, std::vector<Remark>& faults) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const auto found = trials[i].second.find(channel);
     if (found == trials[i].second.end() || found->second.rises()) continue;
     const Levels& here = found->second;
     const std::optional<double> rest = rest_elsewhere(channel, trials, i);
-    if (!rest) continue;
-    const bool below = here.greatest * kLimits.noise_level < *rest;
-    const bool above = here.quietest > kLimits.noise_level * *rest && here.flatness > kLimits.noise_flatness;
-    if (!below && !above) continue;
-    faults.push_back({.code = RemarkCode::emg_low_signal,
-                      .severity = Severity::warning,
-                      .about = channel,
-                      .when = Stretch{here.greatest_s - 0.5 * kEffort_s, here.greatest_s + 0.5 * kEffort_s},
-                      .value = here.greatest / *rest,
-                      .says = fmt::format("channel '{}' in {} is steady noise of {:.2g} times its resting level in the "
-                                          "other trials",
-                                          channel, trials[i].first->trial, here.greatest / *rest),
-                      .remedy = "a muscle at rest has the resting level: was the electrode connected there?"});
+    const bool white = here.flatness > kLimits.noise_flatness;
+    const bool below = rest && here.greatest * kLimits.noise_level < *rest;
+    const bool above = rest && here.quietest > kLimits.noise_level * *rest && white;
+    const bool silent = white && works_elsewhere(channel, here.greatest, trials, i);
+    if (!below && !above && !silent) continue;
+    const std::string level =
+        below || above ? fmt::format("{:.2g} times its resting level in the other trials", here.greatest / *rest)
+                       : fmt::format("{:.2g} uV, while its muscle works in all other trials", 1e6 * here.greatest);
+    faults.push_back(
+        {.code = RemarkCode::emg_low_signal,
+         .severity = Severity::warning,
+         .about = channel,
+         .when = Stretch{here.greatest_s - 0.5 * kEffort_s, here.greatest_s + 0.5 * kEffort_s},
+         .value = here.greatest / rest.value_or(here.least),
+         .says = fmt::format("channel '{}' in {} is steady noise of {}", channel, trials[i].first->trial, level),
+         .remedy = below || above ? "a muscle at rest has the resting level: was the electrode connected there?"
+                                  : "was the electrode connected there, or does the muscle rest throughout?"});
   }
+}
+
+/// The levels of one trial over the medians of the other trials, at rest and in effort; `least` to `most`.
+struct Ratio {
+  double least = kInfinity, most = 0.0;
+
+  void add(double ratio) {
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  [[nodiscard]] double mean() const { return std::sqrt(least * most); }
+  /// True if all ratios are beyond `limit`, to the same side, and alike.
+  [[nodiscard]] bool is_gain(double limit) const {
+    return most < kLimits.gain_alike * least && (least > limit || most * limit < 1.0);
+  }
+};
+
+/// Returns the ratio of a channel; empty unless it rises from rest in this trial and in three others or more.
+std::optional<Ratio> ratio_of(const std::string& channel, const LevelsByTrial& trials, std::size_t trial) {
+  constexpr std::size_t kTrials = 3;
+  std::vector<double> rests, efforts;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const auto found = trials[i].second.find(channel);
+    if (found == trials[i].second.end()) continue;
+    const bool rises = found->second.greatest > kLimits.signal_to_rest * found->second.quietest;
+    if (i == trial && !rises) return std::nullopt;
+    if (i == trial || !rises) continue;
+    rests.push_back(found->second.quietest);
+    efforts.push_back(found->second.greatest);
+  }
+  if (rests.size() < kTrials) return std::nullopt;
+  const Levels& here = trials[trial].second.at(channel);
+  Ratio ratio;
+  ratio.add(here.quietest / math::median(std::move(rests)));
+  ratio.add(here.greatest / math::median(std::move(efforts)));
+  return ratio;
+}
+
+Remark other_gain(const std::string& trial, const std::string& channel, const Ratio& ratio) {
+  return {
+      .code = RemarkCode::emg_gain,
+      .severity = Severity::warning,
+      .about = channel.empty() ? trial : channel,
+      .value = ratio.mean(),
+      .says = fmt::format("the EMG of trial '{}' is {:.2g} to {:.2g} times that of the other trials in {}, at rest as "
+                          "in effort: another gain of the amplifier, or another unit in the file",
+                          trial, ratio.least, ratio.most,
+                          channel.empty() ? "all channels" : fmt::format("channel '{}' alone", channel)),
+      .remedy =
+          "correct the numbers in the file, or leave the trial out: every trial's activation rests on the "
+          "greatest effort of all"};
+}
+
+/// Finds trials whose channels, or one of them, were recorded with another gain; returns their numbers where all were.
+std::vector<std::size_t> other_gains(const LevelsByTrial& trials, std::vector<Remark>& faults) {
+  std::vector<std::size_t> whole;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    std::map<std::string, Ratio> ratios;
+    Ratio all;
+    for (const auto& [channel, levels] : trials[i].second) {
+      const std::optional<Ratio> ratio = ratio_of(channel, trials, i);
+      if (!ratio) continue;
+      ratios[channel] = *ratio;
+      all.add(ratio->least);
+      all.add(ratio->most);
+    }
+    const std::string& name = trials[i].first->trial;
+    if (ratios.size() > 1 && ratios.size() == trials[i].second.size() && all.is_gain(kLimits.gain)) {
+      faults.push_back(other_gain(name, "", all));
+      whole.push_back(i);
+      continue;
+    }
+    for (const auto& [channel, ratio] : ratios) {
+      if (ratio.is_gain(kLimits.gain_alone)) faults.push_back(other_gain(name, channel, ratio));
+    }
+  }
+  return whole;
 }
 
 }  // namespace
@@ -205,6 +317,9 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
       if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
     }
   }
+  const std::vector<std::size_t> scaled = other_gains(of_trials, faults);
+  for (auto i = scaled.rbegin(); i != scaled.rend(); ++i)
+    of_trials.erase(of_trials.begin() + static_cast<std::ptrdiff_t>(*i));
   for (const std::string& channel : names) {
     Levels all;
     all.flatness = 1.0;
@@ -224,7 +339,7 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
     }
     if (all.peak < kLimits.signal_to_rest * all.least) {
       const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
-      faults.push_back(low_signal(channel, all, most.greatest_s));
+      faults.push_back(low_signal(channel, all, most.greatest_s, of_trials.size()));
     } else {
       lost_in_trials(channel, of_trials, faults);
     }

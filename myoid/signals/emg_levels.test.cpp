@@ -72,6 +72,75 @@ TEST(EmgLevels, AnElectrodeThatIsLostInOneTrialIsNamedAndAMuscleAtRestIsNot) {
   }
 }
 
+TEST(EmgLevels, OfOneRecordingNoTrialsAreSpokenOfAndAMuscleThatWorksThroughoutIsANote) {
+  const TimeSeries held = envelope({7e-5, 1.8e-4, 9e-5});
+  const auto faults = check_emg_levels(std::vector{with_flatness({"a", false, &held}, 0.43)});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].severity, Severity::note);
+  EXPECT_EQ(faults[0].says, "channel 'BIC' is never below 70 uV: its muscle works throughout");
+  const TimeSeries weak = envelope({4e-6, 8e-6});
+  EXPECT_EQ(check_emg_levels(std::vector{with_flatness({"a", false, &weak}, 0.43)})[0].says,
+            "channel 'BIC' rises to only 2 times its lowest level");
+}
+
+/// Biceps and triceps.
+TimeSeries two(const TimeSeries& biceps, const TimeSeries& triceps) {
+  Eigen::MatrixXd both(biceps.sample_count(), 2);
+  both << biceps.values(), triceps.values();
+  return {biceps.time_s(), {{"BIC", Unit::volt}, {"TRI", Unit::volt}}, both};
+}
+
+TEST(EmgLevels, WhiteNoiseInOneTrialWhileAllOthersShowAWorkingMuscleIsNamed) {
+  const TimeSeries works = envelope({2e-6, 3e-5}), dead = envelope({2e-6, 2.2e-6});
+  const TimeSeries other = two(works, works), lost = two(dead, works), relaxed = two(dead, dead);
+  const auto faults_with = [&](const TimeSeries& one, double flatness, const TimeSeries& last) {
+    std::vector<TrialEnvelope> trials;
+    for (const TimeSeries* trial : {&one, &other, &other, &last})
+      trials.push_back({trial == &one ? "one" : "other", false, trial, {}, Eigen::Vector2d(flatness, 0.4)});
+    return check_emg_levels(trials);
+  };
+  const auto faults = faults_with(lost, 0.97, other);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].severity, Severity::warning);
+  EXPECT_EQ(faults[0].says,
+            "channel 'BIC' in one is steady noise of 2.2 uV, while its muscle works in all other trials");
+  EXPECT_TRUE(faults_with(lost, 0.4, other).empty());      // a spectrum of EMG
+  EXPECT_TRUE(faults_with(relaxed, 0.97, other).empty());  // everybody rests
+  EXPECT_TRUE(faults_with(lost, 0.97, lost).empty());      // the muscle rests in another trial, too
+}
+
+TEST(EmgLevels, AnotherGainIsToldOfATrialOrOfAChannelAndNoEffortIsTakenForIt) {
+  const TimeSeries move = envelope({2e-6, 3e-5, 2e-6}), strong = envelope({2e-6, 3e-4, 2e-6});
+  const TimeSeries held = envelope({2e-5, 3e-5, 2e-5});
+  const auto times = [](const TimeSeries& x, double gain) {
+    return TimeSeries(x.time_s(), x.channels(), gain * x.values());
+  };
+  const TimeSeries plain = two(move, times(move, 2.0));
+  const auto gains = [&](const TimeSeries& one, const std::vector<TimeSeries>& others) {
+    std::vector<TrialEnvelope> trials{{"one", false, &one}};
+    for (const TimeSeries& other : others) trials.push_back({"other", false, &other});
+    std::vector<Remark> faults = check_emg_levels(trials);
+    std::erase_if(faults, [](const Remark& f) { return f.code != RemarkCode::emg_gain; });
+    return faults;
+  };
+  const std::vector<TimeSeries> three(3, plain);
+  for (const double gain : {0.1, 4.0}) {
+    const auto faults = gains(times(plain, gain), three);
+    ASSERT_EQ(faults.size(), 1U) << gain;
+    EXPECT_EQ(faults[0].about, "one");
+    EXPECT_NEAR(*faults[0].value, gain, 1e-9);
+    EXPECT_NE(faults[0].says.find("in all channels, at rest as in effort"), std::string::npos) << faults[0].says;
+  }
+  const auto one_channel = gains(two(times(move, 10.0), times(move, 2.0)), three);
+  ASSERT_EQ(one_channel.size(), 1U);
+  EXPECT_EQ(one_channel[0].about, "BIC");
+  EXPECT_TRUE(gains(two(times(move, 4.0), times(move, 2.0)), three).empty());  // a tense muscle
+  EXPECT_TRUE(gains(times(plain, 2.0), three).empty());                        // trials differ
+  EXPECT_TRUE(gains(two(strong, strong), three).empty());                      // rest is rest
+  EXPECT_TRUE(gains(times(plain, 10.0), {plain, plain}).empty());              // two trials do not tell
+  EXPECT_TRUE(gains(two(times(held, 5.0), times(held, 5.0)), std::vector(3, two(held, held))).empty());
+}
+
 /// Bursts of 0.3 s in a cycle of 1.1 s: the second of lowest mean always holds most of one.
 TEST(EmgLevels, TwoStepsOfWalkingAreNotComplainedOf) {
   const Eigen::Index n = 240;
@@ -96,14 +165,12 @@ TEST(EmgLevels, AMovementAboveTheMaximalContractionIsNamedWithTrialAndTime) {
 }
 
 TEST(EmgLevels, ATrialInAnotherUnitIsAnErrorAndAContractionThatWasNoneIsNot) {
-  const auto two = [](const TimeSeries& biceps, double triceps) {
-    Eigen::MatrixXd both(biceps.sample_count(), 2);
-    both << biceps.values(), triceps * biceps.values();
-    return TimeSeries(biceps.time_s(), {{"BIC", Unit::volt}, {"TRI", Unit::volt}}, both);
+  const auto twice = [](const TimeSeries& biceps, double triceps) {
+    return two(biceps, TimeSeries(biceps.time_s(), biceps.channels(), triceps * biceps.values()));
   };
-  const TimeSeries mvc = two(envelope({1e-6, 1e-4}), 1.0);
-  const TimeSeries plain = two(envelope({1e-6, 5e-5, 1e-6}), 1.0);
-  const TimeSeries thousandfold = two(envelope({1e-3, 4.5e-2, 1e-3}), 2.0);
+  const TimeSeries mvc = twice(envelope({1e-6, 1e-4}), 1.0);
+  const TimeSeries plain = twice(envelope({1e-6, 5e-5, 1e-6}), 1.0);
+  const TimeSeries thousandfold = twice(envelope({1e-3, 4.5e-2, 1e-3}), 2.0);
   const std::vector<TrialEnvelope> trials{
       {"move", false, &plain}, {"swing", false, &thousandfold}, {"mvc", true, &mvc}};
   const auto faults = check_emg_levels(trials);
@@ -112,8 +179,8 @@ TEST(EmgLevels, ATrialInAnotherUnitIsAnErrorAndAContractionThatWasNoneIsNot) {
   for (const char* part : {"'swing'", "450 to 900 times", "another unit", "mV for V"})
     EXPECT_NE(faults[0].says.find(part), std::string::npos) << faults[0].says;
   // The rest is the same, or another channel is: nobody contracted this muscle fully.
-  const TimeSeries strong = two(envelope({1e-6, 4.5e-2, 1e-6}), 1.0);
-  const TimeSeries one = two(envelope({1e-3, 4.5e-2, 1e-3}), 1e-3);
+  const TimeSeries strong = twice(envelope({1e-6, 4.5e-2, 1e-6}), 1.0);
+  const TimeSeries one = twice(envelope({1e-3, 4.5e-2, 1e-3}), 1e-3);
   for (const TimeSeries* movement : {&strong, &one}) {
     const std::vector<TrialEnvelope> pair{{"swing", false, movement}, {"mvc", true, &mvc}};
     for (const Remark& fault : check_emg_levels(pair)) EXPECT_EQ(fault.severity, Severity::warning) << fault.says;

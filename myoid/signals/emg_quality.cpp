@@ -71,38 +71,28 @@ class ChannelCheck {
     if (rms(x_) < kLimits.flat_v) {
       add(faults, RemarkCode::emg_flat, true, 0, x_.size() - 1, rms(x_),
           fmt::format("channel '{}' shows nothing: {:.2g} uV rms", name_, 1e6 * rms(x_)),
-          treatment_.in_study ? "was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }"
-                              : "was the electrode connected? Leave it out: name the others with --channel");
+          remedy("was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }",
+                 "was the electrode connected? Leave it out: name the others with --channel",
+                 "was an electrode connected?"));
       return {};
     }
-    const bool railed = clipping(faults);
+    const bool railed = !smoothed && clipping(faults);
     const Run flat = longest_run(x_);
     if (!railed && seconds(flat.length) >= kLimits.flat_s) {
       add(faults, RemarkCode::emg_flat, true, flat.begin, flat.begin + flat.length - 1, seconds(flat.length),
           fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_, time_s_[flat.begin],
                       time_s_[flat.begin + flat.length - 1]),
-          fmt::format("was the transmission lost? Cut that part off with {}",
-                      treatment_.in_study ? "start_s and end_s" : "--start and --end"));
+          remedy("was the transmission lost? Cut that part off with start_s and end_s",
+                 "was the transmission lost? Cut that part off with --start and --end", "was the transmission lost?"));
     }
-    if (smoothed) {
-      add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
-          fmt::format("channel '{}' is never negative and hardly goes up and down: it has been rectified and smoothed",
-                      name_),
-          fmt::format("an envelope that is high-passed and rectified once more is no activation: {}",
-                      treatment_.in_study ? "set [emg] kind = \"envelope\"" : "give the raw EMG"));
-      return {};
-    }
-    if (rectified) {
-      add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
-          fmt::format("channel '{}' goes up and down as raw EMG does and is never negative: it has been rectified",
-                      name_),
-          fmt::format("the high-pass makes another signal of it: give the raw EMG{}",
-                      treatment_.in_study ? ", or low-pass it and set [emg] kind = \"envelope\"" : ""));
+    if (smoothed || rectified) {
+      envelope(smoothed, faults);
       return {};
     }
     if (rate_hz_ < 4.0 * kEmgFrom_hz || x_.size() < static_cast<Eigen::Index>(rate_hz_)) return {};
     emg_ = filtered(x_, FilterBand::high_pass, kEmgFrom_hz, rate_hz_);
     hum(faults);
+    if (is_noise(emg_, rate_hz_, kEmgFrom_hz)) return {};
     drift(faults);
     artifact(faults);
     return std::move(emg_);
@@ -126,6 +116,31 @@ class ChannelCheck {
                       .value = value,
                       .says = std::move(text),
                       .remedy = std::move(remedy)});
+  }
+
+  /// Returns the remedy in the words that this reader has.
+  [[nodiscard]] std::string remedy(std::string in_study, std::string of_emg, std::string alone) const {
+    if (treatment_.remedies == EmgRemedies::keys_of_study) return in_study;
+    return treatment_.remedies == EmgRemedies::options_of_emg ? of_emg : alone;
+  }
+
+  void envelope(bool smoothed, std::vector<Remark>& faults) const {
+    const std::string says =
+        smoothed
+            ? fmt::format(
+                  "channel '{}' is never negative and hardly goes up and down: it has been rectified and smoothed",
+                  name_)
+            : fmt::format("channel '{}' goes up and down as raw EMG does and is never negative: it has been rectified",
+                          name_);
+    const char* const no_activation = "an envelope that is high-passed and rectified once more is no activation: ";
+    const char* const another = "the high-pass makes another signal of it: give the raw EMG";
+    const std::string kind =
+        smoothed ? "set [emg] kind = \"envelope\"" : ", or low-pass it and set [emg] kind = \"envelope\"";
+    const std::string advice = remedy((smoothed ? no_activation : another) + kind,
+                                      smoothed ? std::string(no_activation) + "give the raw EMG" : std::string(another),
+                                      "the checks of raw EMG do not apply to it");
+    add(faults, RemarkCode::emg_envelope, treatment_.remedies != EmgRemedies::none, 0, x_.size() - 1, 0.0, says,
+        advice);
   }
 
   void amplitude(std::vector<Remark>& faults) const {
@@ -199,7 +214,7 @@ class ChannelCheck {
         treatment_.high_passed
             ? "the high-pass takes it out; check the skin's preparation"
             : fmt::format("without a high-pass it becomes activation: {}",
-                          treatment_.in_study ? "set [emg] highpass_hz" : "leave out --as-published"));
+                          remedy("set [emg] highpass_hz", "leave out --as-published", "high-pass it"));
   }
 
   void artifact(std::vector<Remark>& faults) const {

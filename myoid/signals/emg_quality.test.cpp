@@ -138,7 +138,7 @@ TEST(EmgQuality, OutsideAStudyARemedyNamesNoKeyOfIt) {
        {Eigen::VectorXd(Eigen::VectorXd::Constant(kSamples, 1e-3)), lost, Eigen::VectorXd(muscle(3).cwiseAbs()),
         Eigen::VectorXd(1e-4 * (1.0 - (1.3 * seconds()).cos())),
         Eigen::VectorXd(muscle(1) + (1e-3 * (0.6 * seconds()).sin()).matrix())}) {
-    const auto faults = check_emg(recording({x}), {.high_passed = false, .in_study = false});
+    const auto faults = check_emg(recording({x}), {.high_passed = false, .remedies = EmgRemedies::options_of_emg});
     ASSERT_FALSE(faults.empty());
     for (const char* key : {"[emg]", "same_as", "start_s", "highpass_hz"})
       EXPECT_EQ(faults[0].remedy.find(key), std::string::npos) << faults[0].remedy;
@@ -167,6 +167,31 @@ TEST(EmgQuality, WhatTwoChannelsHaveInCommonIsCrosstalk) {
   const auto same = check_emg(recording({a, a}));
   ASSERT_EQ(same.size(), 1U);
   EXPECT_NE(same[0].says.find("the same signal"), std::string::npos);
+}
+
+TEST(EmgQuality, OfAChannelOfNothingButNoiseNeitherWanderNorArtifactIsTold) {
+  math::Random random(7);
+  Eigen::VectorXd x(kSamples);
+  for (Eigen::Index i = 0; i < kSamples; ++i) x[i] = 2e-6 * random.normal();
+  const Eigen::VectorXd wander = (3e-5 * (0.9 * seconds()).sin() + 1e-5 * (30.0 * seconds()).sin()).matrix();
+  EXPECT_TRUE(kinds(x + wander).empty());
+  // Of a working muscle both are told.
+  EXPECT_EQ(kinds(muscle(3) + 300.0 * wander), (Kinds{RemarkCode::emg_drift, RemarkCode::emg_artifact}));
+}
+
+TEST(EmgQuality, AnEnvelopeOnItsGreatestValueIsNotSaturatedAndOutsideAStudyANote) {
+  Eigen::VectorXd x(1000);
+  for (Eigen::Index i = 0; i < 1000; ++i) x[i] = 2e-6 * (1.2 - std::cos(0.02 * static_cast<double>(i)));
+  x.segment(155, 5).setConstant(4.4e-6);
+  const TimeSeries envelope(Eigen::VectorXd::LinSpaced(1000, 0.0, 9.99), {{"a", Unit::volt}}, x);
+  for (const bool study : {true, false}) {
+    const std::vector<Remark> faults =
+        check_emg(envelope, {.remedies = study ? EmgRemedies::keys_of_study : EmgRemedies::none});
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].code, RemarkCode::emg_envelope);
+    EXPECT_EQ(faults[0].severity, study ? Severity::warning : Severity::note);
+    EXPECT_EQ(faults[0].remedy.find("[emg] kind") != std::string::npos, study) << faults[0].remedy;
+  }
 }
 
 }  // namespace

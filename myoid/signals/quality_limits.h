@@ -34,6 +34,9 @@ struct QualityLimits {
   double over_reference = 1.1;     ///< A movement's effort over that of the maximal contraction.
   /// The same ratio in all channels, of efforts and of quietest levels, that only another unit makes.
   double other_unit = 10.0;
+  double gain = 2.5;        ///< The same ratio to the other trials: the gain of an amplifier.
+  double gain_alone = 5.0;  ///< Of a single channel, whose muscle may be more tense in one trial.
+  double gain_alike = 3.0;  ///< Such ratios differ by less than this factor.
   // Clocks.
   double uneven_share = 0.05;  ///< Standard deviation of the intervals over their mean.
   /// Least lead of EMG over motion; in people the lead is 10 to 150 ms.

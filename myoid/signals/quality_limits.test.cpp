@@ -44,6 +44,8 @@ std::vector<LimitRow> limit_rows(const QualityLimits& l) {
       {emg_artifact, fmt::format("ratio {:g}; spikes of {:g} ms and ratio {:g}", l.artifact_over_rms,
                                  1000.0 * l.spike_s, l.spike_over_emg)},
       {emg_over_reference, fmt::format("ratio {}; {:g} in all channels", l.over_reference, l.other_unit)},
+      {emg_gain, fmt::format("ratio {:g}, {:g} of one channel, alike within a factor of {:g}", l.gain, l.gain_alone,
+                             l.gain_alike)},
       {clock_uneven, fmt::format("{:g} %", 100.0 * l.uneven_share)},
       {clock_offset, fmt::format("{} to {:g} s", l.earliest_offset_s, l.latest_offset_s)},
       {clock_drift, fmt::format("{} s", l.drift_s)},

@@ -52,14 +52,15 @@ TEST(ProcessEmg, IsProportionalToTheEmg) {
             1e-15);
 }
 
-TEST(ProcessEmg, NamesMainsHum) {
+TEST(ProcessEmg, TakesMainsHumOutAndLeavesItsReportToTheCheckOfTheRawEmg) {
   TimeSeries x = gaussian(10000, 1e-5);
   Eigen::MatrixXd v = x.values();
   for (Eigen::Index i = 0; i < v.rows(); ++i) v(i, 0) += 2e-5 * std::sin(2.0 * M_PI * 50.0 * x.time_s()[i]);
   const EmgStages s = process_emg({x.time_s(), x.channels(), v});
-  ASSERT_EQ(s.findings.size(), 1U);
-  EXPECT_NE(s.findings[0].find("50 Hz"), std::string::npos);
-  EXPECT_TRUE(process_emg(x).findings.empty());
+  ASSERT_EQ(s.notches.size(), 1U);
+  EXPECT_EQ(s.notches[0].lines_hz, std::vector<double>{50.0});
+  EXPECT_TRUE(s.findings.empty()) << s.findings[0];
+  EXPECT_TRUE(process_emg(x).notches.empty());
 }
 
 TEST(ProcessEmg, AnEnvelopeThatWouldBeNegativeIsSaid) {

@@ -25,6 +25,8 @@ struct PowerSpectrum {
 /// without power there.
 [[nodiscard]] double median_frequency_hz(const PowerSpectrum& spectrum, double low_hz, double high_hz);
 
+inline constexpr double kSpectrumSegment_s = 0.25;  ///< Of the bandwidth of EMG.
+
 /// Returns (sum S)^2 / sum S^2 times the width of a bin [Hz]: the width of a flat spectrum whose power fluctuates as
 /// much. The relative spread of the mean square over T is then 1 / sqrt(B T) (Bendat & Piersol). NaN without power.
 [[nodiscard]] double statistical_bandwidth_hz(const PowerSpectrum& spectrum);

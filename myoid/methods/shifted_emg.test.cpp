@@ -1,0 +1,58 @@
+#include "myoid/methods/shifted_emg.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/elbow_study.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr UsualLead kUsual{.earliest_s = -0.1, .latest_s = 0.3};
+
+/// A person whose muscles are drawn about the literature's, with noise of EMG and torque.
+StudyData four_trials(std::uint64_t seed) {
+  return test::elbow_study({.trials = 4,
+                            .seconds = 15.0,
+                            .emg_cv = 0.1,
+                            .torque_sd_nm = 0.5,
+                            .truth_from_prior = true,
+                            .with_priors = true,
+                            .seed = seed})
+      .data;
+}
+
+void delay(TrialData& trial, double late_s) {
+  const TimeSeries& a = trial.activation;
+  trial.activation = TimeSeries(a.time_s().array() + late_s, a.channels(), a.values());
+}
+
+TEST(ShiftedEmg, IsNotSuspectedWhereTheClocksAgree) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto found = shifted_emg(four_trials(seed), kUsual);
+    EXPECT_FALSE(found) << seed << ": " << found->sentence();
+  }
+}
+
+TEST(ShiftedEmg, OfAllTrialsOrOfOneIsFoundToATenthOfASecond) {
+  int all = 0, one = 0;
+  constexpr int kPersons = 10;
+  for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {
+    for (const double late_s : {0.6, -0.5}) {
+      StudyData data = four_trials(seed);
+      for (TrialData& trial : data.trials) delay(trial, late_s);
+      const auto found = shifted_emg(data, kUsual);
+      all += found && found->trial.empty() && std::abs(found->lead_s + late_s - 0.05) < 0.11 ? 1 : 0;
+      StudyData single = four_trials(seed);
+      delay(single.trials[1], late_s);
+      const auto alone = shifted_emg(single, kUsual);
+      one += alone && alone->trial == single.trials[1].name && std::abs(alone->lead_s + late_s - 0.05) < 0.11 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(all, kPersons);
+  EXPECT_GE(one, kPersons);
+  RecordProperty("all", all);
+  RecordProperty("one", one);
+}
+
+}  // namespace
+}  // namespace myoid::identification
