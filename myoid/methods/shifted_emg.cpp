@@ -13,10 +13,10 @@
 namespace myoid::identification {
 namespace {
 
-constexpr double kStep_s = 0.1;
+constexpr double kLeadStep_s = 0.1;
 constexpr int kReach = 15;  ///< Steps to either side.
 
-double lead_of(std::size_t k) { return kStep_s * (static_cast<int>(k) - kReach); }
+double lead_of(std::size_t k) { return kLeadStep_s * (static_cast<int>(k) - kReach); }
 
 bool contains(const UsualLead& usual, std::size_t k) {
   constexpr double kRound_s = 1e-6;
@@ -24,12 +24,12 @@ bool contains(const UsualLead& usual, std::size_t k) {
 }
 
 /// The errors by lead: where they are least, and least among the usual leads.
-struct Errors {
+struct LeadErrors {
   std::size_t best = 0;
   double least = kInfinity, usual = kInfinity;
   bool unique = true, inside = true;  ///< Of `best`: among the usual leads.
 
-  Errors(const std::vector<double>& rms, const UsualLead& leads) {
+  LeadErrors(const std::vector<double>& rms, const UsualLead& leads) {
     constexpr double kAlike = 1.1;
     constexpr std::size_t kApart = 3;
     best = static_cast<std::size_t>(std::min_element(rms.begin(), rms.end()) - rms.begin());
@@ -66,8 +66,8 @@ std::optional<ShiftedEmg> shifted_emg(const StudyData& data, const UsualLead& us
   if (names.empty()) return std::nullopt;
   std::vector<double> of_all;
   for (const LabelFit& fit : fits) of_all.push_back(fit.rms_nm);
-  const Errors all(of_all, usual);
-  std::vector<Errors> trials;
+  const LeadErrors all(of_all, usual);
+  std::vector<LeadErrors> trials;
   std::vector<double> usual_rms;
   for (std::size_t t = 0; t < names.size(); ++t) {
     std::vector<double> rms;
@@ -75,8 +75,9 @@ std::optional<ShiftedEmg> shifted_emg(const StudyData& data, const UsualLead& us
     trials.emplace_back(rms, usual);
     usual_rms.push_back(trials.back().usual);
   }
-  const auto late = [](const Errors& e) { return lead_of(e.best) < 0.0; };
-  const auto alike = std::ranges::count_if(trials, [&](const Errors& e) { return !e.inside && late(e) == late(all); });
+  const auto late = [](const LeadErrors& e) { return lead_of(e.best) < 0.0; };
+  const auto alike =
+      std::ranges::count_if(trials, [&](const LeadErrors& e) { return !e.inside && late(e) == late(all); });
   if (all.shifted(kBetter) && fits[all.best].r2 > kDescribes && 4 * alike >= 3 * std::ssize(trials))
     return ShiftedEmg{"", lead_of(all.best), all.least, all.usual, usual};
   if (trials.size() < 3 || all.shifted(kBetter)) return std::nullopt;

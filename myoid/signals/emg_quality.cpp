@@ -214,7 +214,7 @@ class ChannelCheck {
         treatment_.high_passed
             ? "the high-pass takes it out; check the skin's preparation"
             : fmt::format("without a high-pass it becomes activation: {}",
-                          remedy("set [emg] highpass_hz", "leave out --as-published", "high-pass it"));
+                          remedy("set [emg] highpass_hz", "leave out --as-published", "high-pass it")));
   }
 
   void artifact(std::vector<Remark>& faults) const {
