@@ -18,9 +18,9 @@ namespace myoid::signals {
 /// is that of noise, and the level is below `noise_v`; it is a note if the level is never below `noise_v`. No trial may
 /// be steady noise of another level than the channel's rest in at least three other trials, or white noise while the
 /// muscle works in all others. No movement may exceed the maximal contractions. A channel that some trials lack is
-/// checked in the others. A trial whose channels all exceed the maximal contractions tenfold, at rest too, is in another
-/// unit: an error; one whose channels all differ from the other trials by one ratio has another gain: a warning. Neither
-/// takes part in the other checks.
+/// checked in the others. A trial whose channels all exceed the maximal contractions tenfold, at rest too, is in
+/// another unit: an error; one whose channels all differ from the other trials by one ratio has another gain: a
+/// warning. Neither takes part in the other checks.
 [[nodiscard]] std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials);
 
 }  // namespace myoid::signals

@@ -162,7 +162,7 @@ class Posterior:
         over = self.log_prior - len(self.judged_sd) * self.log_lambda - 0.5 * judged * np.exp(-2.0 * self.log_lambda)
         result += logsumexp(over, axis=1) + np.log(self.log_lambda[1] - self.log_lambda[0])
         result -= 0.5 * ((noise[:, SD] - np.log(0.05 * self.torque_size)) / 1.5) ** 2
-        result -= 0.5 * (noise[:, TIME] - np.log(0.3)) ** 2 + 0.5 * (noise[:, KAPPA] / 0.3) ** 2
+        result -= 0.5 * ((noise[:, TIME] - np.log(0.3)) / 0.5) ** 2 + 0.5 * (noise[:, KAPPA] / 0.3) ** 2
         result -= 0.5 * x[:, p + MODEL] ** 2 + 0.5 * (noise[:, SHARE:] ** 2).sum(axis=1)
         width = self.weight * np.where(self.of_model, np.exp(noise[:, MODEL])[:, None], 1.0)
         gram = np.zeros((len(x), len(self.weight), len(self.weight)))

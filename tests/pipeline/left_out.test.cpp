@@ -433,7 +433,7 @@ TEST(LeftOut, BlocksOfTrialsThatAreTooShortAreRefusedWithTheReason) {
   const std::vector<TrialFiles> trials{write_trial(folder, 1), write_trial(folder, 2)};
   const Finished few = identify(folder / "muscles.csv", trials, folder / "few", {"--folds", "block", "--end", "2.5"});
   EXPECT_NE(few.exit_code, 3) << few.err;
-  EXPECT_NE(few.out.find("blocks need trials of 3.3 s or more"), std::string::npos) << few.out;
+  EXPECT_NE(few.out.find("no trial has the 3.3 s from which blocks are left out"), std::string::npos) << few.out;
   const Finished enough =
       identify(folder / "muscles.csv", trials, folder / "enough", {"--folds", "block", "--end", "5"});
   EXPECT_NE(enough.out.find("block 5 of 5"), std::string::npos) << enough.out << enough.err;
