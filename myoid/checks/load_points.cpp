@@ -100,7 +100,7 @@ std::vector<Load> distances(const model::BodyModel& model, const dynamics::Exter
   return result;
 }
 
-/// What is said of the loads of one file.
+/// Finds loads of one file that do not act where their bodies are; the most probable cause of each comes first.
 class Placement {
  public:
   Placement(const model::BodyModel& model, std::vector<Load> loads, const std::string& file)

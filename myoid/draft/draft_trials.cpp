@@ -14,8 +14,8 @@
 namespace myoid {
 namespace {
 
-/// How surely two files belong to one trial: by an equal name, then by the folders that both are in, then by a long
-/// name.
+/// Grows as two files belong to one trial more surely: by an equal name, then by the folders that both are in, then by
+/// a long name.
 using Likeness = std::tuple<bool, std::ptrdiff_t, std::size_t>;
 
 std::optional<Likeness> likeness(const FoundRecording& motion, const FoundRecording& emg) {

@@ -11,15 +11,10 @@ namespace {
 
 using identification::StudyData;
 
-/// A person whose muscles are drawn about the literature's, with noise of EMG and torque.
 StudyData person(std::uint64_t seed) {
-  return test::elbow_study({.seconds = 15.0,
-                            .emg_cv = 0.1,
-                            .torque_sd_nm = 0.5,
-                            .truth_from_prior = true,
-                            .with_priors = true,
-                            .seed = seed})
-      .data;
+  test::ElbowStudyOptions options = test::noisy_person(seed);
+  options.seconds = 15.0;
+  return test::elbow_study(options).data;
 }
 
 void exchange(StudyData& data, std::size_t a, std::size_t b) {

@@ -11,17 +11,10 @@ namespace {
 
 /// A noisy recording whose EMG is stamped `late_s` after its own time; its muscles pull with the EMG.
 StudyData recording(double late_s, std::uint64_t seed, std::size_t late_trials = 3) {
-  StudyData data = test::elbow_study({.delay_s = 0.0,
-                                      .emg_cv = 0.1,
-                                      .torque_sd_nm = 0.5,
-                                      .truth_from_prior = true,
-                                      .with_priors = true,
-                                      .seed = seed})
-                       .data;
-  for (std::size_t i = 0; i < late_trials; ++i) {
-    TimeSeries& emg = data.trials[i].activation;
-    emg = TimeSeries(emg.time_s().array() + late_s, emg.channels(), emg.values());
-  }
+  test::ElbowStudyOptions options = test::noisy_person(seed);
+  options.delay_s = 0.0;
+  StudyData data = test::elbow_study(options).data;
+  for (std::size_t i = 0; i < late_trials; ++i) test::delay_emg(data.trials[i], late_s);
   return data;
 }
 

@@ -9,21 +9,11 @@ namespace {
 
 constexpr UsualLead kUsual{.earliest_s = -0.1, .latest_s = 0.3};
 
-/// A person whose muscles are drawn about the literature's, with noise of EMG and torque.
 StudyData four_trials(std::uint64_t seed) {
-  return test::elbow_study({.trials = 4,
-                            .seconds = 15.0,
-                            .emg_cv = 0.1,
-                            .torque_sd_nm = 0.5,
-                            .truth_from_prior = true,
-                            .with_priors = true,
-                            .seed = seed})
-      .data;
-}
-
-void delay(TrialData& trial, double late_s) {
-  const TimeSeries& a = trial.activation;
-  trial.activation = TimeSeries(a.time_s().array() + late_s, a.channels(), a.values());
+  test::ElbowStudyOptions options = test::noisy_person(seed);
+  options.trials = 4;
+  options.seconds = 15.0;
+  return test::elbow_study(options).data;
 }
 
 TEST(ShiftedEmg, IsNotSuspectedWhereTheClocksAgree) {
@@ -39,11 +29,11 @@ TEST(ShiftedEmg, OfAllTrialsOrOfOneIsFoundToATenthOfASecond) {
   for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {
     for (const double late_s : {0.6, -0.5}) {
       StudyData data = four_trials(seed);
-      for (TrialData& trial : data.trials) delay(trial, late_s);
+      for (TrialData& trial : data.trials) test::delay_emg(trial, late_s);
       const auto found = shifted_emg(data, kUsual);
       all += found && found->trial.empty() && std::abs(found->lead_s + late_s - 0.05) < 0.11 ? 1 : 0;
       StudyData single = four_trials(seed);
-      delay(single.trials[1], late_s);
+      test::delay_emg(single.trials[1], late_s);
       const auto alone = shifted_emg(single, kUsual);
       one += alone && alone->trial == single.trials[1].name && std::abs(alone->lead_s + late_s - 0.05) < 0.11 ? 1 : 0;
     }

@@ -86,7 +86,7 @@ double preference_for_lags(const Estimator& by_delay,
   return delayed.weighting.share * sum;
 }
 
-/// Where the fit explains little: says so if the priors, and no fault of the files, are the cause.
+/// Warns where the priors, and no fault of the files, are the cause of a fit that explains little.
 void judge_priors(const StudyData& data, const TorqueOptions& options, IdentificationResult& result) {
   if (!options.predictions || !options.priors || options.estimator == EstimatorKind::posterior ||
       result.r2 >= kVerdictRules.least_r2)

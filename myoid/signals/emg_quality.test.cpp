@@ -175,7 +175,7 @@ TEST(EmgQuality, OfAChannelOfNothingButNoiseNeitherWanderNorArtifactIsTold) {
   for (Eigen::Index i = 0; i < kSamples; ++i) x[i] = 2e-6 * random.normal();
   const Eigen::VectorXd wander = (3e-5 * (0.9 * seconds()).sin() + 1e-5 * (30.0 * seconds()).sin()).matrix();
   EXPECT_TRUE(kinds(x + wander).empty());
-  // Of a working muscle both are told.
+  // The check tells both of a working muscle.
   EXPECT_EQ(kinds(muscle(3) + 300.0 * wander), (Kinds{RemarkCode::emg_drift, RemarkCode::emg_artifact}));
 }
 

@@ -59,7 +59,7 @@ TEST(MarkerQuality, AWrongUnitIsGuessed) {
   ASSERT_TRUE(fault);
   EXPECT_NEAR(*fault->value, 1000.0, 20.0);
   EXPECT_NE(fault->remedy.find("millimeters that are declared as meters"), std::string::npos);
-  // By a model it is certain, by the outermost markers alone it is not.
+  // A model makes the unit certain; the outermost markers alone do not.
   EXPECT_EQ(fault->severity, Severity::error);
   EXPECT_EQ(check_marker_unit(markers, {})->severity, Severity::warning);
   // In a wrong unit no other check of lengths runs.

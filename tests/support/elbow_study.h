@@ -57,6 +57,17 @@ class StudyNoise {
   std::mt19937_64 engine_;
 };
 
+/// Returns the options of a person whose muscles are drawn about the literature's, with noise of EMG and torque.
+inline ElbowStudyOptions noisy_person(std::uint64_t seed) {
+  return {.emg_cv = 0.1, .torque_sd_nm = 0.5, .truth_from_prior = true, .with_priors = true, .seed = seed};
+}
+
+/// Moves the EMG of a trial to later times.
+inline void delay_emg(identification::TrialData& trial, double late_s) {
+  const TimeSeries& emg = trial.activation;
+  trial.activation = TimeSeries(emg.time_s().array() + late_s, emg.channels(), emg.values());
+}
+
 /// Four muscles whose activations rise and fall independently of each other and of the movement (two sines and a level
 /// each), an elbow that moves between 10 and 125 degrees at up to some 7 rad/s, and the torque the muscles then make.
 inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
