@@ -1,7 +1,6 @@
 #include "myoid/contents/recording_contents.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -24,6 +23,7 @@
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/tables/csv_reader.h"
+#include "myoid/tables/result_units.h"
 #include "myoid/tables/storage_reader.h"
 #include "myoid/tables/trc_reader.h"
 
@@ -214,24 +214,12 @@ ordered_json recording_json(const std::filesystem::path& path, const char* serie
   return j;
 }
 
-/// Returns true if a file may hold angles: neither its title nor all of its channels speak of forces or EMG.
-bool may_hold_angles(const recording::Storage& file) {
-  const auto speaks_of_other = [](std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::string_view kOthers[] = {"force",      "torque",     "moment",    "emg",
-                                            "electromyo", "activation", "excitation"};
-    return std::ranges::any_of(kOthers, [&](std::string_view word) { return text.find(word) != std::string::npos; });
-  };
-  return !speaks_of_other(file.title) &&
-         !std::ranges::all_of(file.data.channels(), [&](const Channel& c) { return speaks_of_other(c.name); });
-}
-
 ordered_json storage_json(const std::filesystem::path& path) {
   const recording::Storage file = recording::read_storage(path);
   ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}};
   if (const auto to_volt = recording::stated_voltage(file)) {
     j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
-  } else if (!may_hold_angles(file)) {
+  } else if (!recording::may_hold_angles(file)) {
     // inDegrees stands in every file of OpenSim.
   } else if (std::ranges::any_of(file.header, [](const auto& entry) {
                return recording::equal_ignoring_case(entry.first, "inDegrees");

@@ -94,6 +94,17 @@ class TimeSeries:
         return array
 
 
+def in_radians(series: TimeSeries) -> TimeSeries:
+    """Writes the channels in degrees of a series that nobody else holds in radians; returns the series."""
+    import math
+
+    for i, unit in enumerate(series.units):
+        if unit == "deg":
+            series.values[:, i] *= math.pi / 180.0
+            series.units[i] = "rad"
+    return series
+
+
 @dataclass(eq=False)
 class Markers:
     """Markers over time, in the frame of the laboratory.
