@@ -18,6 +18,7 @@
 #include "myoid/core/json_array.h"
 #include "myoid/core/numbers.h"
 #include "myoid/files/file_format.h"
+#include "myoid/recording/angle_file.h"
 #include "myoid/recording/c3d_survey.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/laboratory_up.h"
@@ -214,28 +215,14 @@ ordered_json recording_json(const std::filesystem::path& path, const char* serie
   return j;
 }
 
-/// Returns true if a file may hold angles: neither its title nor all of its channels speak of forces or EMG.
-bool may_hold_angles(const recording::Storage& file) {
-  const auto speaks_of_other = [](std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::string_view kOthers[] = {"force",      "torque",     "moment",    "emg",
-                                            "electromyo", "activation", "excitation"};
-    return std::ranges::any_of(kOthers, [&](std::string_view word) { return text.find(word) != std::string::npos; });
-  };
-  return !speaks_of_other(file.title) &&
-         !std::ranges::all_of(file.data.channels(), [&](const Channel& c) { return speaks_of_other(c.name); });
-}
-
 ordered_json storage_json(const std::filesystem::path& path) {
   const recording::Storage file = recording::read_storage(path);
   ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}};
   if (const auto to_volt = recording::stated_voltage(file)) {
     j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
-  } else if (!may_hold_angles(file)) {
+  } else if (!recording::may_hold_angles(file)) {
     // inDegrees stands in every file of OpenSim.
-  } else if (std::ranges::any_of(file.header, [](const auto& entry) {
-               return recording::equal_ignoring_case(entry.first, "inDegrees");
-             })) {
+  } else if (recording::states_degrees(file)) {
     j["angles"] = file.in_degrees ? "degrees" : "radians";
   } else if (file.in_degrees) {
     j["angles"] = "degrees (the header does not say; files of this kind are)";
