@@ -1,5 +1,7 @@
 #include "myoid/checks/check_study.h"
 
+#include "myoid/checks/check_file.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>

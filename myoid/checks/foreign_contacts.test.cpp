@@ -108,7 +108,7 @@ struct PlateTrial {
     loads.forces.push_back(e);
   }
   [[nodiscard]] std::vector<Remark> findings(bool own_clock = false) const {
-    return foreign_contacts(model, "walk", loads, {model, &markers, nullptr}, own_clock);
+    return foreign_contacts(model, "walk", loads, {model, &markers, nullptr}, own_clock).remarks;
   }
 };
 

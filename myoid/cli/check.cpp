@@ -47,12 +47,16 @@ void print_findings(const commands::CheckResult& result, const std::string& inpu
 void add_check(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand(
       "check",
-      "Reads every input of a study, or a single recording, and lists its faults, worst first; computes nothing.\n"
+      "Reads every input of a study, a single recording or motion, or a model, and lists its faults, worst first; "
+      "computes nothing.\n"
       "Example: myoid check study.toml");
   const auto o = std::make_shared<commands::CheckOptions>();
   const std::string recordings = recording::endings_text(
       [](const recording::FormatEntry& entry) { return recording::is_recording(entry.format); });
-  command.add_option("study", o->input, "study.toml, or a single recording: " + recordings)->required();
+  command.add_option("study", o->input, "study.toml, a model (.osim), or a single recording: " + recordings)
+      ->required();
+  command.add_option("--model", o->model,
+                     "Model of a motion (.mot, .sto), whose columns are its coordinates: a file (.osim), or arm4");
   command
       .add_option("--up", o->up,
                   "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y or -z (default: "

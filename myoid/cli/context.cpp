@@ -129,7 +129,7 @@ void Context::warn(std::string_view line) const {
 void Context::tell(const Remark& remark) const {
   if (remark.severity == Severity::detail && !verbose) return;
   end_progress();
-  remark.severity == Severity::warning ? warn(sentence(remark)) : log(sentence(remark));
+  remark.severity <= Severity::warning ? warn(sentence(remark)) : log(sentence(remark));
 }
 
 void Context::print(const nlohmann::ordered_json& object, const std::string& text) const {

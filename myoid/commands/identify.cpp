@@ -5,7 +5,9 @@
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
+#include "myoid/intervals/verdict_cap.h"
 #include "myoid/methods/basins.h"
+#include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/force.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/paper.h"
@@ -131,6 +133,8 @@ IdentifyResult identify(const IdentifyOptions& o) {
   IdentifyResult result;
   result.data = as_read;
   result.fit = fit_data(o, table, as_asked, result.data);
+  if (o.method == "torque" && identification::exchanged_electrodes(as_read, EstimatorOptions{}.delay_prior_mean_s))
+    identification::apply({{.reason = std::string(identification::kExchangedCap)}}, result.fit);
   if (o.method != "paper" && o.folds != "none" && !result.fit.exact)
     result.folds = held_out(o, as_read, as_asked, table, result.why_no_folds);
   if (const std::string text = identification::generalises_badly(result.folds); !text.empty())

@@ -7,6 +7,7 @@
 
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/results/stage_files.h"
@@ -82,6 +83,7 @@ IkResult ik(const IkOptions& o) {
   result.not_converged = runs_not_converged(result.solved);
   if (!result.not_converged.empty())
     remarks.warn(fmt::format("not converged: frames {}", fmt::join(result.not_converged, ", ")));
+  remarks.add(kinematics::implausible(result.solved.q), o.markers);
   if (!result.solved.undetermined.empty())
     remarks.warn(fmt::format("not determined by the markers: {}", fmt::join(result.solved.undetermined, ", ")));
   result.remarks = remarks.list();

@@ -4,7 +4,9 @@
 
 #include "myoid/commands/stage_input.h"
 #include "myoid/dynamics/ground_support.h"
+#include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/forces/sharing_input.h"
+#include "myoid/forces/sharing_plausibility.h"
 #include "myoid/results/stage_files.h"
 #include "myoid/signals/resample.h"
 #include "myoid/simulation/muscle_force_law.h"
@@ -52,7 +54,9 @@ SoResult so(const SoOptions& o) {
                                                            o.coordinates, loads ? &*loads : nullptr);
   for (const std::string& note : input.notes) remarks.warn(note);
   SoResult result;
+  remarks.add(dynamics::implausible(model, input.torques), o.motion);
   result.shared = forces::share(input, sharing_options(o, model, input, remarks));
+  remarks.add(forces::reserves_act(input, result.shared), o.motion);
   result.remarks = remarks.list();
   return result;
 }

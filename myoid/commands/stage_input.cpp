@@ -9,11 +9,12 @@
 #include "myoid/checks/load_points.h"
 #include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
+#include "myoid/kinematics/motion_plausibility.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/model/path_survey.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/signals/clock_gaps.h"
-#include "myoid/signals/motion_jumps.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::commands {
@@ -66,6 +67,7 @@ model::BodyModel load_model(const std::string& name, const std::string& compat, 
   model::require_lengths_in_m(model, name);
   for (const std::string& text : model.unsupported) remarks.warn(fmt::format("{}: {}", name, text));
   for (const std::string& text : model.notes) remarks.detail(fmt::format("{}: {}", name, text));
+  remarks.add(model::implausible(model), name);
   return model;
 }
 
@@ -137,8 +139,7 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
   const TimeSeries q = in_si(file, model);
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty()) remarks.warn(doubt);
   const Stretch asked{call.start_s.value_or(-1e300), call.end_s.value_or(1e300)};
-  for (const signals::MotionJump& jump : signals::find_motion_jumps(q, asked))
-    remarks.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
+  remarks.add(kinematics::implausible(model, q, asked), path.string());
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
     remarks.warn(
         fmt::format("{}: {}; a spline bridges the gaps, and its derivatives beside a gap are not to be relied on",
@@ -173,7 +174,7 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
   if (const auto wrong = dynamics::wrong_support(model, loads, time_s);
       wrong && dynamics::stands(model, motion.q.values().row(0).transpose()))
     remarks.warn(fmt::format("{}: {}", path.string(), wrong->sentence()));
-  for (const Remark& found : misplaced_loads(model, loads, nullptr, &motion.q, path.string())) remarks.warn(found.says);
+  for (Remark& found : misplaced_loads(model, loads, nullptr, &motion.q, path.string())) remarks.add(std::move(found));
   return loads;
 }
 

@@ -17,6 +17,7 @@
 #include "myoid/core/json_array.h"
 #include "myoid/core/numbers.h"
 #include "myoid/files/file_format.h"
+#include "myoid/recording/angle_file.h"
 #include "myoid/recording/c3d_survey.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/laboratory_up.h"
@@ -221,9 +222,7 @@ ordered_json storage_json(const std::filesystem::path& path) {
     j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
   } else if (!recording::may_hold_angles(file)) {
     // inDegrees stands in every file of OpenSim.
-  } else if (std::ranges::any_of(file.header, [](const auto& entry) {
-               return recording::equal_ignoring_case(entry.first, "inDegrees");
-             })) {
+  } else if (recording::states_degrees(file)) {
     j["angles"] = file.in_degrees ? "degrees" : "radians";
   } else if (file.in_degrees) {
     j["angles"] = "degrees (the header does not say; files of this kind are)";

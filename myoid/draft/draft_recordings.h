@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
+#include "myoid/draft/draft_loads.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/model/body_model.h"
 #include "myoid/recording/force_plate.h"
@@ -21,6 +22,7 @@ struct FoundRecording {
   bool has_unit = true;               ///< The EMG has a unit.
   bool raw = true;
   int plates = 0;
+  LoadHints loads{};
   bool motion_taken = false;
   bool emg_taken = false;
 };

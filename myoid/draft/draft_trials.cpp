@@ -1,7 +1,6 @@
 #include "myoid/draft/draft_trials.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -40,23 +39,6 @@ const FoundRecording* emg_of(const FoundRecording& motion, const std::vector<Fou
     best = &f;
   }
   return best;
-}
-
-/// Asks whether a mass in the name is held in the hand: "flex_2.5kg".
-void held_mass(const std::string& stem, bool own_model, DraftText& out) {
-  const auto at = stem.find("kg");
-  if (at == std::string::npos) return;
-  std::size_t begin = at;
-  while (begin > 0 && (std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0 || stem[begin - 1] == '.' ||
-                       stem[begin - 1] == 'p'))
-    --begin;
-  std::string number = stem.substr(begin, at - begin);
-  std::ranges::replace(number, 'p', '.');
-  const auto mass = recording::parse_number(number);
-  if (!mass || !(*mass > 0.0 && *mass <= 100.0)) return;
-  out.todo(fmt::format("the name says {} kg: held in the hand?{}", *mass,
-                       own_model ? " Then [model] held_mass must say where it acts" : ""));
-  out.line(fmt::format("# held_mass_kg = {}", *mass));
 }
 
 /// Writes the [[trial]] tables one after another.
@@ -109,14 +91,18 @@ class TrialWriter {
     out_.line("use = " + in_quotes(use));
     any_calibration_ = any_calibration_ || use == "calibration";
     if (without_emg) without(emg_of(f, found_, !around_.raw_emg), f.stem);
+    bool stated = false;
     for (const std::filesystem::path& loads : around_.external_loads) {
-      if (trial_stem(loads) == f.stem) out_.line("external_loads = " + in_quotes(around_.relative(loads)));
+      if (trial_stem(loads) != f.stem) continue;
+      out_.line("external_loads = " + in_quotes(around_.relative(loads)));
+      stated = true;
     }
     if (f.plates > 0) {
       out_.line(fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the person stood on them",
                             f.plates));
     }
-    held_mass(f.stem, around_.own_model, out_);
+    const bool needed = use == "calibration" || mass_in_name(f.stem) || !f.loads.object_markers.empty();
+    if (!stated && needed) ask_for_loads(f.stem, f.loads, around_.own_model, asked_for_loads_, out_);
     out_.line("");
   }
 
@@ -158,7 +144,7 @@ class TrialWriter {
   DraftText& out_;
   std::set<std::string> names_;
   std::vector<std::string> notes_;
-  bool two_clocks_ = false, any_calibration_ = false;
+  bool two_clocks_ = false, any_calibration_ = false, asked_for_loads_ = false;
 };
 
 }  // namespace

@@ -122,6 +122,8 @@ class Draft {
       f.plates = static_cast<int>(file.plates.size());
       note_up(path, file);
       f.markers = std::move(file.markers);
+      if (format != recording::FileFormat::storage && !file.analog.empty())
+        f.loads.channels = load_channels(file.analog.series(), file.plates);
       for (const Channel& c : file.analog.channels()) {
         if (format == recording::FileFormat::storage && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
         torques = torques || std::ranges::any_of(model_.coordinates, [&](const model::Coordinate& q) {
@@ -158,6 +160,7 @@ class Draft {
       for (std::string& name : f.markers.names) {
         if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
       }
+      f.loads.object_markers = object_markers(f.markers, model_);
       most_known_ = std::max(most_known_, known);
       if (known >= 4 && up_ == ' ') find_up(f.markers);
     }

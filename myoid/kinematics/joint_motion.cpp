@@ -4,9 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "myoid/core/counted.h"
 #include "myoid/core/error.h"
 #include "myoid/math/spline.h"
 
@@ -33,7 +31,6 @@ MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, co
   Eigen::MatrixXd second = Eigen::MatrixXd::Zero(time.size(), count);
   std::vector<Channel> channels[3];
   int found = 0;
-  std::vector<std::string> resting;
   std::optional<math::SplineKnots> knots;  // shared by all columns
   if (!options.cutoff_hz) knots.emplace(q.time_s());
   for (Eigen::Index c = 0; c < count; ++c) {
@@ -43,8 +40,6 @@ MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, co
     const auto column = q.find(coordinate.name);
     if (!column) {
       value.col(c).setConstant(coordinate.default_value);
-      resting.push_back(fmt::format("'{}' at {:.4g} {}", coordinate.name, coordinate.default_value,
-                                    symbol(coordinate_unit(coordinate, 0))));
       continue;
     }
     ++found;
@@ -57,9 +52,6 @@ MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, co
     first.col(c) = values.first;
     second.col(c) = values.second;
   }
-  if (!resting.empty())
-    result.notes.push_back(fmt::format("{} not in the motion; resting: {}", counted(resting.size(), "coordinate"),
-                                       fmt::join(resting, ", ")));
   if (found == 0) {
     throw InvalidInput(fmt::format(
         "no column of the motion ({}) is a coordinate of the model '{}'; rename the columns to the model's coordinates",

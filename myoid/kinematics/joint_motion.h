@@ -27,7 +27,7 @@ struct MotionOptions {
 
 struct MotionResult {
   JointMotion motion;
-  /// Missing coordinates, which take their default, and columns that are no coordinate.
+  /// Columns that are no coordinate. `implausible` (motion_plausibility.h) names missing coordinates.
   std::vector<std::string> notes;
 };
 

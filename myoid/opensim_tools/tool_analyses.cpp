@@ -8,7 +8,9 @@
 #include "myoid/core/names.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/kinematics/angular_speeds.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/math/spline.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
@@ -83,6 +85,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run, std::pair<double, double> 
     }
     TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
     setup.check_range(range_s, q.time_s(), *states, notes);
+    run.add_remarks(kinematics::implausible(q), states->string());
     read_muscle_states(run, *states);
     return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false, notes), with_accelerations);
   }
@@ -92,6 +95,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run, std::pair<double, double> 
   }
   TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::zero, notes);
   setup.check_range(range_s, q.time_s(), *path, notes);
+  run.add_remarks(kinematics::implausible(q), path->string());
   const double cutoff_hz = setup.xml().number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   std::optional<TimeSeries> speeds;
@@ -150,6 +154,7 @@ void run_analyses(const ToolRun& tool_run) {
   const auto& xml = run.setup.xml();
   const auto tool = run.setup.tool();
   run.model = setup_model(run.setup, run.options.compat, {}, run.result.notes);
+  run.add_remarks(model::implausible(run.model), run.setup.required_file(tool, "model_file").string());
   run.decimals = static_cast<int>(xml.number(tool, "output_precision", 8.0));
   if (run.decimals < 1 || run.decimals > 30) {
     xml.fail(tool, "<output_precision> {}, expected 1 to 30", run.decimals);

@@ -7,6 +7,8 @@
 
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/marker_misfit.h"
+#include "myoid/kinematics/motion_plausibility.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/recording/recording.h"
@@ -110,6 +112,8 @@ void run_inverse_kinematics(const ToolRun& run) {
   const kinematics::IkResult solved = kinematics::inverse_kinematics(model, markers, ik);
   // Tasks name the markers that count: markers without counterpart are no news then.
   if (!ik.only_named_markers) run.add_notes(solved.notes);
+  run.add_remarks(model::implausible(model), setup.required_file(setup.tool(), "model_file").string());
+  run.add_remarks(kinematics::implausible(solved.q), marker_path.string());
   write_files(files, model, solved);
   result.frames = static_cast<int>(solved.status.size());
   result.frames_failed = solved.frames_not_converged;

@@ -11,6 +11,14 @@ void ToolRun::add_notes(const std::vector<std::string>& notes) const {
   result.notes.insert(result.notes.end(), notes.begin(), notes.end());
 }
 
+void ToolRun::add_remarks(std::vector<Remark> found, const std::string& where) const {
+  for (Remark& remark : found) {
+    remark.where = where;
+    remark.says = where + ": " + remark.says;
+    result.remarks.push_back(std::move(remark));
+  }
+}
+
 void note_missing_loads(const ToolRun& run,
                         const dynamics::ExternalLoads& loads,
                         const std::filesystem::path& file,

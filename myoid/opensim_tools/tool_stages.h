@@ -23,6 +23,8 @@ struct ToolRun {
     result.notes.push_back(fmt::format(text, std::forward<T>(values)...));
   }
   void add_notes(const std::vector<std::string>& notes) const;
+  /// Adds the findings of a check on a file or a result; its name goes before each.
+  void add_remarks(std::vector<Remark> found, const std::string& where) const;
   /// Asks `claim` and remembers the file.
   void claim(const std::filesystem::path& path) const;
 };

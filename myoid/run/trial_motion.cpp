@@ -41,9 +41,9 @@ std::shared_ptr<const model::BodyModel> trial_model(const StudySource& source,
   std::optional<model::BodyModel> own;
   const auto changed = [&]() -> model::BodyModel& { return own ? *own : own.emplace(*source.model); };
   if (input.markers) own = arm_of_markers(study, *input.markers);
-  if (spec.held_mass_kg > 0.0) {
+  if (spec.held_mass_kg.value_or(0.0) > 0.0) {
     const HeldMassSpec held = held_mass_place(study);
-    own = dynamics::with_held_mass(std::move(changed()), held.body, held.p_BP_m, spec.held_mass_kg);
+    own = dynamics::with_held_mass(std::move(changed()), held.body, held.p_BP_m, *spec.held_mass_kg);
   }
   if (input.markers && study.ik.calibrate) calibrate(*study.ik.calibrate, *input.markers, changed());
   return own ? std::make_shared<const model::BodyModel>(std::move(*own)) : source.model;

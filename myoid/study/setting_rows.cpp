@@ -56,6 +56,8 @@ std::string type_of(const Setting& setting, bool option) {
     case SettingKind::numbers:
       return fmt::format("{}numbers{}", several,
                          about.limits.unit.empty() ? "" : fmt::format(" [{}]", about.limits.unit));
+    case SettingKind::stretches:
+      return "list of [begin, end] [s]";
     case SettingKind::texts_by_name:
       return "table of texts";
     case SettingKind::numbers_by_name:
@@ -68,7 +70,8 @@ std::string allowed(const Setting& setting, bool option) {
   std::string text = type_of(setting, option);
   const About& about = setting.about;
   if (setting.kind == SettingKind::texts && about.count > 0) text = fmt::format("{} texts", about.count);
-  if (!about.word.empty()) text += fmt::format(", or `\"{}\"`", about.word);
+  if (!about.word.empty())
+    text += fmt::format(", {} `\"{}\"`", setting.kind == SettingKind::stretches ? "and" : "or", about.word);
   if (!about.table.empty()) text += fmt::format(", or `{{ {} = … }}`", about.table);
   return text;
 }

@@ -143,7 +143,18 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
   visit_name(trial, v);
   visit_files(trial, v);
   visit_use(trial, v);
-  v.number("held_mass_kg", trial.held_mass_kg, {.says = "Mass in the hand.", .limits = within(0.0, 100.0, "kg")});
+  v.number("held_mass_kg", trial.held_mass_kg,
+           {.says = "Mass in the hand; 0: the person held nothing. Without it, and without forces of the surroundings "
+                    "(`external_loads`, `force_plates`, `load_cell`, `external_torque`), the [gate](check.md#quality-gates-of-run) "
+                    "\"External loads stated\" stays at caution.",
+            .limits = within(0.0, 100.0, "kg"),
+            .otherwise = "not stated; nothing is computed to be held"});
+  v.stretches("exclude", trial.exclude.windows, trial.exclude.foreign_contacts,
+              {.says = "Times, in seconds of the motion, that are predicted, but neither fitted nor scored, and from "
+                       "which no activation 1 is taken: `[[0.66, 0.78], [2.1, 2.4]]`. `foreign_contacts`: also the "
+                       "times that [check](check.md) finds to be those of another foot on a plate.",
+               .otherwise = "none",
+               .word = "foreign_contacts"});
   v.text(
       "condition", trial.condition,
       {.says = "Trials of one name are left out together by `folds = \"condition\"`.", .otherwise = "the trial alone"});

@@ -45,6 +45,31 @@ TEST(TrialTable, ANameThatWouldLeaveTheResultsFolderIsRefused) {
   }
 }
 
+TEST(TrialTable, ExcludedWindowsArePairsOfTimesAndForeignContacts) {
+  const ExcludeSpec both = trial_of(kTrial + "exclude = [[0.66, 0.78], \"foreign_contacts\", [2, 2.5]]\n").exclude;
+  ASSERT_EQ(both.windows.size(), 2U);
+  EXPECT_EQ(both.windows[0].begin_s, 0.66);
+  EXPECT_EQ(both.windows[1].end_s, 2.5);
+  EXPECT_TRUE(both.foreign_contacts);
+  EXPECT_TRUE(trial_of(kTrial + "exclude = \"foreign_contacts\"\n").exclude.foreign_contacts);
+  EXPECT_EQ(trial_of(kTrial + "exclude = [1.0, 1.5]\n").exclude.windows.size(), 1U);
+  EXPECT_EQ(trial_of(kTrial).exclude, ExcludeSpec{});
+}
+
+TEST(TrialTable, WhatIsNoWindowIsRefusedWithItsLine) {
+  for (const std::string wrong : {"[[0.78, 0.66]]", "[[0.1, 0.2, 0.3]]", "[\"contacts\"]", "[[\"a\", 1]]", "3",
+                                  "[{ begin = 1 }]", "[[1, inf]]", "[[]]"}) {
+    const std::string message = trial_message(kTrial + "exclude = " + wrong + "\n");
+    EXPECT_NE(message.find("dir/study.toml:4"), std::string::npos) << wrong << ": " << message;
+    EXPECT_NE(message.find("exclude"), std::string::npos) << wrong << ": " << message;
+  }
+}
+
+TEST(TrialTable, NothingHeldIsAnotherAnswerThanNone) {
+  EXPECT_FALSE(trial_of(kTrial).held_mass_kg.has_value());
+  EXPECT_EQ(trial_of(kTrial + "held_mass_kg = 0\n").held_mass_kg, 0.0);
+}
+
 TEST(TrialTable, OneFileHasOneClock) {
   const std::string text = "name = \"t\"\nmotion = \"a.sto\"\nemg = \"a.sto\"\n[sync]\n";
   EXPECT_NE(trial_message(text + "offset_s = 0.1\n").find("in one file"), std::string::npos);

@@ -156,12 +156,13 @@ class CheckResult:
         return self.errors == 0
 
 
-def check(study: File, *, up: str | None = None, start: float | None = None, end: float | None = None,
-          progress: Report = None) -> CheckResult:  # fmt: skip
-    """Reads every input of a study, or a single recording, and lists its faults; computes nothing.
+def check(study: File, *, model: File | None = None, up: str | None = None, start: float | None = None,
+          end: float | None = None, progress: Report = None) -> CheckResult:  # fmt: skip
+    """Reads every input of a study, a single recording or motion, or a model, and lists its faults; computes nothing.
 
     Args:
-        study: study.toml, or a recording.
+        study: study.toml, a recording, or a model (.osim).
+        model: Model of a motion (.mot, .sto), a file or "arm4"; None: unknown.
         up: Vertical of a recording's laboratory: "x", "-y", ...; None: as the file says.
     """
     return CheckResult(**call("check", locals()))
