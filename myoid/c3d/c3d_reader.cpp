@@ -264,6 +264,7 @@ std::vector<C3dGroup> read_groups(const ParameterSection& section,
 }  // namespace
 
 C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
+  refuse_text_transfer(source, path);
   const std::vector<std::byte> head = read_head_block(source, path);
   const auto block = static_cast<std::size_t>(head[0]);
   C3dFile file;

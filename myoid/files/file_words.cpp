@@ -57,6 +57,7 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
   for (const char c : text) {
     if (c != ' ' && c != '\0') word += small_letter(c);
   }
+  constexpr double kFootPound = 0.3048 * 4.4482216152605;  // foot times pound-force [N m]
   struct Word {
     std::string_view text;
     ScaledUnit unit;
@@ -72,6 +73,15 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
       Word{"n-mm", {Unit::newton_meter, 1e-3}},
       Word{"n*m", {Unit::newton_meter, 1.0}},
       Word{"n*mm", {Unit::newton_meter, 1e-3}},
+      Word{"n.m", {Unit::newton_meter, 1.0}},
+      Word{"newton-meters", {Unit::newton_meter, 1.0}},
+      Word{"ft-lb", {Unit::newton_meter, kFootPound}},
+      Word{"ft-lbs", {Unit::newton_meter, kFootPound}},
+      Word{"ft.lbs", {Unit::newton_meter, kFootPound}},
+      Word{"ftlbs", {Unit::newton_meter, kFootPound}},
+      Word{"ft*lbf", {Unit::newton_meter, kFootPound}},
+      Word{"in-lb", {Unit::newton_meter, kFootPound / 12.0}},
+      Word{"in-lbs", {Unit::newton_meter, kFootPound / 12.0}},
       Word{"n/m", {Unit::newton_per_meter, 1.0}},
       Word{"ncm", {Unit::newton_meter, 1e-2}},
       Word{"g", {Unit::meter_per_second2, kStandardGravity}},
@@ -81,7 +91,11 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
       Word{"mm/s2", {Unit::meter_per_second2, 1e-3}},
       Word{"mm/s^2", {Unit::meter_per_second2, 1e-3}},
       Word{"rad/s2", {Unit::radian_per_second2, 1.0}},
+      Word{"m/s²", {Unit::meter_per_second2, 1.0}},
       Word{"deg/sec", {Unit::radian_per_second, kDegree}},
+      Word{"deg/s", {Unit::radian_per_second, kDegree}},
+      Word{"degrees/sec", {Unit::radian_per_second, kDegree}},
+      Word{"degrees/s", {Unit::radian_per_second, kDegree}},
       Word{"°/s", {Unit::radian_per_second, kDegree}},
       Word{"dps", {Unit::radian_per_second, kDegree}},
       Word{"v", {Unit::volt, 1.0}},
@@ -89,6 +103,10 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
       Word{"uv", {Unit::volt, 1e-6}},
       Word{"millivolt", {Unit::volt, 1e-3}},
       Word{"microvolt", {Unit::volt, 1e-6}},
+      Word{"msec", {Unit::second, 1e-3}},
+      Word{"msecs", {Unit::second, 1e-3}},
+      Word{"millisec", {Unit::second, 1e-3}},
+      Word{"secs", {Unit::second, 1.0}},
       Word{"inches", {Unit::meter, 0.0254}},
       Word{"inch", {Unit::meter, 0.0254}},
   };

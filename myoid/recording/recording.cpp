@@ -80,6 +80,8 @@ template <typename File>
 Recording of_channels(File file) {
   Recording recording;
   recording.analog = std::move(file.data);
+  if constexpr (requires { file.other_clocks; })
+    for (auto& other : file.other_clocks) recording.other_clocks.push_back(std::move(other.data));
   if constexpr (requires { file.events; }) recording.events = std::move(file.events);
   recording.repairs = std::move(file.repairs);
   return recording;
@@ -110,6 +112,7 @@ MarkerFile read_markers(const std::filesystem::path& path) {
         break;
     }
   }
+  refuse_foreign_format(path);
   throw ReadError(path, 0, "markers are read from {}, not from '{}'; export the recording as one of these",
                   endings_text([](const FormatEntry& entry) { return entry.markers; }), extension_of(path));
 }
@@ -168,6 +171,7 @@ Recording read_recording(const std::filesystem::path& path) {
         break;
     }
   }
+  refuse_foreign_format(path);
   throw ReadError(path, 0, "recordings of kind '{}' are not known; known are {}", extension_of(path),
                   endings_text([](const FormatEntry& entry) { return is_recording(entry.format); }));
 }
