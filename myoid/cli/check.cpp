@@ -40,7 +40,7 @@ void print_findings(const commands::CheckResult& result, const std::string& inpu
       result.of_study ? fmt::format("{}, {}", counted(result.trials, "trial"), counted(result.muscles, "muscle"))
                       : input;
   say("{}: {}, {}\n", subject, counted(result.errors, "error"),
-             counted(result.findings.size() - result.errors, "remark"));
+      counted(result.findings.size() - result.errors, "remark"));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ void print_outcomes(const std::vector<PersonOutcome>& outcomes) {
   for (const PersonOutcome& each : outcomes) width = std::max(width, in_column(each.person).size());
   for (const PersonOutcome& each : outcomes) {
     say("{:<{}}  {:<13}  {}{}\n", in_column(each.person), width, word_of(each),
-               each.reused ? "(as before: same input) " : "", each.outcome ? each.outcome->message : "");
+        each.reused ? "(as before: same input) " : "", each.outcome ? each.outcome->message : "");
   }
 }
 

@@ -37,14 +37,14 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
 }
 
 void print(const RunComparison& comparison) {
-  say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second",
-             "difference", "p", "verdict");
+  say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second", "difference",
+      "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
     if (p.first.method == "paper") continue;  // in the report; shared forces do not describe a person
     say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", p.muscle,
-               fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
-               report::format_value(p.second.estimate), report::format_value(p.difference),
-               p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
+        fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
+        report::format_value(p.second.estimate), report::format_value(p.difference),
+        p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }
   for (const std::string& remark : comparison.remarks) say("{}\n", remark);
 }

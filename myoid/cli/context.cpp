@@ -1,5 +1,4 @@
 #include "myoid/cli/context.h"
-#include "myoid/cli/say.h"
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +13,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"

@@ -15,17 +15,16 @@ using identification::ParameterEstimate;
 void print_plan(const DesignStudyResult& result) {
   say("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest", "median 95 %", "identified");
   say("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
-             fmt::format("of {}", result.beforehand.size()));
+      fmt::format("of {}", result.beforehand.size()));
   say("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
-             median_half_width(result.beforehand), identified_count(result.beforehand));
+      median_half_width(result.beforehand), identified_count(result.beforehand));
   for (std::size_t i = 0; i < result.plan.size(); ++i) {
     const PlannedMovement& m = result.plan[i];
-    say("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1, m.movement.description(),
-               m.movement.duration_s, m.rest_before_s, median_half_width(m.expected), identified_count(m.expected));
+    say("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1, m.movement.description(), m.movement.duration_s,
+        m.rest_before_s, median_half_width(m.expected), identified_count(m.expected));
   }
   if (result.plan.empty()) return;
-  say("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}", "target",
-             "beforehand");
+  say("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}", "target", "beforehand");
   for (std::size_t i = 0; i < result.plan.size(); ++i) say(" {:>7}", i + 1);
   say("  verdict\n");
   for (std::size_t t = 0; t < result.beforehand.size(); ++t) {

@@ -46,9 +46,8 @@ nlohmann::ordered_json emg_json(const std::vector<std::string>& out, const comma
 void print_emg(const std::vector<std::string>& out, const commands::EmgResult& result) {
   for (const auto& n : result.normalisation) {
     say("{:<24} rest {:>8} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel,
-               n.rests ? fmt::format("{:.2f}", 1e6 * n.resting_level_v) : std::string("unknown"), 1e6 * n.reference_v,
-               n.source_trial, n.source_time_s,
-               n.from_mvc ? "" : "; no MVC: relative to the largest effort of these files");
+        n.rests ? fmt::format("{:.2f}", 1e6 * n.resting_level_v) : std::string("unknown"), 1e6 * n.reference_v,
+        n.source_trial, n.source_time_s, n.from_mvc ? "" : "; no MVC: relative to the largest effort of these files");
   }
   say("{}: {}\n", result.whitening.applied ? "whitened, all channels" : "not whitened", result.whitening.reason);
   say("For a methods section: {}\n", fmt::join(result.chain.methods, " "));

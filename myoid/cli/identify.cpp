@@ -22,21 +22,20 @@ using identification::TrialData;
 
 void print_result(const identification::IdentificationResult& result, bool freed_speeds) {
   say("{:<10} {:<36} {:<12} {:>14} {:>26}  {}\n", "muscle", "parameter", "branch", "estimate", "95 % interval",
-             "verdict");
+      "verdict");
   for (const auto& e : result.estimates) {
     const std::string parameter = fmt::format("{} [{}]", e.parameter, symbol(e.unit));
     say("{:<10} {:<36} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, parameter, e.fit_case,
-               std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
-               e.ci_low && e.ci_high
-                   ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4), report::format_value(*e.ci_high, 4))
-                   : "-",
-               identification::name(e.verdict), e.reason);
+        std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
+        e.ci_low && e.ci_high
+            ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4), report::format_value(*e.ci_high, 4))
+            : "-",
+        identification::name(e.verdict), e.reason);
   }
   if (result.method == "paper")
     say("Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other number.\n");
   if (freed_speeds)
-    say(
-        "max_shortening_speed is not stated as known: it is free, and its uncertainty widens the interval of "
+    say("max_shortening_speed is not stated as known: it is free, and its uncertainty widens the interval of "
         "concentric_curvature. Where it is known: max_shortening_speed_fixed = true.\n");
   const std::string lag = identification::lag_remark(result);
   if (!lag.empty()) say("{}\n", lag);
@@ -44,8 +43,8 @@ void print_result(const identification::IdentificationResult& result, bool freed
   for (const std::string& text : result.diagnoses) say("signature: {}\n", text);
   for (const std::string& text : result.undetermined) say("left open by the data: {}\n", text);
   for (const identification::BranchTest& test : result.branch_tests) {
-    say("{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = {:.3f})\n",
-               test.muscle, test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
+    say("{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = {:.3f})\n", test.muscle,
+        test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
   }
 }
 
@@ -58,15 +57,14 @@ void print_samples(const identification::IdentificationResult& result,
   for (const TrialData& trial : data.trials) all += trial.time_s.size();
   all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size() : joint_count(data.trials.front()));
   if (o.method == "torque" && o.estimator == "posterior") {
-    say(
-        "{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as {:.0f} independent "
+    say("{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as {:.0f} independent "
         "ones.\n",
         result.samples_used, all, result.effective_samples);
     return;
   }
   const double rate_hz = result.exact ? std::max(o.max_rate_hz, identification::kNoiseFreeRate_hz) : o.max_rate_hz;
-  say("{} of {} samples are fitted: at most {:g} a second, without the ends of trials{}.\n", result.samples_used,
-             all, rate_hz, result.exact ? "" : " (--max-rate)");
+  say("{} of {} samples are fitted: at most {:g} a second, without the ends of trials{}.\n", result.samples_used, all,
+      rate_hz, result.exact ? "" : " (--max-rate)");
 }
 
 bool any_held_back(const StudyData& data) {
@@ -103,9 +101,8 @@ void print_errors(const identification::IdentificationResult& result,
 
 void print_fit(const identification::IdentificationResult& result, const StudyData& data, bool torque) {
   print_errors(result, data, torque, true, "fitted");
-  say("{:<34}{:>12}{:>10}\n",
-             result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least", "",
-             identification::r2_text(result.r2));
+  say("{:<34}{:>12}{:>10}\n", result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least", "",
+      identification::r2_text(result.r2));
   if (any_held_back(data)) print_errors(result, data, torque, false, "held back, then predicted");
 }
 
@@ -114,18 +111,17 @@ void print_folds(const std::vector<identification::Fold>& folds,
                  bool held_back,
                  const commands::IdentifyOptions& o) {
   if (!why_not.empty())
-    say("\n{} was left out of the fit to be predicted: {}.\n", held_back ? "No other trial" : "Nothing",
-               why_not);
+    say("\n{} was left out of the fit to be predicted: {}.\n", held_back ? "No other trial" : "Nothing", why_not);
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
   say("\n{:<34}{:>12}{:>14}{:>10}{:>10}   {}\n", "left out of the fit, then predicted",
-             o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2", "smoothed",
-             "starting values, one gain: R2");
+      o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2", "smoothed",
+      "starting values, one gain: R2");
   for (const identification::Fold& fold : folds) {
     say("{:<34}{:>12.4g}{:>14.1f}{:>10}{:>10}   {}\n",
-               several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial, fold.identified.rmse_nm(),
-               100.0 * fold.identified.nrmse_range(), identification::r2_text(fold.identified.r2()),
-               identification::r2_text(fold.smooth.r2()), identification::r2_text(fold.literature.r2()));
+        several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial, fold.identified.rmse_nm(),
+        100.0 * fold.identified.nrmse_range(), identification::r2_text(fold.identified.r2()),
+        identification::r2_text(fold.smooth.r2()), identification::r2_text(fold.literature.r2()));
   }
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
     say("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);
@@ -134,12 +130,10 @@ void print_folds(const std::vector<identification::Fold>& folds,
 /// Prints the minima that the searches of several starts reached.
 void print_basins(const identification::BasinTable& table) {
   constexpr std::size_t kMost = 8;
-  say("{:<22}{:>12}{:>16}{:>12}\n", fmt::format("  basin of {} starts", table.starts), "starts", "cost",
-             "distance");
+  say("{:<22}{:>12}{:>16}{:>12}\n", fmt::format("  basin of {} starts", table.starts), "starts", "cost", "distance");
   for (std::size_t i = 0; i < table.basins.size() && i < kMost; ++i) {
     const identification::BasinRow& basin = table.basins[i];
-    say(
-        "  {:<20}{:>12}{:>16.6g}{:>12.2g}{}{}\n", i + 1, basin.starts, basin.cost, basin.distance,
+    say("  {:<20}{:>12}{:>16.6g}{:>12.2g}{}{}\n", i + 1, basin.starts, basin.cost, basin.distance,
         basin.converged < basin.starts ? fmt::format("  {} did not converge", basin.starts - basin.converged) : "",
         basin.rival && i > 0 ? "  as good as the best: both are answers" : "");
   }
@@ -153,11 +147,11 @@ void print_contest(const identification::NamedContest& named) {
     say("\nSolvers, {}: nothing to fit\n", named.fit);
     return;
   }
-  say("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", named.fit, "solver", "start", "cost",
-             "distance", "evaluations", "seconds", "ended");
+  say("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", named.fit, "solver", "start", "cost", "distance",
+      "evaluations", "seconds", "ended");
   for (const identification::SolverRun& run : c.runs) {
     say("{:<22}{:>6}{:>16.6g}{:>12.2g}{:>13}{:>10.3f}  {}\n", run.solver, run.start, run.cost, run.distance,
-               run.evaluations, run.seconds, math::name(run.termination));
+        run.evaluations, run.seconds, math::name(run.termination));
   }
   say("Levenberg-Marquardt:\n");
   print_basins(c.basins);

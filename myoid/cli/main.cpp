@@ -61,9 +61,9 @@ void stop_on_signals(std::stop_source stop) {
     }
   }
   myoid::cli::say_error(
-             "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, or raise the "
-             "limits on processes and memory (ulimit -u, ulimit -v).\n",
-             what);
+      "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, or raise the "
+      "limits on processes and memory (ulimit -u, ulimit -v).\n",
+      what);
   _exit(myoid::cli::kInternalError);
 }
 
@@ -117,7 +117,7 @@ int unknown_command(std::string_view word) {
   for (const Command& command : kCommands) names.emplace_back(command.name);
   const auto near = myoid::recording::nearest_word(word, names);
   myoid::cli::say_error("error: there is no command '{}'{}; there are {}\n", word,
-             near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", "));
+                        near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", "));
   return myoid::cli::kWrongCommandLine;
 }
 
@@ -203,7 +203,8 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
     }
     app.parse(marked(argc, argv));
   } catch (const CLI::ParseError& error) {
-    if (const std::string repeated = repeated_option(app); !repeated.empty()) {
+    if (std::string repeated = repeated_option(app); !repeated.empty()) {
+      std::erase(repeated, kMark);
       myoid::cli::say_error("error: {}\n", repeated);
       return myoid::cli::kWrongCommandLine;
     }
@@ -250,7 +251,7 @@ int main(int argc, char** argv) {
     context.held_folders.clear();
     if (std::ferror(stdout) != 0) return stdout_lost(error.what());
     myoid::cli::say_error("internal error: {}\nPlease report this with the command line and, if you can, the files.\n",
-               error.what());
+                          error.what());
     return cli::kInternalError;
   }
 }

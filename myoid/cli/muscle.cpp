@@ -43,16 +43,15 @@ void print_fit(const MuscleResult& result) {
   say("{:<28}{:>14}{:>14}{:>14}\n", "parameter", "start", "estimate", "std error");
   for (const muscle::IsolatedEstimate& e : fit.all.estimates)
     say("{:<28}{:>14.6g}{:>14.6g}{:>14.2g} {}{}\n", e.parameter, e.start, e.value, e.std_error, symbol(e.unit),
-               e.at_bound ? ", at its bound" : "");
+        e.at_bound ? ", at its bound" : "");
   if (std::ranges::any_of(fit.all.estimates, &muscle::IsolatedEstimate::at_bound))
-    say(
-        "the standard errors of the others hold only if the value at the bound is true: the recordings pull beyond "
+    say("the standard errors of the others hold only if the value at the bound is true: the recordings pull beyond "
         "it\n");
-  say("\n{:<34}{:>12}{:>12}{:>12}\n", fmt::format("mean absolute error [% of {:.4g} N]", fit.relative_to_n),
-             "start", "fitted", "predicted");
+  say("\n{:<34}{:>12}{:>12}{:>12}\n", fmt::format("mean absolute error [% of {:.4g} N]", fit.relative_to_n), "start",
+      "fitted", "predicted");
   for (const commands::RecordingErrors& error : fit.errors)
-    say("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", error.recording, 100.0 * error.starting_values,
-               100.0 * error.fitted, 100.0 * error.predicted);
+    say("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", error.recording, 100.0 * error.starting_values, 100.0 * error.fitted,
+        100.0 * error.predicted);
   if (fit.errors.size() > 1) say("predicted: with the parameters that the other recordings give\n");
 }
 
@@ -71,11 +70,10 @@ nlohmann::json simulation_json(const MuscleResult& result) {
 
 void print_simulation(const MuscleResult& result) {
   const Eigen::VectorXd force = result.simulated->simulated.series.column("tendon_force");
-  say("{}: {} samples, force {:.4g} to {:.4g} N\n", result.name, force.size(), force.minCoeff(),
-             force.maxCoeff());
+  say("{}: {} samples, force {:.4g} to {:.4g} N\n", result.name, force.size(), force.minCoeff(), force.maxCoeff());
   if (const auto& comparison = result.simulated->comparison) {
     say("mean absolute error {:.4g} N, {:.2f} % of {:.4g} N, over {} samples\n", comparison->error_n,
-               100.0 * comparison->share, comparison->error_n / comparison->share, comparison->samples);
+        100.0 * comparison->share, comparison->error_n / comparison->share, comparison->samples);
   }
 }
 

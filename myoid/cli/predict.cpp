@@ -11,11 +11,11 @@ namespace {
 
 void print_predict(const commands::PredictResult& result) {
   say("{:<20} {:<16} {:>10} {:>8} {:>13} {:>16}\n", "trial", "joint", "RMSE [N m]", "R2", "R2 < 1.5 Hz",
-             "in the 95 % band");
+      "in the 95 % band");
   for (const identification::TrialFit& t : result.trials) {
     const double covered = identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm);
-    say("{:<20} {:<16} {:>10.2f} {:>8.3f} {:>13.3f} {:>14.0f} %{}\n", in_column(t.trial), in_column(t.joint), t.score.rmse_nm(),
-               t.score.r2(), t.band.r2(), 100.0 * covered, t.calibration ? "  (took part in the fit)" : "");
+    say("{:<20} {:<16} {:>10.2f} {:>8.3f} {:>13.3f} {:>14.0f} %{}\n", in_column(t.trial), in_column(t.joint),
+        t.score.rmse_nm(), t.score.r2(), t.band.r2(), 100.0 * covered, t.calibration ? "  (took part in the fit)" : "");
   }
 }
 

@@ -31,8 +31,8 @@ void print_method(const identification::IdentificationResult& method, std::size_
     parameter = std::max(parameter, labelled(*line.estimate).size());
   }
   say("\nmethod {}: {}\n", method.method, method.message);
-  say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter", parameter, "case",
-             "initial", "estimate", "95 % interval", "verdict");
+  say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter", parameter, "case", "initial",
+      "estimate", "95 % interval", "verdict");
   bool nuisances = false;
   for (const EstimateLine& line : lines) {
     const ParameterEstimate& e = *line.estimate;
@@ -48,20 +48,19 @@ void print_method(const identification::IdentificationResult& method, std::size_
                              : is_undetermined(e) ? "not determined"
                                                   : "-";
     say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", in_column(line.owners), owner, labelled(e), parameter,
-               e.fit_case, report::format_value(e.initial), estimate, ends, identification::name(e.verdict));
+        e.fit_case, report::format_value(e.initial), estimate, ends, identification::name(e.verdict));
   }
 }
 
 void print_predictions(const StudyResult& result) {
   if (!result.folds.empty()) {
     const std::string_view left_out = choice_name(result.source.study.identify.folds);
-    say(
-        "\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about that {0}'s own mean)\n",
+    say("\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about that {0}'s own mean)\n",
         left_out);
     say("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2", "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {
-      say("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", in_column(f.trial), f.identified.rmse_nm(), f.identified.r2(),
-                 f.literature.rmse_nm(), f.literature.r2());
+      say("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", in_column(f.trial), f.identified.rmse_nm(),
+          f.identified.r2(), f.literature.rmse_nm(), f.literature.r2());
     }
   }
   for (const identification::IdentificationResult& method : result.fit.methods) {
@@ -78,15 +77,14 @@ void print_predictions(const StudyResult& result) {
 
 void print_next(const StudyResult& result) {
   if (!result.next || result.next->plan.empty()) return;
-  say(
-      "\nnext recording: {} of the {} parameters that it is planned for are identified now, median 95 % interval "
+  say("\nnext recording: {} of the {} parameters that it is planned for are identified now, median 95 % interval "
       "+-{:.0f} %\n",
       identified_count(result.next->beforehand), result.next->beforehand.size(),
       median_half_width(result.next->beforehand));
   for (std::size_t i = 0; i < result.next->plan.size(); ++i) {
     const PlannedMovement& m = result.next->plan[i];
-    say("{}. {:<58} {:>3} identified, +-{:.0f} %\n", i + 1, m.movement.description(),
-               identified_count(m.expected), median_half_width(m.expected));
+    say("{}. {:<58} {:>3} identified, +-{:.0f} %\n", i + 1, m.movement.description(), identified_count(m.expected),
+        median_half_width(m.expected));
   }
 }
 

@@ -4,9 +4,7 @@
 
 namespace myoid::cli {
 
-void say_text(std::FILE* stream, std::string_view text) {
-  fmt::print(stream, "{}", recording::terminal_text(text));
-}
+void say_text(std::FILE* stream, std::string_view text) { fmt::print(stream, "{}", recording::terminal_text(text)); }
 
 void say_whole(std::string_view text) { fmt::print("{}", recording::visible_text(text)); }
 

@@ -30,9 +30,9 @@ class Roll {
       throw ReadError(manifest_->file, line, fmt::format("the name of a person: {}", reason));
     const auto [other, is_new] = lines_.emplace(person.name, line);
     if (!is_new)
-      throw ReadError(manifest_->file, line,
-                      fmt::format("the person '{}' stands in line {} too; give each person one name", person.name,
-                                  other->second));
+      throw ReadError(
+          manifest_->file, line,
+          fmt::format("the person '{}' stands in line {} too; give each person one name", person.name, other->second));
     manifest_->persons.push_back(std::move(person));
   }
 
@@ -166,7 +166,8 @@ std::vector<const Person*> chosen_persons(const Manifest& manifest, const std::v
   // A name goes before an id and a label: another person may be called so.
   const auto fitting = [&](const std::string& name) -> const Person* {
     const std::string label = name.starts_with(kSub) ? name.substr(kSub.size()) : name;
-    for (const auto& [member, text] : {std::pair{&Person::name, name}, {&Person::id, name}, {&Person::label, label}}) {
+    for (const auto& [member, text] :
+         {std::pair{&Person::name, name}, std::pair{&Person::id, name}, std::pair{&Person::label, label}}) {
       const auto found = std::ranges::find(manifest.persons, text, member);
       if (found != manifest.persons.end()) return &*found;
     }

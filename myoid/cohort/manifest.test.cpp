@@ -56,7 +56,8 @@ TEST(Manifest, FoldersAndLabelsAreMadeFromNames) {
     EXPECT_EQ(person_folder("", person).parent_path(), kPersonsFolder) << person.name;
     EXPECT_EQ(person.id.find_first_of("/\\ "), std::string::npos) << person.id;
     EXPECT_FALSE(person.id.starts_with('.') || person.id.starts_with('-')) << person.id;
-    EXPECT_TRUE(std::ranges::all_of(person.label, [](unsigned char c) { return std::isalnum(c) != 0; })) << person.label;
+    EXPECT_TRUE(std::ranges::all_of(person.label, [](unsigned char c) { return std::isalnum(c) != 0; }))
+        << person.label;
     ids.insert(person.id);
     labels.insert(person.label);
   }

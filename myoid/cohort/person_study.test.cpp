@@ -16,11 +16,8 @@ namespace {
 using test::message_of;
 using testing::HasSubstr;
 
-const Person kPerson{.name = "sub-07",
-                     .id = "sub-07",
-                     .label = "07",
-                     .study = {},
-                     .facts = {{"weight", "61.5"}, {"sex", ""}}};
+const Person kPerson{
+    .name = "sub-07", .id = "sub-07", .label = "07", .study = {}, .facts = {{"weight", "61.5"}, {"sex", ""}}};
 
 TEST(PersonStudy, WordsInBracesBecomeThePersonsAndTomlsOwnBracesStay) {
   EXPECT_EQ(filled_study("mass = {weight} # {name}, {label}\nemg = { same_as = \"BIC\" }\n", "t", kPerson),

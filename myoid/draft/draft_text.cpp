@@ -13,6 +13,8 @@ std::string in_remark(const std::string& text) {
   return recording::visible_text(flat);
 }
 
-std::string list_of(const std::vector<std::string>& names) { return "[" + name_list(names, recording::toml_text) + "]"; }
+std::string list_of(const std::vector<std::string>& names) {
+  return "[" + name_list(names, recording::toml_text) + "]";
+}
 
 }  // namespace myoid

@@ -20,7 +20,10 @@
 #include "myoid/draft/draft_text.h"
 #include "myoid/draft/draft_trials.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/file_words.h"
 #include "myoid/files/label_match.h"
+#include "myoid/files/name_ids.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
@@ -30,6 +33,7 @@ namespace myoid {
 namespace {
 
 namespace fs = std::filesystem;
+using recording::toml_text;
 
 class Draft {
  public:
@@ -195,7 +199,8 @@ class Draft {
     line("[subject]");
     std::error_code error;
     const fs::path at = fs::absolute(folder_, error).lexically_normal();
-    line("name = " + toml_text((at.has_filename() ? at : at.parent_path()).filename().string()));
+    const std::string folder = recording::to_utf8((at.has_filename() ? at : at.parent_path()).filename().string());
+    line("name = " + toml_text(recording::name_refusal(folder).empty() ? folder : "subject"));
     if (const std::vector<std::string> persons = persons_in(found_); persons.size() > 1)
       todo(fmt::format(
           "{} in the names: are these {} persons? A study is of one person: draft one for each (`myoid init "

@@ -25,8 +25,7 @@ struct IdForm {
 };
 
 const IdForm& form_of(IdFor place) {
-  static constexpr std::array<IdForm, 3> kForms{
-      {{"_-.", "_", "-", 60}, {"", "", "", 60}, {"_", "_", "_", 63}}};
+  static constexpr std::array<IdForm, 3> kForms{{{"_-.", "_", "-", 60}, {"", "", "", 60}, {"_", "_", "_", 63}}};
   return kForms[static_cast<std::size_t>(place)];
 }
 
@@ -36,15 +35,13 @@ bool may_stand(char c, const IdForm& form) {
   return is_ascii_letter(c) || (c >= '0' && c <= '9') || form.marks.find(c) != std::string_view::npos;
 }
 
-bool may_begin(char c, IdFor place) {
-  return place == IdFor::variable ? is_ascii_letter(c) : c != '.' && c != '-';
-}
+bool may_begin(char c, IdFor place) { return place == IdFor::variable ? is_ascii_letter(c) : c != '.' && c != '-'; }
 
 /// Returns true for "con", "COM1", "nul.txt", whatever the ending: Windows opens a device in place of a file.
 bool is_device(std::string_view id) {
   const std::string stem = small_letters(std::string(id.substr(0, id.find('.'))));
-  const bool numbered = stem.size() == 4 && (stem.starts_with("com") || stem.starts_with("lpt")) && stem[3] >= '0' &&
-                        stem[3] <= '9';
+  const bool numbered =
+      stem.size() == 4 && (stem.starts_with("com") || stem.starts_with("lpt")) && stem[3] >= '0' && stem[3] <= '9';
   return numbered || stem == "con" || stem == "prn" || stem == "aux" || stem == "nul";
 }
 
@@ -100,8 +97,8 @@ std::vector<std::string> ids_of(const std::vector<std::string>& names,
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Claim& claim = claims[keys[i]];
     const bool first = claim.names == 1 || (claim.kept == 1 && plain[i] == names[i]);
-    const bool fits = !plain[i].empty() && plain[i].size() <= form_of(place).most &&
-                      !(place == IdFor::file && is_device(plain[i]));
+    const bool fits =
+        !plain[i].empty() && plain[i].size() <= form_of(place).most && !(place == IdFor::file && is_device(plain[i]));
     if (first && fits && taken.insert(keys[i]).second) ids[i] = plain[i];
   }
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -15,10 +15,51 @@ using Texts = std::vector<std::string>;
 
 constexpr std::string_view kLettersAndDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
 
-const Texts kOdd{"slow 2 kg", "slow_2_kg", "A", "a", "B", "\u00fcben", "\u00e4ben", "BIC (long)", "O'Neil", "\"q\"", "李", "王",
-                 "😀", "..", ".", "-x", "--", "a/b", "a\\b", ".stages", "run.json", "Report.HTML", "figures", "CON", "nul.txt",
-                 "com1", "ends.", "x:y*?", "$(touch x)", "{trial}", "%41", "#1", "a,b;c", "a\tb", "=1+1", "__proto__", "1",
-                 "TRUE", std::string(100000, 'n'), std::string(100000, 'n') + "m", " a", "a ", "~", "*", "a\u202eb"};
+const Texts kOdd{"slow 2 kg",
+                 "slow_2_kg",
+                 "A",
+                 "a",
+                 "B",
+                 "\u00fcben",
+                 "\u00e4ben",
+                 "BIC (long)",
+                 "O'Neil",
+                 "\"q\"",
+                 "李",
+                 "王",
+                 "😀",
+                 "..",
+                 ".",
+                 "-x",
+                 "--",
+                 "a/b",
+                 "a\\b",
+                 ".stages",
+                 "run.json",
+                 "Report.HTML",
+                 "figures",
+                 "CON",
+                 "nul.txt",
+                 "com1",
+                 "ends.",
+                 "x:y*?",
+                 "$(touch x)",
+                 "{trial}",
+                 "%41",
+                 "#1",
+                 "a,b;c",
+                 "a\tb",
+                 "=1+1",
+                 "__proto__",
+                 "1",
+                 "TRUE",
+                 std::string(100000, 'n'),
+                 std::string(100000, 'n') + "m",
+                 " a",
+                 "a ",
+                 "~",
+                 "*",
+                 "a\u202eb"};
 
 TEST(NameIds, AreUniqueNamesOfFilesForAnyNames) {
   const Texts ids = ids_of(kOdd, IdFor::file, result_names());
@@ -33,7 +74,8 @@ TEST(NameIds, AreUniqueNamesOfFilesForAnyNames) {
     for (const char* device : {"con", "nul", "com1"}) EXPECT_NE(stem, device);
     EXPECT_TRUE(small.insert(small_letters(id)).second) << id << " of " << kOdd[i];
   }
-  for (const std::string_view name : result_names()) EXPECT_FALSE(small.contains(small_letters(std::string(name)))) << name;
+  for (const std::string_view name : result_names())
+    EXPECT_FALSE(small.contains(small_letters(std::string(name)))) << name;
 }
 
 TEST(NameIds, ThatAreIdsAlreadyStayAndOthersAreReadable) {
@@ -72,7 +114,8 @@ TEST(NameIds, EqualNamesHaveIdsOfTheirOwn) {
 }
 
 TEST(NameRefusal, NamesWhatCannotBeSeen) {
-  for (const char* name : {"a", "slow 2 kg", "李", "😀", "a\u200db", "..", "\\n"}) EXPECT_EQ(name_refusal(name), "") << name;
+  for (const char* name : {"a", "slow 2 kg", "李", "😀", "a\u200db", "..", "\\n"})
+    EXPECT_EQ(name_refusal(name), "") << name;
   for (const char* name : {"", "  ", "a\nb", "a\tb", "\x1b[31m", "a\x7f", "\xff", "\u0085", "a\u202eb"})
     EXPECT_NE(name_refusal(name), "") << name;
   EXPECT_NE(name_refusal("a\x07").find("U+0007 at byte 2"), std::string::npos);

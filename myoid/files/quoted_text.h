@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-/// Text of users (names, labels, paths) in the quotes of the language that reads it next. Each language has one function.
-/// JSON has myoid::json_text.
+/// Text of users (names, labels, paths) in the quotes of the language that reads it next. Each language has one
+/// function. JSON has myoid::json_text.
 namespace myoid::recording {
 
 /// Returns any text as a TOML basic string in quotes.

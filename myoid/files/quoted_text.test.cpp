@@ -16,8 +16,9 @@
 namespace myoid::recording {
 namespace {
 
-const std::array<std::string, 12> kWords{"a b",      "it's",       "$HOME `x` \"y\" \\", "--z", "$(touch x)", "{} {.} {1} {= $_=1 =} {#}",
-                                         "{a}{{b}}", "two\nlines", "Jürgen 李 😀",      "",    "tab\tend ", "-e 's/\\n/x/'"};
+const std::array<std::string, 12> kWords{
+    "a b",      "it's",       "$HOME `x` \"y\" \\", "--z", "$(touch x)", "{} {.} {1} {= $_=1 =} {#}",
+    "{a}{{b}}", "two\nlines", "Jürgen 李 😀",        "",    "tab\tend ",  "-e 's/\\n/x/'"};
 
 /// Returns the standard output of a command.
 std::string output_of(const std::string& command) {
@@ -28,7 +29,9 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-bool has_program(const std::string& name) { return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0; }
+bool has_program(const std::string& name) {
+  return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
+}
 
 TEST(ShellWord, IsReadByAShellAsItIs) {
   for (const std::string& word : kWords) EXPECT_EQ(output_of("printf %s " + shell_word(word)), word);
@@ -37,26 +40,30 @@ TEST(ShellWord, IsReadByAShellAsItIs) {
 TEST(ParallelWord, IsReadByBothShellsOfGnuParallelAsItIs) {
   if (!has_program("parallel")) GTEST_SKIP() << "GNU parallel is not installed";
   const test::TemporaryFolder folder;
-  for (const std::string& word : kWords) {
-    // The word names a script, as in the workflow of a cohort, so it is a path.
-    const auto script = folder / ("p" + word) / "script";
-    write_file(script, "printf '%s' \"$1\"");
-    EXPECT_EQ(output_of("cd " + shell_word(folder.path().string()) + " && parallel sh " + parallel_word(script.string()) +
-                        " ::: arg </dev/null"),
-              "arg")
-        << word;
-    EXPECT_FALSE(std::filesystem::exists(folder / "x"));
-  }
+  // The words are folders of a script, as in the workflow of a cohort.
+  std::filesystem::path script = folder.path();
+  for (const std::string& word : kWords) script /= "p" + word;
+  write_file(script, "printf '%s' \"$1\"");
+  EXPECT_EQ(output_of("cd " + shell_word(folder.path().string()) + " && parallel sh " + parallel_word(script.string()) +
+                      " ::: arg </dev/null"),
+            "arg");
+  EXPECT_FALSE(std::filesystem::exists(folder / "x"));
 }
 
 TEST(PythonText, IsReadByPythonAsItIs) {
   if (!has_program("python3")) GTEST_SKIP() << "Python is not installed";
-  for (const std::string& word : kWords)
-    EXPECT_EQ(output_of("python3 -c " + shell_word("import sys; sys.stdout.write(" + python_text(word) + ")")), word);
+  std::string script = "import sys\n", expected;
+  for (const std::string& word : kWords) {
+    script += "sys.stdout.write(" + python_text(word) + " + '|')\n";
+    expected += word + "|";
+  }
+  EXPECT_EQ(output_of("python3 -X utf8 -c " + shell_word(script)), expected);
 }
 
 TEST(EscapeXml, LeavesNoTagNoQuoteAndNoControlCharacter) {
-  EXPECT_EQ(escape_xml("<a b=\"c\">&'\x01\x1b\u0085\u202e\xff" "é"), "&lt;a b=&quot;c&quot;&gt;&amp;'?????é");
+  EXPECT_EQ(escape_xml("<a b=\"c\">&'\x01\x1b\u0085\u202e\xff"
+                       "é"),
+            "&lt;a b=&quot;c&quot;&gt;&amp;'?????é");
 }
 
 TEST(UrlPath, EncodesAllButLettersDigitsAndMarks) {
@@ -65,13 +72,15 @@ TEST(UrlPath, EncodesAllButLettersDigitsAndMarks) {
 
 TEST(CsvCell, IsQuotedWhereAReaderWouldTakeItForSomethingElse) {
   EXPECT_EQ(csv_cell("plain text"), "plain text");
-  for (const char* text : {"a,b", "a;b", "#1", " a", "a ", "a\tb"}) EXPECT_EQ(csv_cell(text), '"' + std::string(text) + '"');
+  for (const char* text : {"a,b", "a;b", "#1", " a", "a ", "a\tb"})
+    EXPECT_EQ(csv_cell(text), '"' + std::string(text) + '"');
   EXPECT_EQ(csv_cell("say \"x\""), "\"say \"\"x\"\"\"");
 }
 
 TEST(TerminalText, HoldsNoControlCharacter) {
   EXPECT_EQ(terminal_text("a\x1b[31m\r\u009b\u202e\xff\n\tb"), "a\\u001b[31m\\u000d\\u009b\\u202e\xEF\xBF\xBD\n\tb");
-  EXPECT_EQ(terminal_text("trial " + std::string(100000, 'n') + " is bad\n"), "trial " + std::string(59, 'n') + "… is bad\n");
+  EXPECT_EQ(terminal_text("trial " + std::string(100000, 'n') + " is bad\n"),
+            "trial " + std::string(59, 'n') + "… is bad\n");
 }
 
 TEST(Elided, CutsByCharactersAndNotByBytes) {

@@ -18,16 +18,18 @@ TEST(Utf8, CharactersAreThoseOfTheStandard) {
 }
 
 TEST(Utf8, OverlongSurrogateCutAndStrayBytesAreNone) {
-  for (const std::string_view text : {"\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xF8", "\x80", "\xE2\x82",
-                                      "\xC3(", "\xFF"})
+  for (const std::string_view text :
+       {"\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xF8", "\x80", "\xE2\x82", "\xC3(", "\xFF"})
     EXPECT_FALSE(is_utf8(text));
   EXPECT_TRUE(is_utf8("\xF4\x8F\xBF\xBF"));
   EXPECT_TRUE(is_utf8(""));
 }
 
 TEST(Utf8, WhatSteersATerminalOrTurnsWritingIsControl) {
-  for (const char32_t c : {0x00U, 0x1BU, 0x7FU, 0x9BU, 0x2028U, 0x202EU, 0x2066U}) EXPECT_TRUE(is_control(c)) << static_cast<unsigned>(c);
-  for (const char32_t c : {0x20U, 0xA0U, 0x200DU, 0x5D0U, 0xFEFFU, 0x1F600U}) EXPECT_FALSE(is_control(c)) << static_cast<unsigned>(c);
+  for (const char32_t c : {0x00U, 0x1BU, 0x7FU, 0x9BU, 0x2028U, 0x202EU, 0x2066U})
+    EXPECT_TRUE(is_control(c)) << static_cast<unsigned>(c);
+  for (const char32_t c : {0x20U, 0xA0U, 0x200DU, 0x5D0U, 0xFEFFU, 0x1F600U})
+    EXPECT_FALSE(is_control(c)) << static_cast<unsigned>(c);
 }
 
 }  // namespace

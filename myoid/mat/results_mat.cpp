@@ -114,10 +114,7 @@ MatStruct all_series(const fs::path& folder) {
 
 /// `place`: the folder of the trial's series.
 MatStruct trial(const fs::path& place, const std::string& name, const std::string& use, const std::string& failure) {
-  return {{{"name", name},
-           {"use", use},
-           {"failure", failure},
-           {"series", std::vector<MatStruct>{all_series(place)}}}};
+  return {{{"name", name}, {"use", use}, {"failure", failure}, {"series", std::vector<MatStruct>{all_series(place)}}}};
 }
 
 /// Returns the trials of a folder without run.json: the folders with series.

@@ -58,8 +58,8 @@ void write_prediction(const identification::TrialFit& prediction,
       torque.add(joint + "_low", Unit::newton_meter, std::move(band.low));
       torque.add(joint + "_high", Unit::newton_meter, std::move(band.high));
     }
-    recording::write_storage(folder / fmt::format("predicted_torque_{}.sto", joints.of(joint)), torque.series(prediction.time_s),
-                             {.title = "Predicted torque", .comments = comments});
+    recording::write_storage(folder / fmt::format("predicted_torque_{}.sto", joints.of(joint)),
+                             torque.series(prediction.time_s), {.title = "Predicted torque", .comments = comments});
   }
   SeriesColumns forces;
   for (std::size_t k = 0; k < muscles.size(); ++k) {

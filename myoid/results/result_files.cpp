@@ -195,7 +195,8 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
   for (const IdentificationResult& method : result.fit.methods) {
     if (method.method != "torque" && result.fit.methods.size() > 1) continue;
     for (const identification::TrialData& data : result.fit_input.data.trials) {
-      recording::write_storage(folder / ids.of(data.name) / "identified_forces.sto", identified_forces(result, data, method),
+      recording::write_storage(folder / ids.of(data.name) / "identified_forces.sto",
+                               identified_forces(result, data, method),
                                {.title = "Forces", .comments = with_emg(&method)});
     }
   }

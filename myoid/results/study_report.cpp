@@ -180,7 +180,7 @@ std::optional<Section> emg_section(const StudyResult& result) {
   const auto task = std::ranges::find_if(
       result.trials, [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
   if (task == result.trials.end()) return std::nullopt;
-  Figure figure = emg_figure(*task, signals::header_lines(emg_chain(result, nullptr)));
+  report::Figure figure = emg_figure(*task, signals::header_lines(emg_chain(result, nullptr)));
   figure.id = "emg_" + trial_ids(result.source.study).of(task->spec.name);
   return Section{.id = "emg", .heading = "EMG", .figures = {std::move(figure)}};
 }

@@ -9,8 +9,8 @@
 
 namespace myoid {
 
-/// Returns the ids of the study's trials: names of their folders of results, and parts of the ids of their figures. None
-/// is the name of another result.
+/// Returns the ids of the study's trials: names of their folders of results, and parts of the ids of their figures.
+/// None is the name of another result.
 [[nodiscard]] recording::NameIds trial_ids(const Study& study);
 
 /// Returns the name of the file of the model with identified numbers.

@@ -88,8 +88,7 @@ void write_csv(const std::filesystem::path& path, const RowSource& source, const
   for (const std::string& remark : remarks) head += "# " + remark + "\n";
   head += "time_s";
   for (const Channel& channel : source.channels) {
-    const std::string unit =
-        channel.unit == Unit::dimensionless ? "" : fmt::format(" [{}]", symbol(channel.unit));
+    const std::string unit = channel.unit == Unit::dimensionless ? "" : fmt::format(" [{}]", symbol(channel.unit));
     head += "," + csv_cell(channel.name + unit);
   }
   FileInParts file(path);

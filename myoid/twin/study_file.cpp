@@ -20,9 +20,8 @@ using recording::toml_text;
 void add_trial(const VirtualTrial& trial, const std::string& stem, RecordingFormat format, std::string& text) {
   const TrialProtocol& p = trial.protocol;
   const bool c3d = format == RecordingFormat::c3d;
-  text +=
-      fmt::format("\n[[trial]]\nname = {}\nmarkers = {}\nemg = {}\nuse = \"{}\"\n", toml_text(p.name),
-                  toml_text(stem + (c3d ? ".c3d" : ".trc")), toml_text(stem + (c3d ? ".c3d" : "_emg.sto")), p.use);
+  text += fmt::format("\n[[trial]]\nname = {}\nmarkers = {}\nemg = {}\nuse = \"{}\"\n", toml_text(p.name),
+                      toml_text(stem + (c3d ? ".c3d" : ".trc")), toml_text(stem + (c3d ? ".c3d" : "_emg.sto")), p.use);
   if (trial.external_torque) {
     text += fmt::format("external_torque = {}\n", toml_text(stem + "_torque.sto"));
   }

@@ -38,7 +38,8 @@ void write_trial(const VirtualRecording& recording,
   const std::string origin =
       fmt::format("virtual recording: protocol {}, seed {}", recording.protocol.name, recording.seed);
   const auto write = [&](const fs::path& file, const TimeSeries& series, const std::string& what) {
-    recording::write_storage(directory / file, series, {.title = what + " " + trial.protocol.name, .comments = {origin}});
+    recording::write_storage(directory / file, series,
+                             {.title = what + " " + trial.protocol.name, .comments = {origin}});
   };
   if (format == RecordingFormat::c3d) {
     recording::write_c3d(directory / (stem + ".c3d"), recording::make_c3d(trial.markers, trial.emg));
