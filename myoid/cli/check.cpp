@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/counted.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/file_format.h"
@@ -33,13 +34,13 @@ void print_findings(const commands::CheckResult& result, const std::string& inpu
   std::set<std::string> said;
   for (const Remark& f : result.findings) {
     const bool again = !f.remedy.empty() && !said.insert(f.remedy).second;
-    fmt::print("{:<8} {}: {}\n", name(f.severity), f.where, again ? f.says : sentence(f));
+    say("{:<8} {}: {}\n", name(f.severity), f.where, again ? f.says : sentence(f));
   }
   const std::string subject =
       result.of_study ? fmt::format("{}, {}", counted(result.trials, "trial"), counted(result.muscles, "muscle"))
                       : input;
-  fmt::print("{}: {}, {}\n", subject, counted(result.errors, "error"),
-             counted(result.findings.size() - result.errors, "remark"));
+  say("{}: {}, {}\n", subject, counted(result.errors, "error"),
+      counted(result.findings.size() - result.errors, "remark"));
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ void add_check(CLI::App& app, Context& context) {
     o->call = context.call();
     const commands::CheckResult result = commands::check(*o);
     if (context.json) {
-      fmt::print("{}\n", json_text(findings_json(result.findings)));
+      say_whole(json_text(findings_json(result.findings)) + "\n");
     } else {
       print_findings(result, o->input);
     }

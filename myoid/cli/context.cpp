@@ -13,6 +13,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
@@ -39,8 +40,8 @@ struct ProgressBar {
     const std::string left =
         share > 0.02 && share < 1.0 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share) : "";
     const int filled = static_cast<int>(share * 24.0);
-    fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share, left,
-               what);
+    std::fputs("\r\033[K", stderr);
+    say_error("[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share, left, what);
     std::fflush(stderr);
   }
 };
@@ -118,12 +119,13 @@ const CLI::Validator& zero_or_more() {
 
 void Context::log(std::string_view line) const {
   std::fflush(stdout);  // keeps the order of the two streams in one file
-  if (!quiet) fmt::print(stderr, "{}\n", line);
+  if (!quiet) say_error("{}\n", line);
 }
 
 void Context::warn(std::string_view line) const {
   if (quiet) return;
-  fmt::print(stderr, "{}warning:{} {}\n", color_wanted() ? "\033[33m" : "", color_wanted() ? "\033[0m" : "", line);
+  std::fputs(color_wanted() ? "\033[33mwarning:\033[0m " : "warning: ", stderr);
+  say_error("{}\n", line);
 }
 
 void Context::tell(const Remark& remark) const {
@@ -133,7 +135,7 @@ void Context::tell(const Remark& remark) const {
 }
 
 void Context::print(const nlohmann::ordered_json& object, const std::string& text) const {
-  fmt::print("{}\n", json ? json_text(object) : text);
+  json ? say_whole(json_text(object) + "\n") : say("{}\n", text);
 }
 
 commands::Call Context::call() const {
@@ -155,7 +157,7 @@ Progress Context::progress() const {
 }
 
 void Context::end_progress() const {
-  if (!quiet && isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
+  if (!quiet && isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
 }
 
 void Context::prepare_file(const std::filesystem::path& path, const std::vector<std::string>& inputs) const {

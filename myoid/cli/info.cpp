@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/commands/model_page.h"
 #include "myoid/contents/contents_text.h"
 #include "myoid/core/error.h"
@@ -88,11 +89,11 @@ void add_info(CLI::App& app, Context& context) {
       o->file = file;
       nlohmann::ordered_json contents = commands::info(*o);
       if (!context.json) {
-        fmt::print("{}{}", contents_text(contents), files->size() > 1 ? "\n" : "");
+        say("{}{}", contents_text(contents), files->size() > 1 ? "\n" : "");
       }
       all.push_back(std::move(contents));
     }
-    if (context.json) fmt::print("{}\n", json_text(all));
+    if (context.json) say_whole(json_text(all) + "\n");
   });
 }
 

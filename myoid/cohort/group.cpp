@@ -47,12 +47,13 @@ std::vector<std::string> own_cells(const Person& person) {
 report::Table persons_table(const Manifest& manifest, const std::vector<PersonOutcome>& outcomes) {
   report::Table table{.id = "persons", .title = "Persons", .caption = {}, .columns = {"person"}, .rows = {}};
   for (const std::string& name : manifest.fact_names()) table.columns.push_back(name);
-  for (const char* name : {"study", "outcome", "message"}) table.columns.emplace_back(name);
+  for (const char* name : {"study", "folder", "outcome", "message"}) table.columns.emplace_back(name);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Person& person = manifest.persons[i];
     const std::optional<Outcome>& outcome = outcomes[i].outcome;
     std::vector<std::string> texts = own_cells(person);
     texts.push_back(person.study.string());
+    texts.push_back(person_folder("", person).generic_string());
     texts.push_back(outcome ? std::string(choice_name(outcome->kind)) : "not computed");
     texts.push_back(outcome ? outcome->message : "");
     table.rows.push_back(report::text_row(std::move(texts)));

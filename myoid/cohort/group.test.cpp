@@ -20,7 +20,8 @@ constexpr const char* kHeader = "muscle,parameter,unit,method,case,estimate,ci_l
 Manifest three(const fs::path& folder) {
   Manifest manifest{.file = "m.csv", .persons = {}};
   const auto add = [&](const std::string& name, OutcomeKind kind, const std::string& rows) {
-    manifest.persons.push_back({.name = name, .label = name, .study = "s.toml", .facts = {{"group", "young, fit"}}});
+    manifest.persons.push_back(
+        {.name = name, .id = name, .label = name, .study = "s.toml", .facts = {{"group", "young, fit"}}});
     const fs::path place = person_folder(folder, manifest.persons.back());
     write_outcome({.kind = kind, .message = kind == OutcomeKind::failed ? "no EMG" : ""}, place);
     if (!rows.empty()) recording::write_file(place / "parameters.csv", kHeader + rows);

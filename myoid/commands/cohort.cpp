@@ -18,6 +18,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/folder_lock.h"
+#include "myoid/files/quoted_text.h"
 
 namespace myoid::commands {
 namespace {
@@ -185,7 +186,8 @@ cohort::Group write_cohort_group(const CohortOptions& o, const fs::path& folder)
 std::string write_cohort_workflow(const CohortOptions& o, cohort::Engine engine, const fs::path& folder) {
   const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
   std::string options;
-  if (!o.study.empty()) options += "--study " + cohort::shell_word(fs::absolute(o.study).lexically_normal().string());
+  if (!o.study.empty())
+    options += "--study " + recording::shell_word(fs::absolute(o.study).lexically_normal().string());
   if (o.estimator) options += fmt::format("{}--estimator {}", options.empty() ? "" : " ", choice_name(*o.estimator));
   const cohort::Workflow workflow = cohort::workflow(engine, manifest, folder, options);
   for (const cohort::WorkflowFile& file : workflow.files)

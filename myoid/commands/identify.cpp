@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/intervals/verdict_cap.h"
@@ -112,8 +113,9 @@ std::string solvers_csv(const std::vector<identification::NamedContest>& contest
   std::string text = "fit,solver,start,cost,distance,evaluations,seconds,termination\n";
   for (const auto& [fit, c] : contests) {
     for (const identification::SolverRun& run : c.runs) {
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", fit, run.solver, run.start, number(run.cost),
-                          number(run.distance), run.evaluations, number(run.seconds), math::name(run.termination));
+      text +=
+          fmt::format("{},{},{},{},{},{},{},{}\n", recording::csv_cell(fit), run.solver, run.start, number(run.cost),
+                      number(run.distance), run.evaluations, number(run.seconds), math::name(run.termination));
     }
   }
   return text;

@@ -8,10 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "myoid/files/file_words.h"
+#include "myoid/files/name_ids.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid {
 namespace {
+
+using recording::toml_text;
 
 /// Grows as two files belong to one trial more surely: by an equal name, then by the folders that both are in, then by
 /// a long name.
@@ -56,7 +61,7 @@ class TrialWriter {
       if (f.markers.frame_count() == 0 || f.motion_taken) continue;
       if (!starts_from_markers(f, found_)) {
         notes_.push_back(fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
-                                     in_quotes(around_.relative(f.path))));
+                                     toml_text(around_.relative(f.path))));
       } else {
         motion_trial(f, "markers");
       }
@@ -70,7 +75,10 @@ class TrialWriter {
   }
 
  private:
-  [[nodiscard]] std::string unique(std::string name) {
+  /// Returns a name of a trial from the name of a file, whatever bytes that has.
+  [[nodiscard]] std::string unique(const std::string& stem) {
+    std::string name = recording::to_utf8(stem);
+    if (name.empty() || !recording::name_refusal(name).empty()) name = recording::ids_of({stem}).front();
     while (!names_.insert(name).second) name += "_2";
     return name;
   }
@@ -84,17 +92,17 @@ class TrialWriter {
     if (without_emg && use != "passive") use = "static";
     if (emg != nullptr) found_[static_cast<std::size_t>(emg - found_.data())].emg_taken = true;
     out_.line("[[trial]]");
-    out_.line("name = " + in_quotes(unique(f.stem)));
-    out_.line(key + " = " + in_quotes(around_.relative(f.path)));
-    if (emg != nullptr) out_.line("emg = " + in_quotes(around_.relative(emg->path)));
+    out_.line("name = " + toml_text(unique(f.stem)));
+    out_.line(key + " = " + toml_text(around_.relative(f.path)));
+    if (emg != nullptr) out_.line("emg = " + toml_text(around_.relative(emg->path)));
     two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
-    out_.line("use = " + in_quotes(use));
+    out_.line("use = " + toml_text(use));
     any_calibration_ = any_calibration_ || use == "calibration";
     if (without_emg) without(emg_of(f, found_, !around_.raw_emg), f.stem);
     bool stated = false;
     for (const std::filesystem::path& loads : around_.external_loads) {
       if (trial_stem(loads) != f.stem) continue;
-      out_.line("external_loads = " + in_quotes(around_.relative(loads)));
+      out_.line("external_loads = " + toml_text(around_.relative(loads)));
       stated = true;
     }
     if (f.plates > 0) {
@@ -125,8 +133,8 @@ class TrialWriter {
           f.path.filename().string()));
     const std::string remark = mvc ? "" : "# ";
     out_.line(remark + "[[trial]]");
-    out_.line(remark + "name = " + in_quotes(unique(f.stem)));
-    out_.line(remark + "emg = " + in_quotes(around_.relative(f.path)));
+    out_.line(remark + "name = " + toml_text(unique(f.stem)));
+    out_.line(remark + "emg = " + toml_text(around_.relative(f.path)));
     out_.line(remark + "use = \"mvc\"");
     out_.line("");
   }

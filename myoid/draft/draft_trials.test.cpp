@@ -22,7 +22,7 @@ FoundRecording found(const std::string& name, bool angles, bool emg) {
 }
 
 TEST(DraftText, QuotesAsTomlWritesThem) {
-  EXPECT_EQ(in_quotes("a \"b\" \\ \n"), "\"a \\\"b\\\" \\\\ \"");
+  EXPECT_EQ(toml_text("a \"b\" \\ \n"), "\"a \\\"b\\\" \\\\ \"");
   EXPECT_EQ(list_of({"a", "b"}), "[\"a\", \"b\"]");
 }
 

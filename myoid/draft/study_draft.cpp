@@ -20,7 +20,10 @@
 #include "myoid/draft/draft_text.h"
 #include "myoid/draft/draft_trials.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/file_words.h"
 #include "myoid/files/label_match.h"
+#include "myoid/files/name_ids.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
@@ -30,6 +33,7 @@ namespace myoid {
 namespace {
 
 namespace fs = std::filesystem;
+using recording::toml_text;
 
 class Draft {
  public:
@@ -198,7 +202,8 @@ class Draft {
     line("[subject]");
     std::error_code error;
     const fs::path at = fs::absolute(folder_, error).lexically_normal();
-    line("name = " + in_quotes((at.has_filename() ? at : at.parent_path()).filename().string()));
+    const std::string folder = recording::to_utf8((at.has_filename() ? at : at.parent_path()).filename().string());
+    line("name = " + toml_text(recording::name_refusal(folder).empty() ? folder : "subject"));
     if (const std::vector<std::string> persons = persons_in(found_); persons.size() > 1)
       todo(fmt::format(
           "{} in the names: are these {} persons? A study is of one person: draft one for each (`myoid init "
@@ -214,7 +219,7 @@ class Draft {
   void model_table() {
     line("[model]");
     if (model_file_) {
-      line("file = " + in_quotes(relative(*model_file_)));
+      line("file = " + toml_text(relative(*model_file_)));
     } else {
       line("builtin = \"arm4\"");
       if (!other_models_.empty())
@@ -222,7 +227,7 @@ class Draft {
     }
     if (guessed_coordinate_)
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
-    line("coordinate = " + in_quotes(coordinate_));
+    line("coordinate = " + toml_text(coordinate_));
     line("");
   }
 
@@ -265,7 +270,7 @@ class Draft {
     }
     if (similar_.empty()) return;
     std::vector<std::string> pairs;
-    for (const auto& [name, like] : similar_) pairs.push_back(fmt::format("{} = {}", in_quotes(name), in_quotes(like)));
+    for (const auto& [name, like] : similar_) pairs.push_back(fmt::format("{} = {}", toml_text(name), toml_text(like)));
     todo("are these the same? Then take the # away");
     line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }
@@ -329,9 +334,9 @@ class Draft {
       while (!names.insert(name).second) name += "_2";
       if (first.empty()) first = name;
       line("[[muscle]]");
-      line("name = " + in_quotes(name));
+      line("name = " + toml_text(name));
       line("osim = " + list_of(fresh));
-      line("emg = " + in_quotes(pair.channel));
+      line("emg = " + toml_text(pair.channel));
       line("");
     }
     if (first.empty()) {
@@ -365,8 +370,8 @@ class Draft {
                     "act as another muscle does:",
                     coordinate_, fmt::join(left, ", ")));
     line("# [[muscle]]");
-    line("# name = " + in_quotes(left[0]));
-    line("# emg = { same_as = " + in_quotes(like) + " }");
+    line("# name = " + toml_text(left[0]));
+    line("# emg = { same_as = " + toml_text(like) + " }");
     line("");
   }
 
@@ -388,9 +393,7 @@ class Draft {
     if (!draft_.notes.empty()) {
       line("");
       for (const std::string& note : draft_.notes) {
-        std::string flat = note;
-        std::ranges::replace(flat, '\n', ' ');
-        line("# " + flat);
+        line("# " + in_remark(note));
       }
     }
   }

@@ -136,7 +136,7 @@ const std::vector<FormatEntry>& file_formats() {
        .kind = "a study",
        .holds = "a study, the protocol of a virtual recording, an isolated muscle",
        .reader = "files/toml_table",
-       .writer = "files/toml_text"},
+       .writer = "files/quoted_text"},
   };
   return table;
 }

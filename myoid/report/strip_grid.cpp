@@ -153,9 +153,9 @@ std::string strip_grid_html(const StripGrid& grid) {
   text += "</tr></thead>\n<tbody>\n";
   for (const StripRow& row : grid.rows) {
     const std::string name = escape_xml(row.person);
-    text += row.page.empty()
-                ? fmt::format("<tr><td title=\"{0}\">{0}</td>", name)
-                : fmt::format("<tr><td title=\"{0}\"><a href=\"{1}\">{0}</a></td>", name, escape_xml(row.page));
+    text += row.page.empty() ? fmt::format("<tr><td title=\"{0}\">{0}</td>", name)
+                             : fmt::format("<tr><td title=\"{0}\"><a href=\"{1}\">{0}</a></td>", name,
+                                           recording::url_path(row.page));
     for (std::size_t c = 0; c < grid.columns.size(); ++c)
       text += cell_html(row, grid.columns[c], row.cells[c], scales[c]);
     text += "</tr>\n";

@@ -8,14 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/json_text.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/study/study_settings.h"
 
 namespace myoid {
 namespace {
 
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
-
-std::string in_quotes(const std::string& text) { return fmt::format("\"{}\"", text); }
 
 std::string words_of(const Setting& setting) {
   std::vector<std::string> words;
@@ -83,10 +82,10 @@ std::string default_of(const Setting& setting, const SettingValue& value, bool o
   if (const auto* flag = std::get_if<bool>(&value)) return option ? (*flag ? "on" : "off") : (*flag ? "true" : "false");
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string>(&value); text != nullptr && !text->empty())
-    return code(option ? *text : in_quotes(*text));
+    return code(option ? *text : recording::toml_text(*text));
   if (const auto* list = std::get_if<std::vector<std::string>>(&value); list != nullptr && !list->empty()) {
     std::vector<std::string> quoted;
-    std::transform(list->begin(), list->end(), std::back_inserter(quoted), in_quotes);
+    std::transform(list->begin(), list->end(), std::back_inserter(quoted), recording::toml_text);
     return list->size() == 1 ? code(quoted.front()) : code(fmt::format("[{}]", fmt::join(quoted, ", ")));
   }
   if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)

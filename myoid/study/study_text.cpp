@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/json_text.h"
-#include "myoid/files/toml_text.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/study/study_settings.h"
 
 namespace myoid {

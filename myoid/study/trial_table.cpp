@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/files/file_format.h"
+#include "myoid/study/study_ids.h"
 
 namespace myoid {
 
@@ -73,12 +74,10 @@ void visit(PlateSpec& plates, SettingVisitor& v) {
 namespace {
 
 void visit_name(TrialSpec& trial, SettingVisitor& v) {
-  v.text("name", trial.name, {.says = "Unique; becomes a folder.", .required = "a name that is unique in the study"});
-  const std::string& name = trial.name;
-  const bool folder = !name.empty() && name.find_first_of("/\\") == std::string::npos && !name.starts_with(".") &&
-                      name != "figures" && name != "tables";
-  v.must(folder, "name",
-         fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -", name));
+  v.text("name", trial.name,
+         {.says = "Unique, any text. The trial's [folder of results](run.md#what-comes-out) has an id made from it.",
+          .required = "a name that is unique in the study"});
+  must_be_name(v, "name", trial.name);
 }
 
 /// Visits the recordings of a trial.

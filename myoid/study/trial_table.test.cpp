@@ -38,11 +38,14 @@ TEST(TrialTable, AnEndBeforeTheStartIsRefused) {
   EXPECT_NE(trial_message(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"), std::string::npos);
 }
 
-TEST(TrialTable, ANameThatWouldLeaveTheResultsFolderIsRefused) {
-  for (const std::string name : {"../t", "a/b", ".", "", "figures"}) {
-    const std::string message = trial_message("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
-    EXPECT_NE(message.find("a trial's name becomes a folder"), std::string::npos) << name;
-  }
+TEST(TrialTable, AnyTextThatCanBeSeenIsAName) {
+  const auto message_for = [](const std::string& name) {
+    return trial_message("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
+  };
+  for (const char* name : {"../t", "a/b", ".", "figures", "slow 2 kg", "李", "run.json", "{a}", "-x"})
+    EXPECT_EQ(message_for(name), "(no error)") << name;
+  for (const char* name : {"", "  ", "a\\u0007", "a\\tb", "a\\nb", "\\u202e"})
+    EXPECT_NE(message_for(name).find("study.toml:1: "), std::string::npos) << message_for(name);
 }
 
 TEST(TrialTable, ExcludedWindowsArePairsOfTimesAndForeignContacts) {

@@ -19,7 +19,13 @@ namespace {
 using Kind = TableColumn::Kind;
 
 char separator_of(std::string_view head) {
-  const auto count = [&](char c) { return std::ranges::count(head, c); };
+  std::string bare;  // without texts in quotes
+  bool quoted = false;
+  for (const char c : head) {
+    quoted = quoted != (c == '"');
+    if (!quoted) bare += c;
+  }
+  const auto count = [&](char c) { return std::ranges::count(bare, c); };
   return count(';') > 0 && count(';') >= count(',') ? ';' : count('\t') > count(',') ? '\t' : ',';
 }
 

@@ -168,7 +168,7 @@ class Result:
     def trials(self) -> dict[str, Trial]:
         """The trials by name, with their series."""
         return {
-            t["name"]: Trial(self.path / t["name"], t["name"], t.get("use", ""), t.get("failure", "") or "")
+            t["name"]: Trial(self.path / t.get("folder", t["name"]), t["name"], t.get("use", ""), t.get("failure", "") or "")
             for t in self.run["trials"]
         }
 
@@ -220,8 +220,7 @@ class Result:
     @property
     def model(self) -> Path | None:
         """The identified model (.osim); None where there is none."""
-        file = self.path / "model_identified.osim"
-        return file if file.is_file() else None
+        return next(iter(sorted(self.path.glob("*_identified.osim"))), None)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Copies all files into a new folder."""
@@ -292,7 +291,6 @@ class PredictResult:
 
     def __init__(self, folder: _Folder, found: Mapping[str, Any]) -> None:
         self._folder = folder
-        self._names: list[str] = list(found["trials"])
         self.remarks = found["remarks"]
 
     @property
@@ -303,7 +301,8 @@ class PredictResult:
     @property
     def trials(self) -> dict[str, Trial]:
         """The trials by name."""
-        return {name: Trial(self.path / name, name) for name in self._names}
+        made = json.loads((self.path / "predictions.json").read_text(encoding="utf-8"))
+        return {t["trial"]: Trial(self.path / t["folder"], t["trial"]) for t in made["trials"]}
 
     @cached_property
     def scores(self) -> Table:

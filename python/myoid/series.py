@@ -190,6 +190,7 @@ class Table(Sequence[Mapping[str, Any]]):
     @classmethod
     def read(cls, path: str | Path) -> Table:
         """Reads a table (.csv) of Myoid."""
+        csv.field_size_limit(2**31 - 1)  # names may be long
         with open(path, encoding="utf-8", newline="") as file:
             reader = csv.reader(line for line in file if not line.startswith("#"))
             columns = next(reader, [])
