@@ -108,7 +108,8 @@ struct NormalisationOptions {
   bool held_back = false;  ///< For `add_normalisation`: trials for validation took no part.
 };
 
-/// Returns one entry for each channel of the first trial. All trials must have the same channels. Throws InvalidInput
+/// Returns one entry for each channel of the first trial. Half seconds that no other effort confirms (`lone_peaks`) are
+/// not the reference while another effort can be; `check_emg_levels` names them. All trials must have the same channels. Throws InvalidInput
 /// if a channel is missing in a trial or flat, or no trial is as long as the window.
 [[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelope> trials,
                                                                    const NormalisationOptions& options = {});

@@ -32,6 +32,8 @@ struct QualityLimits {
   double noise_level = 2.0;        ///< Factor between the level of such noise and the channel's rest.
   double rectified_share = 0.02;   ///< Samples near zero of rectified EMG.
   double over_reference = 1.1;     ///< A movement's effort over that of the maximal contraction.
+  double lone_reference = 3.0;         ///< Greatest half second over the next: an effort lasts, or comes again.
+  double lone_reference_at_end = 1.5;  ///< The same within half a second of an end of a recording.
   /// The same ratio in all channels, of efforts and of quietest levels, that only another unit makes.
   double other_unit = 10.0;
   double gain = 2.5;        ///< The same ratio to the other trials: the gain of an amplifier.

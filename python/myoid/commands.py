@@ -473,7 +473,8 @@ class MuscleResult:
         series: activation, lengths [m], velocities [m/s], pennation [rad], forces [N]; None for a fit.
         mean_absolute_error: From the measured force [N]; None without one.
         relative_error: The same as a share of the isometric force.
-        estimates: Of a fit: parameter, unit, start, estimate, std_error, at_bound.
+        estimates: Of a fit: parameter, unit, start, estimate, std_error (infinite
+            unless `told`), at_bound, told.
         errors: Of a fit: recording, starting_values, fitted, predicted, as shares of the isometric force.
     """
 
