@@ -76,8 +76,8 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
              free: Texts | None = None, residual_cutoff: float | None = None, max_rate: float | None = None,
              estimator: str | None = None, posterior_draws: int | None = None, loss: str | None = None,
              bootstrap: int | None = None, profile: bool = False, compare_solvers: bool = False,
-             starts: int | None = None, folds: str | None = None, validate: Texts | None = None,
-             out: File | None = None, mat: File | None = None, threads: int | None = None, seed: int | None = None,
+             starts: int | None = None, folds: str | None = None, scales: str | None = None,
+             validate: Texts | None = None, out: File | None = None, mat: File | None = None, threads: int | None = None, seed: int | None = None,
              start: float | None = None, end: float | None = None, overwrite: bool = False,
              progress: Report = None) -> Result:  # fmt: skip
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
@@ -108,6 +108,7 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         compare_solvers: Also writes solvers.csv.
         starts: Starts of the search.
         folds: The part that is left out and predicted: "trial", "block" or "none".
+        scales: "electrode": muscles that share an electrode share one scale of every parameter; "muscle": each its own.
         validate: Trials that are not fitted but predicted, each by its number or its file of lengths.
         out: Folder of the results; None: a temporary folder.
         mat: Parameters, series and draws also as one MATLAB file, which ends in .mat.
