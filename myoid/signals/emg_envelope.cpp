@@ -10,6 +10,7 @@
 #include "myoid/core/index.h"
 #include "myoid/core/normal.h"
 #include "myoid/math/statistics.h"
+#include "myoid/signals/ecg.h"
 #include "myoid/signals/emg_kind.h"
 #include "myoid/signals/emg_reference.h"
 #include "myoid/signals/emg_spikes.h"
@@ -159,6 +160,16 @@ Eigen::MatrixXd take_out_spikes(const TimeSeries& raw, EmgStages& stages) {
   return values;
 }
 
+/// Takes the heart out of the channels that hold it.
+void take_out_heart(double rate_hz, const std::vector<Channel>& channels, Eigen::MatrixXd& values, EmgStages& stages) {
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    const std::optional<EcgBeats> beats = find_ecg(values.col(c), rate_hz);
+    if (!beats) continue;
+    values.col(c) = without_ecg(values.col(c), rate_hz, *beats);
+    stages.ecg.push_back({channels[at(c)].name, beats->at.size()});
+  }
+}
+
 }  // namespace
 
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
@@ -171,6 +182,8 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   require_finite(raw, "EMG");
   EmgStages stages;
   Eigen::MatrixXd values = take_out_spikes(raw, stages);
+  if (options.remove_ecg && !options.as_published)
+    take_out_heart(raw.mean_rate_hz(), raw.channels(), values, stages);
   const Eigen::RowVectorXd mean = values.colwise().mean();
   values.rowwise() -= mean;
   stages.raw = TimeSeries(raw.time_s(), raw.channels(), std::move(values));

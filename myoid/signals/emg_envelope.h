@@ -17,6 +17,7 @@ struct EnvelopeOptions {
   bool rectify = true;
   bool notch = true;  ///< Removes mains hum where it holds a tenth of the power (`find_hum`);
                       ///< ignored with `as_published`.
+  bool remove_ecg = false;  ///< Takes the heart out of channels that hold it (`find_ecg`); ignored with `as_published`.
   /// Empty: whitens if the recording allows (`decide_whitening`). Never whitens with `as_published`
   /// or without `rectify`.
   std::optional<bool> whitening;
@@ -36,9 +37,15 @@ struct MendedSpikes {
   std::size_t count = 0;
 };
 
+/// The heart that was taken out of a channel.
+struct RemovedEcg {
+  std::string channel;
+  std::size_t beats = 0;
+};
+
 /// One trial's EMG at each stage of processing.
 struct EmgStages {
-  TimeSeries raw;                ///< As read, without spikes, mean removed [V].
+  TimeSeries raw;                ///< As read, without spikes and, if asked, the heart; mean removed [V].
   TimeSeries filtered;           ///< High-passed, hum removed [V].
   TimeSeries rectified;          ///< Whitened (if so decided) and rectified [V].
   TimeSeries envelope;           ///< Low-passed, never negative [V].
@@ -48,6 +55,7 @@ struct EmgStages {
   Eigen::VectorXd flatness;
   std::vector<Notch> notches;
   std::vector<MendedSpikes> spikes;
+  std::vector<RemovedEcg> ecg;
   std::vector<std::string> findings;  ///< A rate too low for the EMG, an envelope clipped at 0.
 };
 

@@ -26,6 +26,8 @@ struct QualityLimits {
   double artifact_over_rms = 3.0;  ///< Amplitude between 1 and 15 Hz over the loudest EMG above 20 Hz.
   double spike_s = 1e-3;           ///< Width of a spike; EMG behind an amplifier's band is wider.
   double spike_over_emg = 5.0;     ///< Height of a spike over the 98th percentile around it.
+  double ecg_alike = 0.8;          ///< Correlation of a beat of the heart with the others; bursts of EMG have none.
+  double ecg_irregular = 0.15;     ///< Median departure of the beats' intervals from their median, over it.
   double noise_flatness = 0.8;     ///< Bandwidth over that of white noise; EMG has 0.2 to 0.65.
   double noise_v = 1e-5;           ///< No amplifier is so noisy.
   double noise_rises = 1.5;        ///< Largest over smallest level of a channel that is nothing but noise.
