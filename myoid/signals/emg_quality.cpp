@@ -208,7 +208,7 @@ class ChannelCheck {
   void hum(std::vector<Remark>& faults) {
     const auto found = find_hum(emg_, rate_hz_);
     if (!found || found->share < kLimits.hum_share) return;
-    add(faults, RemarkCode::emg_hum, true, 0, x_.size() - 1, found->share,
+    add(faults, RemarkCode::emg_hum, !treatment_.notched, 0, x_.size() - 1, found->share,
         fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz", name_, 100.0 * found->share,
                     fmt::join(found->lines_hz, ", ")),
         treatment_.notched ? "notches take it out; check the reference electrode"
