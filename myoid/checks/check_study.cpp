@@ -291,7 +291,14 @@ std::vector<Remark> check_recording(const std::filesystem::path& path, const std
       findings.push_back(std::move(fault));
     }
   };
-  add(signals::check_markers(file.markers));
+  std::vector<Remark> of_markers = signals::check_markers(file.markers);
+  for (Remark& fault : of_markers) {
+    // A label of the laboratory's list that nobody used. A study warns of it where its model has that marker.
+    const Eigen::VectorXd& t = file.markers.time_s;
+    const bool never = fault.code == RemarkCode::marker_gap && fault.value >= t[t.size() - 1] - t[0];
+    if (never) fault.severity = std::max(fault.severity, Severity::note);
+  }
+  add(std::move(of_markers));
   if (const auto emg = voltages(path, file.analog, file.plates)) {
     require_finite(*emg, path.string());
     constexpr Eigen::Index kFewest = 10;
