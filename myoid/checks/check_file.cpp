@@ -56,8 +56,12 @@ std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::str
   const signals::EmgStages stages = raw ? signals::process_emg(emg, options) : signals::EmgStages{};
   const std::vector<signals::TrialEnvelope> one{{where, false, raw ? &stages.envelope : &emg, {}, stages.flatness}};
   std::vector<Remark> faults = signals::check_emg_levels(one);
-  // A muscle may rest throughout one recording.
-  for (Remark& fault : faults) fault.severity = std::max(fault.severity, Severity::warning);
+  // A muscle may rest or work throughout one recording; noise alone is a fault.
+  for (Remark& fault : faults) {
+    const bool noise = fault.severity == Severity::error;
+    fault.severity = fault.code == RemarkCode::emg_low_signal && !noise ? Severity::note
+                                                                        : std::max(fault.severity, Severity::warning);
+  }
   return faults;
 }
 
@@ -150,7 +154,14 @@ std::vector<Remark> check_recording(const std::filesystem::path& path,
       findings.push_back(std::move(fault));
     }
   };
-  add(signals::check_markers(file.markers));
+  std::vector<Remark> of_markers = signals::check_markers(file.markers);
+  for (Remark& fault : of_markers) {
+    // A label of the laboratory's list that nobody used. A study warns of it where its model has that marker.
+    const Eigen::VectorXd& t = file.markers.time_s;
+    const bool never = fault.code == RemarkCode::marker_gap && fault.value >= t[t.size() - 1] - t[0];
+    if (never) fault.severity = std::max(fault.severity, Severity::note);
+  }
+  add(std::move(of_markers));
   if (const auto emg = voltages(path, file.analog, file.plates)) {
     require_finite(*emg, path.string());
     constexpr Eigen::Index kFewest = 10;

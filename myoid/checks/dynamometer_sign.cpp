@@ -136,7 +136,7 @@ std::vector<Remark> dynamometer_signs(const Study& study,
            .says = fmt::format(
                "{}: the torque on {} acts in the direction of the active muscles (cosine with their necessary torque "
                "{:.2f}, expected above 0): is its sign reversed? external_torque is the torque of the surroundings on "
-               "the body, positive in the coordinate's direction; negate the column if it is the person's torque",
+               "the body, positive in the coordinate's direction: is it the person's torque on the dynamometer?",
                trial->spec->external_torque->filename().string(), name, cosine)});
     }
   }

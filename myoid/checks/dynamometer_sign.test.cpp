@@ -49,7 +49,7 @@ TEST(DynamometerSigns, ReversedInEveryTrialAreAnErrorThatSaysWhatToNegate) {
   EXPECT_EQ(found[0].severity, Severity::error);
   EXPECT_EQ(found[0].where, "up");
   EXPECT_NE(found[0].says.find("up.sto: the torque on elbow_flexion"), std::string::npos) << found[0].says;
-  EXPECT_NE(found[0].says.find("negate the column"), std::string::npos);
+  EXPECT_NE(found[0].says.find("the person's torque on the dynamometer?"), std::string::npos);
 }
 
 TEST(DynamometerSigns, ReversedInOneTrialAreAWarningOfThatTrial) {

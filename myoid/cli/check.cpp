@@ -18,7 +18,10 @@ namespace {
 nlohmann::ordered_json findings_json(const std::vector<Remark>& findings) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const Remark& f : findings) {
-    json.push_back({{"level", std::string(name(f.severity))}, {"where", f.where}, {"message", sentence(f)}});
+    json.push_back({{"level", std::string(name(f.severity))},
+                    {"where", f.where},
+                    {"message", sentence(f)},
+                    {"code", std::string(name(f.code))}});
     if (!f.when) continue;
     json.back()["fault"] = std::string(name(f.code));
     json.back()["channel"] = f.about;

@@ -1,11 +1,14 @@
 #include "myoid/commands/compare.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
+#include "myoid/results/change_sentences.h"
 
 namespace myoid::cli {
 namespace {
@@ -25,26 +28,34 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
                     {"first", p.first.estimate},
                     {"second", p.second.estimate},
                     {"difference", p.difference},
+                    {"difference_percent", p.base == 0.0 ? nlohmann::ordered_json(nullptr)
+                                                         : nlohmann::ordered_json(100.0 * p.difference / std::abs(p.base))},
                     {"smallest_detectable", optional_number(p.smallest_detectable)},
                     {"p_value", optional_number(p.p_value)},
-                    {"change", std::string(name(p.change))}});
+                    {"change", std::string(name(p.change))},
+                    {"says", change_text(p)}});
   }
   return {{"first", comparison.first.string()},
           {"second", comparison.second.string()},
+          {"first_date", comparison.first_date},
+          {"second_date", comparison.second_date},
+          {"headline", changes_sentence(comparison)},
           {"parameters", rows},
           {"unlike", comparison.unlike},
           {"remarks", comparison.remarks}};
 }
 
 void print(const RunComparison& comparison) {
-  say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second", "difference",
-      "p", "verdict");
+  say("{}\n\n", changes_sentence(comparison));
+  say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second",
+             "difference", "%", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
-    if (p.first.method == "paper") continue;  // in the report; shared forces do not describe a person
-    say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", p.muscle,
-        fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
-        report::format_value(p.second.estimate), report::format_value(p.difference),
-        p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
+    if (!rests_on_measurement(p.first.method)) continue;  // in the report
+    say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", p.muscle,
+               fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
+               report::format_value(p.second.estimate), report::format_value(p.difference),
+               p.base == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.base)),
+               p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }
   for (const std::string& remark : comparison.remarks) say("{}\n", remark);
 }

@@ -19,7 +19,7 @@ namespace myoid::cli {
 namespace {
 
 struct EmgFlags {
-  std::string out, envelope;
+  std::string out, envelope, measures;
   bool no_notch = false;
   bool whitening = false, no_whitening = false;
 };
@@ -40,6 +40,22 @@ nlohmann::ordered_json emg_json(const std::vector<std::string>& out, const comma
                                 {"reference_time_s", n.source_time_s},
                                 {"from_mvc", n.from_mvc}});
   }
+  json["measures"] = nlohmann::ordered_json::array();
+  for (const commands::EmgMeasures& one : result.measures) {
+    const auto rows = [](const std::vector<signals::EmgWindow>& windows) {
+      nlohmann::ordered_json list = nlohmann::ordered_json::array();
+      for (const signals::EmgWindow& w : windows)
+        list.push_back({{"begin_s", w.begin_s},
+                        {"end_s", w.end_s},
+                        {"rms_v", w.rms},
+                        {"median_frequency_hz", w.median_frequency_hz}});
+      return list;
+    };
+    json["measures"].push_back({{"file", one.file},
+                                {"channel", one.channel},
+                                {"bursts", rows(one.bursts)},
+                                {"windows", rows(one.windows)}});
+  }
   return json;
 }
 
@@ -54,11 +70,25 @@ void print_emg(const std::vector<std::string>& out, const commands::EmgResult& r
   for (const std::string& file : out) say("{}\n", file);
 }
 
+/// Checks the file of the measures as the other results.
+void check_measures(const commands::EmgOptions& o,
+                    const std::string& measures,
+                    std::vector<std::string> others,
+                    const std::vector<std::string>& more,
+                    bool overwrite) {
+  if (measures.empty()) return;
+  others.insert(others.end(), more.begin(), more.end());
+  for (const std::string& other : others)
+    if (other == measures) throw InvalidInput(fmt::format("--measures and another option both name {}", other));
+  commands::check_emg_files(o, {measures}, {}, overwrite);
+}
+
 void run_emg(commands::EmgOptions o, const EmgFlags& asked, const Context& context) {
   if (asked.out.empty()) throw InvalidInput("--out: a name is expected, found none");
   const std::vector<std::string> activations = commands::emg_files(o.in, asked.out, "--out");
   const std::vector<std::string> envelopes = commands::emg_files(o.in, asked.envelope, "--envelope");
   commands::check_emg_files(o, activations, envelopes, context.overwrite);
+  check_measures(o, asked.measures, activations, envelopes, context.overwrite);
   for (const std::vector<std::string>* files : {&activations, &envelopes})
     for (const std::string& file : *files) context.remember_new_folder(std::filesystem::path(file).parent_path());
   o.chain.notch = !asked.no_notch;
@@ -67,6 +97,7 @@ void run_emg(commands::EmgOptions o, const EmgFlags& asked, const Context& conte
   o.call = context.call();
   const commands::EmgResult result = commands::emg(o);
   commands::write_emg(result, activations, envelopes);
+  if (!asked.measures.empty()) commands::write_emg_measures(result, asked.measures);
   if (context.json) {
     say_whole(json_text(emg_json(activations, result)) + "\n");
   } else {
@@ -107,6 +138,13 @@ void add_emg(CLI::App& app, Context& context) {
                                      "Even out the spectrum of all channels before they are rectified (default: if the "
                                      "files allow it for every channel)");
   command.add_flag("--no-whitening", asked->no_whitening, "Even it out in no channel")->excludes(on);
+  command.add_flag("--remove-ecg", o->chain.remove_ecg, "Take the heart out of channels that hold it, as the trunk's do");
+  command.add_option("--measures", asked->measures,
+                     "Write onset, end, root mean square and median frequency of every burst here (.csv)");
+  command
+      .add_option("--measure-window", o->measure_window_s,
+                  "With --measures also root mean square and median frequency of successive windows this long [s]")
+      ->check(above_zero());
   command.add_flag("--as-published", o->chain.as_published,
                    "As the source paper: no high-pass, low-pass designed for one pass");
   command.add_option("--window", o->window_s, "Window of the mean that counts as 1 [s] (default 0.5)")

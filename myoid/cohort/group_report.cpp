@@ -1,7 +1,6 @@
 #include "myoid/cohort/group_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,14 +14,11 @@
 #include "myoid/core/counted.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
-#include "myoid/core/units.h"
-#include "myoid/report/typeset.h"
+#include "myoid/results/change_sentences.h"
 #include "myoid/results/group_changes.h"
 
 namespace myoid::cohort {
 namespace {
-
-bool is_by_torque(const ComparedParameter& p) { return p.first.method == "torque"; }
 
 std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
   const std::vector<GroupRun> first = group_runs(options.persons), second = group_runs(options.after);
@@ -37,32 +33,18 @@ std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
   return changes;
 }
 
-/// Returns "is stronger", "optimal fiber length is smaller".
-std::string changed(const std::string& parameter, double difference) {
-  if (parameter == "max_isometric_force") return difference > 0.0 ? "is stronger" : "is weaker";
-  return report::spelled(parameter) + (difference > 0.0 ? " is larger" : " is smaller");
-}
-
-/// Returns a person's changes: "P7: BIC is stronger by 150 N (25 %)."
+/// Returns the persons' changes: "P7: BIC stronger by 150 N (25 %, ...)."
 std::string change_sentence(const std::vector<PersonChange>& changes) {
   constexpr std::size_t kNamed = 4;
   std::vector<std::string> found;
   for (const PersonChange& person : changes) {
-    const auto& all = person.comparison.parameters;
-    const bool torque = std::ranges::any_of(all, is_by_torque);
-    for (const ComparedParameter& p : all) {
-      if (p.change != Change::differs || is_by_torque(p) != torque) continue;
-      found.push_back(fmt::format("{}: {} {} by {:.3g}{}{} ({:.0f} %)", person.person, p.muscle,
-                                  changed(p.first.parameter, p.difference), std::abs(p.difference),
-                                  p.first.unit == Unit::dimensionless ? "" : " ",
-                                  p.first.unit == Unit::dimensionless ? "" : symbol(p.first.unit),
-                                  100.0 * std::abs(p.difference / p.first.estimate)));
-    }
+    for (const ComparedParameter* p : counted_parameters(person.comparison))
+      if (p->change == Change::differs) found.push_back(fmt::format("{}: {}", person.person, change_text(*p)));
   }
   if (found.empty()) return "No number of any person changed by more than chance explains.";
   const std::size_t more = found.size() - std::min(found.size(), kNamed);
   found.resize(found.size() - more);
-  return fmt::format("{}{}.", fmt::join(found, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+  return fmt::format("{}{}.", fmt::join(found, ". "), more > 0 ? fmt::format(". And {} more", more) : "");
 }
 
 /// Returns a warning if persons are not of one kind: other joints or muscles, or one recording in two runs. Each person

@@ -1,6 +1,7 @@
 #include "myoid/commands/emg.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -9,6 +10,9 @@
 #include "myoid/commands/output_file.h"
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/report/tables.h"
 #include "myoid/tables/series_file.h"
 
 namespace myoid::commands {
@@ -69,6 +73,24 @@ SmoothedFiles smooth(const EmgOptions& o, const std::vector<std::string>& paths,
   return files;
 }
 
+/// Returns the bursts and windows of every normalized channel of a file.
+std::vector<EmgMeasures> measures_of(const std::string& file,
+                                     const TimeSeries& filtered,
+                                     const std::vector<std::string>& channels,
+                                     double window_s) {
+  std::vector<EmgMeasures> found;
+  for (const std::string& channel : channels) {
+    const auto c = filtered.find(channel);
+    if (!c) continue;
+    EmgMeasures one{.file = file, .channel = channel};
+    for (const signals::EmgBurst& burst : signals::emg_bursts(filtered, *c))
+      one.bursts.push_back(signals::emg_window(filtered, *c, burst.onset_s, burst.end_s));
+    if (window_s > 0.0) one.windows = signals::emg_windows(filtered, *c, window_s);
+    found.push_back(std::move(one));
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<std::string> emg_files(const std::vector<std::string>& inputs, const std::string& to, const char* option) {
@@ -118,6 +140,8 @@ EmgResult emg(const EmgOptions& o) {
     const TimeSeries& envelope = files.stages[i].envelope;
     result.activations.push_back(cut(signals::normalise(envelope, result.normalisation), o.call));
     if (o.keep_envelopes) result.envelopes.push_back(cut(envelope.select(channels), o.call));
+    for (EmgMeasures& one : measures_of(o.in[i], cut(files.stages[i].filtered, o.call), channels, o.measure_window_s))
+      result.measures.push_back(std::move(one));
     files.stages[i] = {};
   }
   result.remarks = remarks.list();
@@ -135,6 +159,20 @@ void check_emg_files(const EmgOptions& options,
     if (std::ranges::find(activations, file) != activations.end())
       throw InvalidInput(fmt::format("--out and --envelope both name {}", file));
   }
+}
+
+void write_emg_measures(const EmgResult& result, const std::string& path) {
+  std::string text = "file,channel,kind,begin_s,end_s,rms_v,median_frequency_hz\n";
+  const auto number = [](double value) { return std::isfinite(value) ? recording::format_number(value) : ""; };
+  for (const EmgMeasures& one : result.measures) {
+    const auto add = [&](const char* kind, const signals::EmgWindow& w) {
+      text += fmt::format("{},{},{},{},{},{},{}\n", report::csv_quoted(one.file), report::csv_quoted(one.channel), kind,
+                          number(w.begin_s), number(w.end_s), number(w.rms), number(w.median_frequency_hz));
+    };
+    for (const signals::EmgWindow& burst : one.bursts) add("burst", burst);
+    for (const signals::EmgWindow& window : one.windows) add("window", window);
+  }
+  recording::write_file(path, text);
 }
 
 void write_emg(const EmgResult& result,

@@ -8,6 +8,7 @@
 #include "myoid/signals/emg_chain.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_levels.h"
+#include "myoid/signals/emg_measures.h"
 
 namespace myoid::commands {
 
@@ -21,6 +22,14 @@ struct EmgOptions {
   signals::EnvelopeOptions chain;
   double window_s = 0.5;        ///< Length of the mean that counts as 1.
   bool keep_envelopes = false;  ///< Keeps the envelopes in the result, too.
+  double measure_window_s = 0.0;  ///< Length of the windows of the measures; 0: bursts alone.
+};
+
+/// Onsets, root mean square and median frequency of one channel of one file.
+struct EmgMeasures {
+  std::string file, channel;
+  std::vector<signals::EmgWindow> bursts;   ///< From each onset to its end.
+  std::vector<signals::EmgWindow> windows;  ///< Successive windows of `measure_window_s`.
 };
 
 struct EmgResult {
@@ -28,6 +37,7 @@ struct EmgResult {
   std::vector<TimeSeries> envelopes;    ///< [V], one per input if kept.
   signals::Whitening whitening;
   std::vector<signals::ChannelNormalisation> normalisation;
+  std::vector<EmgMeasures> measures;                            ///< Of the filtered EMG, by file and channel.
   signals::EmgChain chain;                                      ///< From the raw EMG to the activation.
   std::vector<std::string> activation_header, envelope_header;  ///< The chain, for files.
   std::vector<Remark> remarks;
@@ -50,6 +60,9 @@ void check_emg_files(const EmgOptions& options,
                      const std::vector<std::string>& activations,
                      const std::vector<std::string>& envelopes,
                      bool overwrite);
+
+/// Writes the measures as .csv: `file,channel,kind,begin_s,end_s,rms_v,median_frequency_hz`; kind is burst or window.
+void write_emg_measures(const EmgResult& result, const std::string& path);
 
 /// Writes the activation of each input and the envelopes, if files for them are given (.sto, .mot or .csv).
 void write_emg(const EmgResult& result,

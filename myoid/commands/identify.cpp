@@ -7,6 +7,7 @@
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/intervals/verdict_cap.h"
+#include "myoid/identify_files/electrode_ties.h"
 #include "myoid/methods/basins.h"
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/force.h"
@@ -32,6 +33,12 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
   files.resting_torque_is_free = std::ranges::any_of(
       o.free_more, [](const std::string& name) { return name == "joint_torque_offset" || name == "joint_stiffness"; });
   StudyData data = read_identify_data(files, table, [&](const std::string& text) { remarks.warn(text); });
+  if (files.torque && o.scales == "electrode") {
+    ElectrodeTies ties = electrode_ties(data.muscles);
+    // First, so that rules of the user's own win.
+    data.rules.insert(data.rules.begin(), ties.rules.begin(), ties.rules.end());
+    if (!ties.says.empty()) remarks.note(ties.says);
+  }
   for (const std::string& name : o.free_more) {
     (void)identification::parameter_field(name);
     identification::ParameterRule rule;

@@ -154,6 +154,7 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
 /// Visits the fit and the certainty of its result.
 void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
   static constexpr std::string_view kFolds[] = {"trial", "block", "none"};
+  static constexpr std::string_view kScales[] = {"electrode", "muscle"};
   v.number(
       "residual-cutoff", o.residual_hz,
       {.says =
@@ -190,6 +191,10 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
          {.says = "The part that is left out of the fit and predicted (`force`, `torque`): a `trial`; a `block`, a "
                   "fifth of every trial of 3.3 s or more with half a second on either side; or `none`.",
           .words = kFolds});
+  v.text("scales", o.scales,
+         {.says = "Of method `torque`: muscles that share an electrode share one scale of every parameter of the law "
+                  "(`electrode`), because one EMG cannot tell them apart, or each muscle has its own (`muscle`).",
+          .words = kScales});
   v.texts("validate", o.files.held_back,
           {.says = "Trials that are not fitted but predicted (`torque`), each by its number, its file of lengths, or "
                    "that file's name without ending. Written as [`predict`](predict.md) writes them.",

@@ -35,6 +35,7 @@ struct IdentifyOptions {
   bool compare_solvers = false;
   std::optional<int> starts;  ///< Empty: one, and three for the comparison of solvers.
   std::string folds = "trial";
+  std::string scales = "electrode";
 };
 
 /// Visits every option of `myoid identify` once: key, allowed values, default and meaning. The

@@ -107,6 +107,25 @@ std::vector<IsolatedRecording> read_recordings(const MuscleOptions& o,
   return recordings;
 }
 
+/// Warns of a search that left its start nowhere, of a better minimum elsewhere, and of parameters without an effect.
+void warn_of_untold(const IsolatedFit& fit, Remarks& remarks) {
+  if (!fit.moved)
+    remarks.warn(
+        "the search did not leave its start: the numbers are those of --muscle, not an answer of the recordings; start "
+        "from values at which the muscle bears force (is it slack there?)");
+  if (fit.from_elsewhere)
+    remarks.warn(
+        "the search from the values of --muscle ended in a worse minimum than a search from elsewhere, whose result "
+        "this is: the recordings may have more minima; start from measured lengths, or identify fewer parameters");
+  for (const muscle::IsolatedEstimate& e : fit.estimates) {
+    if (!e.told)
+      remarks.warn(fmt::format(
+          "{}: the recordings do not tell it: under these laws the force does not depend on it, or other parameters "
+          "undo its effect; {:.4g} {} is no estimate. Leave it out of --fit",
+          e.parameter, e.value, symbol(e.unit)));
+  }
+}
+
 std::vector<IsolatedFit> fits_without_one(const muscle::IsolatedModel& start,
                                           const std::vector<IsolatedRecording>& recordings,
                                           const muscle::IsolatedFitOptions& options) {
@@ -161,8 +180,13 @@ MuscleFit fit_muscle(const MuscleOptions& o, const muscle::MuscleFile& file, Rem
   MuscleFit fit;
   fit.relative_to_n = related_to(o, file);
   fit.all = fit_isolated_muscle(start, recordings, options);
-  fit.without_one = fits_without_one(start, recordings, options);
-  const auto converged = [](const IsolatedFit& one) { return one.termination == math::Termination::converged; };
+  warn_of_untold(fit.all, remarks);
+  muscle::IsolatedFitOptions near = options;
+  near.other_starts = 0;
+  fit.without_one = fits_without_one(fit.all.from_elsewhere ? fit.all.model : start, recordings, near);
+  const auto converged = [](const IsolatedFit& one) {
+    return one.termination == math::Termination::converged && one.moved;
+  };
   fit.converged = converged(fit.all) && std::ranges::all_of(fit.without_one, converged);
   add_errors(start, recordings, options.relative_tolerance, fit);
   compare_left_out(recordings, fit, remarks);
@@ -174,8 +198,8 @@ MuscleFit fit_muscle(const MuscleOptions& o, const muscle::MuscleFile& file, Rem
 std::string table_rows(const std::string& left_out, const muscle::IsolatedFit& fit) {
   std::string rows;
   for (const muscle::IsolatedEstimate& e : fit.estimates)
-    rows += fmt::format("{},{},{},{},{},{},{}\n", left_out, e.parameter, symbol(e.unit), e.start, e.value, e.std_error,
-                        e.at_bound);
+    rows += fmt::format("{},{},{},{},{},{},{}\n", left_out, e.parameter, symbol(e.unit), e.start, e.value,
+                        e.told ? fmt::format("{}", e.std_error) : "", e.at_bound);
   return rows;
 }
 

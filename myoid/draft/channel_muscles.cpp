@@ -52,14 +52,23 @@ const std::vector<Family>& families() {
       {"gastrocnemius", {"gastrocnemius", "gastroc", "gas"}, {"gas", "medgas", "latgas"}, true},
       {"tibialis anterior", {"tibialisanterior", "tibant", "ta", "tibialis"}, {"tibant"}},
       {"rectus femoris", {"rectusfemoris", "rectfem", "recfem", "rf"}, {"rectfem", "recfem"}},
-      {"vastus lateralis", {"vastuslat", "vaslat", "vl"}, {"vaslat"}},
-      {"vastus medialis", {"vastusmed", "vasmed", "vm"}, {"vasmed"}},
+      {"vastus lateralis", {"vastuslat", "vaslat", "vl", "vlo"}, {"vaslat"}},
+      {"vastus medialis", {"vastusmed", "vasmed", "vm", "vmo"}, {"vasmed"}},
       {"quadriceps", {"quad"}, {"quad", "rectfem", "recfem", "vas"}, true},
       {"semitendinosus", {"semiten", "semit", "st"}, {"semiten"}},
       {"semimembranosus", {"semimem", "sm"}, {"semimem"}},
       {"peroneus longus", {"peroneuslong", "perlong", "pl"}, {"perlong"}},
       {"gluteus maximus", {"gluteusmax", "glutmax", "gmax"}, {"glutmax", "glmax"}},
       {"gluteus medius", {"gluteusmed", "glutmed", "gmed"}, {"glutmed", "glmed"}},
+      {"tensor fasciae latae", {"tensorfasc", "tfl"}, {"tfl"}},
+      {"sartorius", {"sartorius", "sar"}, {"sar"}},
+      {"gracilis", {"gracilis", "grac"}, {"grac"}},
+      {"peroneus brevis", {"peroneusbrev", "perbrev", "pb"}, {"perbrev"}},
+      {"erector spinae", {"erectorspin", "erec", "es"}, {"ercspn", "erec"}},
+      {"rectus abdominis", {"rectusabd", "rectabd", "ra"}, {"rectabd", "rectusabd"}},
+      {"external oblique", {"externalobl", "extobl", "eo"}, {"extobl"}},
+      {"internal oblique", {"internalobl", "intobl", "io"}, {"intobl"}},
+      {"trapezius", {"trapezius", "trap"}, {"trap"}},
   };
   return list;
 }
@@ -117,6 +126,20 @@ const Family* family_of(const std::string& letters, bool channel) {
   return nullptr;
 }
 
+/// Returns a channel's name with its side where a side's letter stands at an end of it without a blank: "RRF" is a
+/// rectus femoris on the right, "TAL" a left tibialis anterior if a channel "TAR" is there, too. A name that is a
+/// muscle's as a whole ("LG", "RECFEM") stays.
+Name with_side(Name name, const std::set<std::string>& all) {
+  if (name.side != ' ' || name.letters.size() < 3 || family_of(name.letters, true) != nullptr) return name;
+  const auto is_side = [](char c) { return c == 'r' || c == 'l'; };
+  const std::string behind = name.letters.substr(1), before = name.letters.substr(0, name.letters.size() - 1);
+  if (is_side(name.letters.front()) && family_of(behind, true) != nullptr) return {behind, name.letters.front()};
+  const char last = name.letters.back();
+  if (is_side(last) && family_of(before, true) != nullptr && all.contains(before + (last == 'r' ? 'l' : 'r')))
+    return {before, last};
+  return name;
+}
+
 /// Returns the head or part of a muscle that a name states: 'l'ateral, l'o'ng, 'm'edial, 's'hort; ' ' if none.
 char head_of(const std::string& letters, const std::string& family) {
   const auto has = [&](const char* word) { return letters.find(word) != std::string::npos; };
@@ -135,8 +158,11 @@ std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& chann
   std::vector<ChannelMuscles> result;
   std::map<std::string, int> of_family;
   std::vector<const Family*> family_of_channel;
+  std::vector<Name> names;
+  std::set<std::string> all;
+  for (const std::string& channel : channels) all.insert(name_of(channel).letters);
   for (const std::string& channel : channels) {
-    const Name name = name_of(channel);
+    const Name& name = names.emplace_back(with_side(name_of(channel), all));
     const Family* family = family_of(name.letters, true);
     family_of_channel.push_back(family);
     result.push_back({channel, {}, family != nullptr ? family->name : ""});
@@ -145,7 +171,7 @@ std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& chann
   for (std::size_t c = 0; c < result.size(); ++c) {
     ChannelMuscles& pair = result[c];
     const Family* const wanted = family_of_channel[c];
-    const Name name = name_of(pair.channel);
+    const Name& name = names[c];
     std::vector<std::string> of_head;
     for (const std::string& muscle : muscles) {
       const Name other = name_of(muscle);

@@ -52,6 +52,25 @@ TEST(MatchChannels, AGroupOfMusclesIsAllOfThemAndAShortNameIsOne) {
   EXPECT_THAT(pairs[5].muscles, ElementsAre("soleus_r"));
 }
 
+TEST(MatchChannels, ALetterForTheSideStandsBeforeOrBehindAnAbbreviation) {
+  const std::vector<std::string> legs{"rect_fem_r",  "rect_fem_l", "bifemlh_r", "vas_lat_r", "vas_lat_l",
+                                      "tib_ant_r",   "tib_ant_l",  "med_gas_r", "lat_gas_r", "med_gas_l",
+                                      "vas_med_l"};
+  const auto one = [&](const char* channel) { return match_channels({channel}, legs)[0].muscles; };
+  EXPECT_THAT(one("RRF"), ElementsAre("rect_fem_r"));
+  EXPECT_THAT(one("RBF"), ElementsAre("bifemlh_r"));
+  EXPECT_THAT(one("RVL"), ElementsAre("vas_lat_r"));
+  EXPECT_THAT(one("RTA"), ElementsAre("tib_ant_r"));
+  EXPECT_THAT(one("RGM"), ElementsAre("med_gas_r"));
+  EXPECT_THAT(one("LGM"), ElementsAre("med_gas_l"));
+  EXPECT_THAT(one("RT VLO"), ElementsAre("vas_lat_r"));
+  EXPECT_THAT(one("LT VMO"), ElementsAre("vas_med_l"));
+  EXPECT_THAT(one("LG"), ElementsAre("lat_gas_r"));  // gastrocnemius lateralis, of no side
+  const auto pairs = match_channels({"TAL", "TAR"}, legs);
+  EXPECT_THAT(pairs[0].muscles, ElementsAre("tib_ant_l"));
+  EXPECT_THAT(pairs[1].muscles, ElementsAre("tib_ant_r"));
+}
+
 TEST(MatchChannels, ANameThatIsNoUsualOneIsComparedLetterByLetter) {
   EXPECT_THAT(match_channels({"popliteus"}, {"popliteus_r"})[0].muscles, ElementsAre("popliteus_r"));
   EXPECT_THAT(match_channels({"Voltage.1"}, {"popliteus_r"})[0].muscles, IsEmpty());

@@ -1,5 +1,6 @@
 #include "myoid/draft/draft_persons.h"
 
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <set>
@@ -37,7 +38,7 @@ std::pair<std::string, std::string> numbered_trial(const FoundRecording& f) {
 
 }  // namespace
 
-std::vector<std::string> persons_in(const std::vector<FoundRecording>& found) {
+std::vector<std::string> person_of_each(const std::vector<FoundRecording>& found) {
   std::map<std::string, std::string> stated;
   std::map<std::string, std::set<std::string>> by_number, by_trial;
   for (const FoundRecording& f : found) {
@@ -47,15 +48,52 @@ std::vector<std::string> persons_in(const std::vector<FoundRecording>& found) {
     by_number[number].insert(trial);
     by_trial[trial].insert(number);
   }
-  std::vector<std::string> persons;
-  for (const auto& [label, name] : stated) persons.push_back(name);
-  if (!persons.empty()) return persons;
-  for (const auto& [number, trials] : by_number) {
+  const auto shares_trials = [&](const std::string& number) {
     std::size_t shared = 0;
-    for (const std::string& trial : trials) shared += by_trial[trial].size() > 1 ? 1 : 0;
-    if (shared >= 2) persons.push_back(number);
+    for (const std::string& trial : by_number[number]) shared += by_trial[trial].size() > 1 ? 1 : 0;
+    return shared >= 2;
+  };
+  std::vector<std::string> persons;
+  for (const FoundRecording& f : found) {
+    if (!stated.empty()) {
+      const auto person = stated.find(stated_person(f.path).first);
+      persons.push_back(person == stated.end() ? "" : person->second);
+    } else {
+      const std::string number = numbered_trial(f).first;
+      persons.push_back(!number.empty() && shares_trials(number) ? number : "");
+    }
   }
   return persons;
+}
+
+std::vector<std::string> persons_in(const std::vector<FoundRecording>& found) {
+  const std::vector<std::string> each = person_of_each(found);
+  std::map<std::string, std::string> by_label;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (each[i].empty()) continue;
+    const std::string label = stated_person(found[i].path).first;
+    by_label.emplace(label.empty() ? each[i] : label, each[i]);
+  }
+  std::vector<std::string> persons;
+  for (const auto& [label, name] : by_label) persons.push_back(name);
+  return persons;
+}
+
+OnePerson keep_one_person(std::vector<FoundRecording>& found) {
+  OnePerson person{.all = persons_in(found)};
+  if (person.all.size() < 2) return {};
+  const std::vector<std::string> each = person_of_each(found);
+  person.kept = *std::ranges::max_element(
+      person.all, {}, [&](const std::string& name) { return std::ranges::count(each, name); });
+  std::vector<FoundRecording> own;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (each[i].empty() || each[i] == person.kept)
+      own.push_back(std::move(found[i]));
+    else
+      person.left_out.push_back(found[i].path.filename().string());
+  }
+  found = std::move(own);
+  return person;
 }
 
 }  // namespace myoid

@@ -11,10 +11,12 @@
 #include <fmt/ranges.h>
 
 #include "myoid/arm/arm4.h"
+#include "myoid/core/counted.h"
 #include "myoid/core/error.h"
 #include "myoid/core/names.h"
 #include "myoid/draft/channel_muscles.h"
 #include "myoid/draft/draft_coordinate.h"
+#include "myoid/draft/draft_model.h"
 #include "myoid/draft/draft_persons.h"
 #include "myoid/draft/draft_recordings.h"
 #include "myoid/draft/draft_text.h"
@@ -24,6 +26,7 @@
 #include "myoid/files/label_match.h"
 #include "myoid/files/name_ids.h"
 #include "myoid/files/quoted_text.h"
+#include "myoid/kinematics/marker_places.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
@@ -43,8 +46,10 @@ class Draft {
     FoundBeside beside;
     const std::vector<fs::path> files = recordings_in(options_.from, beside);
     for (const fs::path& loads : beside.external_loads) loads_data_.insert(loads_data_file(loads).lexically_normal());
-    choose_model(beside.models);
+    choose_model(beside.models, files);
     for (const fs::path& file : files) read(file);
+    if (std::ranges::any_of(options_.from, [](const fs::path& path) { return fs::is_directory(path); }))
+      person_ = keep_one_person(found_);
     raw_emg_ = takes_raw_emg(found_);
     note_other_kind();
     if (coordinate_.empty()) choose_coordinate();
@@ -85,13 +90,22 @@ class Draft {
     return (result.empty() ? absolute : result).generic_string();
   }
 
-  void choose_model(const std::vector<fs::path>& models) {
+  void choose_model(const std::vector<fs::path>& models, const std::vector<fs::path>& files) {
     if (options_.model) {
       model_file_ = *options_.model;
     } else if (models.size() == 1) {
       model_file_ = models[0];
     } else if (models.size() > 1) {
-      for (const fs::path& m : models) other_models_.push_back(relative(m));
+      const ModelByMarkers chosen = model_of_markers(models, files);
+      if (chosen.markers > 0) {
+        model_file_ = chosen.model;
+        draft_.notes.push_back(fmt::format("of {} models {} is taken: it knows {} of the recorded markers, more than "
+                                           "any other",
+                                           models.size(), relative(chosen.model), chosen.markers));
+      }
+      for (const fs::path& m : models) {
+        if (!model_file_ || m != *model_file_) other_models_.push_back(relative(m));
+      }
     }
     model_ = model_file_ ? model::read_osim(*model_file_) : model::parse_osim(model::arm4_osim(), "arm4.osim");
     coordinate_ = options_.coordinate;
@@ -157,14 +171,14 @@ class Draft {
       for (const std::string& name : f.markers.names) {
         if (model_.find_marker(name) || match.same.contains(name)) ++known;
       }
-      for (const auto& [name, like] : match.similar) {
-        const bool taken = std::ranges::any_of(similar_, [&](const auto& pair) { return pair.second == like; });
-        if (!taken) similar_.emplace(name, like);
-      }
       for (std::string& name : f.markers.names) {
         if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
       }
       f.loads.object_markers = object_markers(f.markers, model_);
+      for (const kinematics::PlacedMarker& pair : kinematics::markers_by_place(model_, f.markers)) {
+        const bool taken = std::ranges::any_of(elsewhere_, [&](const auto& p) { return p.second == pair.wanted; });
+        if (!taken) elsewhere_.emplace(pair.recorded, pair.wanted);
+      }
       most_known_ = std::max(most_known_, known);
       if (known >= 4 && up_ == ' ') find_up(f.markers);
     }
@@ -204,11 +218,11 @@ class Draft {
     const fs::path at = fs::absolute(folder_, error).lexically_normal();
     const std::string folder = recording::to_utf8((at.has_filename() ? at : at.parent_path()).filename().string());
     line("name = " + toml_text(recording::name_refusal(folder).empty() ? folder : "subject"));
-    if (const std::vector<std::string> persons = persons_in(found_); persons.size() > 1)
-      todo(fmt::format(
-          "{} in the names: are these {} persons? A study is of one person: draft one for each (`myoid init "
-          "DIR --from` that person's files) and run all with `myoid cohort`",
-          name_list(persons), persons.size()));
+    if (!person_.left_out.empty())
+      todo(fmt::format("{} in the names: a study is of one person, and this one is of {}; it leaves {} of the others "
+                       "out. If these are other persons, draft a study for each (`myoid init DIR --from` that person's "
+                       "files) and run all with `myoid cohort`; if not, name all files with --from one by one",
+                       name_list(person_.all), person_.kept, counted(person_.left_out.size(), "file")));
     if (!model_file_) {
       todo("the person's mass, for the segments of the built-in arm");
       line("# mass_kg = 70.0");
@@ -222,9 +236,13 @@ class Draft {
       line("file = " + toml_text(relative(*model_file_)));
     } else {
       line("builtin = \"arm4\"");
-      if (!other_models_.empty())
-        todo(fmt::format("or one of the models that were found: file = {}", list_of(other_models_)));
+      if (is_of_a_leg(found_) && most_known_ < 3)
+        todo("the recorded markers are those of a leg, and this built-in model is an arm: name a model of the leg with "
+             "--model");
     }
+    if (!other_models_.empty())
+      todo(fmt::format("or one of the {}models that were found: file = {}", model_file_ ? "other " : "",
+                       list_of(other_models_)));
     if (guessed_coordinate_)
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
     line("coordinate = " + toml_text(coordinate_));
@@ -268,10 +286,10 @@ class Draft {
                       "\"MODEL\", ... }}",
                       most_known_, fmt::join(names, ", ")));
     }
-    if (similar_.empty()) return;
+    if (elsewhere_.empty()) return;
     std::vector<std::string> pairs;
-    for (const auto& [name, like] : similar_) pairs.push_back(fmt::format("{} = {}", toml_text(name), toml_text(like)));
-    todo("are these the same? Then take the # away");
+    for (const auto& [name, like] : elsewhere_) pairs.push_back(fmt::format("{} = {}", toml_text(name), toml_text(like)));
+    todo("these stand where the model has the others: are they the same? Then take the # away");
     line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }
 
@@ -390,6 +408,7 @@ class Draft {
     line("");
     line("[identify]");
     line("method = [\"paper\", \"torque\"]");
+    for (const std::string& file : person_.left_out) draft_.notes.push_back(file + ": left out, of another person");
     if (!draft_.notes.empty()) {
       line("");
       for (const std::string& note : draft_.notes) {
@@ -407,8 +426,9 @@ class Draft {
   bool guessed_coordinate_ = false;
   std::set<fs::path> loads_data_;
   std::vector<FoundRecording> found_;
+  OnePerson person_;
   bool raw_emg_ = true;
-  std::map<std::string, std::string> similar_;
+  std::map<std::string, std::string> elsewhere_;
   Eigen::Index most_known_ = 0;
   char up_ = ' ';
   std::string file_up_, file_up_because_;  ///< The upward axis, such as "z", and the sentence of

@@ -6,9 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/checks/check_study.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/osim/osim_reader.h"
 #include "myoid/study/read_study.h"
 
 #include "tests/support/data_folder.h"
@@ -126,10 +128,57 @@ TEST(StudyDraft, OfSeveralPersonsAsksForAStudyEachAndOfJointTorquesNamesTheirCom
                         "Inverse Dynamics\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\n"
                         "time\telbow_flexion_moment\n0.0\t1.0\n0.1\t2.0\n");
   const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
-  EXPECT_THAT(draft.todo, Contains("subject_1, subject_2 in the names: are these 2 persons? A study is of one person: "
-                                   "draft one for each (`myoid init DIR --from` that person's files) and run all with "
-                                   "`myoid cohort`"));
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("subject_1, subject_2 in the names")));
+  EXPECT_THAT(draft.notes, Contains("subject_2_bend_angles.mot: left out, of another person"));
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  ASSERT_EQ(study.trials.size(), 1U);
+  EXPECT_EQ(study.trials[0].emg->filename(), "subject_1_bend_emg.csv");
   EXPECT_THAT(draft.notes, Contains(HasSubstr("id.sto: joint torques")));
+}
+
+/// A recording of markers of these names.
+void write_markers(const std::filesystem::path& file, const std::vector<std::string>& names) {
+  std::string head = "Frame#\tTime", axes = "\t";
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    head += "\t" + names[m] + "\t\t";
+    axes += fmt::format("\tX{0}\tY{0}\tZ{0}", m + 1);
+  }
+  std::string text = fmt::format(
+      "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\t"
+      "OrigDataStartFrame\tOrigNumFrames\n100\t100\t20\t{}\tmm\t100\t1\t20\n{}\n{}\n\n",
+      names.size(), head, axes);
+  for (int f = 0; f < 20; ++f) {
+    text += fmt::format("{}\t{:.2f}", f + 1, 0.01 * f);
+    for (std::size_t m = 0; m < names.size(); ++m)
+      text += fmt::format("\t{:.1f}\t{:.1f}\t{:.1f}", 100.0 * static_cast<double>(m), 900.0 + f, 50.0 * static_cast<double>(m % 3));
+    text += "\n";
+  }
+  recording::write_file(file, text);
+}
+
+TEST(StudyDraft, TakesTheModelThatKnowsTheMarkers) {
+  const test::TemporaryFolder folder;
+  const std::string arm(model::arm4_osim());
+  std::string other = arm;
+  std::vector<std::string> names;
+  for (const model::Marker& marker : model::parse_osim(arm, "arm.osim").markers) {
+    names.push_back(marker.name);
+    const std::string tag = "Marker name=\"" + marker.name + "\"";
+    if (const auto at = other.find(tag); at != std::string::npos) other.replace(at, tag.size(), "Marker name=\"Q" + marker.name + "\"");
+  }
+  recording::write_file(folder / "a_other.osim", other);
+  recording::write_file(folder / "b_arm.osim", arm);
+  write_markers(folder / "lift.trc", names);
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  EXPECT_THAT(draft.toml, HasSubstr("file = \"b_arm.osim\""));
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("a_other.osim")));
+}
+
+TEST(StudyDraft, SaysThatMarkersOfALegMeetAnArm) {
+  const test::TemporaryFolder folder;
+  write_markers(folder / "walk.trc", {"LASI", "RASI", "LKNE", "RKNE", "LANK", "RANK", "LHEE", "RHEE"});
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("those of a leg")));
 }
 
 TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {

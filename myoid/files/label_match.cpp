@@ -1,10 +1,8 @@
 #include "myoid/files/label_match.h"
 
-#include <algorithm>
 #include <set>
 
 #include "myoid/files/text_file.h"
-#include "myoid/files/toml_table.h"
 
 namespace myoid::recording {
 
@@ -29,22 +27,10 @@ LabelMatch match_labels(const std::vector<std::string>& found, const std::vector
     if (!has.contains(name)) missing[plain_label(name)].push_back(name);
   }
   LabelMatch match;
-  std::set<std::string> taken;
   for (const auto& [plain, names] : spare) {
     const auto other = missing.find(plain);
     if (plain.empty() || other == missing.end() || names.size() != 1 || other->second.size() != 1) continue;
     match.same[names.front()] = other->second.front();
-    taken.insert(other->second.front());
-  }
-  std::vector<std::string> open;
-  for (const std::string& name : wants) {
-    if (!has.contains(name) && !taken.contains(name)) open.push_back(name);
-  }
-  for (const auto& [plain, names] : spare) {
-    for (const std::string& name : names) {
-      if (match.same.contains(name)) continue;
-      if (const auto near = nearest_word(name, open)) match.similar[name] = *near;
-    }
   }
   return match;
 }

@@ -7,14 +7,12 @@
 
 namespace myoid::recording {
 
-/// Pairs of names in a file and wanted names.
+/// Pairs of names in a file and wanted names. Names that merely resemble each other are no pair: `T1` and `c7` are two
+/// vertebrae.
 struct LabelMatch {
   /// From the file's name to the wanted name where both differ only in capitals, blanks, '_', '-',
   /// '.', or a subject's prefix "name:", and no other name fits either of them.
   std::map<std::string, std::string> same;
-  /// From an unwanted name of the file to the missing wanted name that it resembles
-  /// (`nearest_word`): a question to the user, not a match.
-  std::map<std::string, std::string> similar;
 };
 
 /// Pairs `found` with `wanted`; names that are equal take no part.

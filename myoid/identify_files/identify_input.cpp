@@ -12,6 +12,7 @@
 #include "myoid/dynamics/joint_capacity.h"
 #include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/files/text_file.h"
+#include "myoid/identify_files/torque_sign.h"
 #include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
@@ -85,24 +86,50 @@ class TrialCheck {
     remarks_.push_back(fmt::format("{}: {}", file, what));
   }
 
-  /// Refuses moment arms that are longer than their muscle with its tendon. Fibers alone may be
-  /// shorter than a moment arm (those of the soleus are), which is a remark.
+  /// Finds files of lengths and moment arms that are exchanged. Muscles of the trunk, the hand and the face can be
+  /// shorter than their moment arm; dl = -r dq over all muscles tells the two apart. Refuses files that follow it
+  /// exchanged and not as given, or by their sizes where nothing moves; asks where fibers alone are short.
   void exchanged() {
     for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
+      std::vector<Eigen::Index> longer;
       for (Eigen::Index k = 0; k < arms(j).cols(); ++k) {
         const double arm = arms(j).col(k).cwiseAbs().maxCoeff();
         const double length = trial_.length_m.col(k).maxCoeff();
-        const double tendon = data_.muscles[static_cast<std::size_t>(k)].start.tendon_slack_length_m;
-        if (length <= 0.0 || length >= arm || arm > kCertainlyLargeArm_m) continue;
-        const std::string found = fmt::format(
-            "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m; are the files of --lengths "
-            "and --moment-arms exchanged?",
-            muscle(k), arm, files_.lengths, length);
-        if (arm > tendon && tendon > 0.0)
-          fail(files_.moment_arms[j], found + " A moment arm is shorter than the muscle");
-        if (tendon == 0.0) remark(files_.moment_arms[j], found + " Fibers are seldom shorter than a moment arm");
+        if (length > 0.0 && length < arm && arm <= kCertainlyLargeArm_m) longer.push_back(k);
       }
+      if (longer.empty()) continue;
+      const Exchange told = exchange(j);
+      if (told == Exchange::as_given) continue;
+      const Eigen::Index k = longer.front();
+      const double arm = arms(j).col(k).cwiseAbs().maxCoeff();
+      const double tendon = data_.muscles[static_cast<std::size_t>(k)].start.tendon_slack_length_m;
+      const std::string found = fmt::format(
+          "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m{}; are the files of --lengths and "
+          "--moment-arms exchanged?",
+          muscle(k), arm, files_.lengths, trial_.length_m.col(k).maxCoeff(),
+          longer.size() > 1 ? fmt::format(", and so of {} muscles", longer.size()) : "");
+      const bool most = 2 * static_cast<Eigen::Index>(longer.size()) > arms(j).cols();
+      if (told == Exchange::exchanged || (told == Exchange::unknown && most && arm > tendon && tendon > 0.0))
+        fail(files_.moment_arms[j], found + " A moment arm is shorter than the muscle");
+      remark(files_.moment_arms[j], found + (tendon == 0.0 ? " Fibers are seldom shorter than a moment arm" : ""));
     }
+  }
+
+  enum class Exchange { as_given, exchanged, unknown };
+
+  /// Asks dl = -r dq whether lengths and the moment arms of a joint are exchanged.
+  [[nodiscard]] Exchange exchange(std::size_t joint) const {
+    if (arms(joint).cols() < 3) return Exchange::unknown;
+    const auto share = [&](const Eigen::MatrixXd& lengths, const std::vector<const Eigen::MatrixXd*>& r) {
+      const Changes c = changes_of(lengths);
+      const double least = kMoves_m * std::sqrt(static_cast<double>(c.of_length.size()));
+      return c.of_length.rows() < 5 || c.of_length.norm() < least ? 0.0 : share_explained(c, r, {});
+    };
+    std::vector<const Eigen::MatrixXd*> all;
+    for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) all.push_back(&arms(j));
+    const double own = share(trial_.length_m, all), other = share(arms(joint), {&trial_.length_m});
+    if (own >= kDoubtful && own >= other) return Exchange::as_given;
+    return other > kDoubtful && other > own + kClearly ? Exchange::exchanged : Exchange::unknown;
   }
 
   void lengths() {
@@ -205,18 +232,21 @@ class TrialCheck {
     Eigen::MatrixXd of_length, by_velocity;
     std::vector<Eigen::Index> middle;  ///< Row in the middle of each window.
   };
-  [[nodiscard]] Changes changes() const {
+  [[nodiscard]] Changes changes() const { return changes_of(trial_.length_m); }
+
+  /// The changes of columns of `lengths_m` in the place of the trial's.
+  [[nodiscard]] Changes changes_of(const Eigen::MatrixXd& lengths_m) const {
     const Eigen::VectorXd& t = trial_.time_s;
     const Eigen::Index n = t.size();
     const double step_s = (t[n - 1] - t[0]) / static_cast<double>(n - 1);
     const auto reach = std::max<Eigen::Index>(1, std::lround(kWindow_s / step_s));
     Changes c;
     const Eigen::Index count = std::max<Eigen::Index>(0, (n - 1) / reach);
-    c.of_length.resize(count, trial_.length_m.cols());
-    c.by_velocity.setZero(count, trial_.length_m.cols());
+    c.of_length.resize(count, lengths_m.cols());
+    c.by_velocity.setZero(count, lengths_m.cols());
     for (Eigen::Index w = 0; w < count; ++w) {
       const Eigen::Index first = w * reach;
-      c.of_length.row(w) = trial_.length_m.row(first + reach) - trial_.length_m.row(first);
+      c.of_length.row(w) = lengths_m.row(first + reach) - lengths_m.row(first);
       for (Eigen::Index i = first; i < first + reach; ++i)
         c.by_velocity.row(w) += 0.5 * (t[i + 1] - t[i]) * (trial_.velocity_mps.row(i) + trial_.velocity_mps.row(i + 1));
       c.middle.push_back(first + reach / 2);
@@ -271,22 +301,27 @@ class TrialCheck {
     }
   }
 
-  /// Returns the share of the changes of length that dl = -r dq explains with the best dq of each
-  /// window, for all muscles but one.
-  /// `turned` is a muscle whose moment arms get the other sign; -1: none.
-  [[nodiscard]] double explained(const Changes& c, Eigen::Index without, Eigen::Index turned = -1) const {
+  /// A muscle that takes no part, and one whose moment arms get the other sign; -1: none.
+  struct Altered {
+    Eigen::Index without = -1, turned = -1;
+  };
+
+  /// Returns the share of the changes of length that dl = -r dq explains with the best dq of each window.
+  [[nodiscard]] static double share_explained(const Changes& c,
+                                              const std::vector<const Eigen::MatrixXd*>& joints,
+                                              const Altered& altered) {
     double total = 0.0, left = 0.0;
     std::vector<Eigen::Index> muscles;
     for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
-      if (k != without) muscles.push_back(k);
+      if (k != altered.without) muscles.push_back(k);
     }
-    const auto joints = static_cast<Eigen::Index>(files_.moment_arms.size());
-    if (static_cast<Eigen::Index>(muscles.size()) <= joints) return 0.0;
-    Eigen::MatrixXd r(static_cast<Eigen::Index>(muscles.size()), joints);
-    const auto place = std::ranges::find(muscles, turned);
+    if (muscles.size() <= joints.size()) return 0.0;
+    Eigen::MatrixXd r(static_cast<Eigen::Index>(muscles.size()), static_cast<Eigen::Index>(joints.size()));
+    const auto place = std::ranges::find(muscles, altered.turned);
     for (Eigen::Index w = 0; w < c.of_length.rows(); ++w) {
-      for (Eigen::Index j = 0; j < joints; ++j)
-        r.col(j) = arms(static_cast<std::size_t>(j)).row(c.middle[static_cast<std::size_t>(w)])(muscles).transpose();
+      for (std::size_t j = 0; j < joints.size(); ++j)
+        r.col(static_cast<Eigen::Index>(j)) =
+            joints[j]->row(c.middle[static_cast<std::size_t>(w)])(muscles).transpose();
       if (place != muscles.end()) r.row(place - muscles.begin()) *= -1.0;
       const Eigen::VectorXd dl = c.of_length.row(w)(muscles).transpose();
       total += dl.squaredNorm();
@@ -295,14 +330,20 @@ class TrialCheck {
     return total > 0.0 ? 1.0 - left / total : 1.0;
   }
 
+  [[nodiscard]] double explained(const Changes& c, const Altered& altered) const {
+    std::vector<const Eigen::MatrixXd*> joints;
+    for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) joints.push_back(&arms(j));
+    return share_explained(c, joints, altered);
+  }
+
   /// Names the muscle whose sign or absence makes the changes of length follow from the moment arms.
   [[nodiscard]] std::string suspect(const Changes& c) const {
     double best = 0.0, second = 0.0;
     Eigen::Index turned = 0;
     std::string who;
     for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
-      if (explained(c, k) > kTogether) who = muscle(k);
-      const double share = explained(c, -1, k);
+      if (explained(c, {.without = k}) > kTogether) who = muscle(k);
+      const double share = explained(c, {.turned = k});
       second = std::max(second, std::min(share, best));
       if (share > best) turned = k;
       best = std::max(best, share);
@@ -320,7 +361,7 @@ class TrialCheck {
     if (c.of_length.rows() < 5 || c.of_length.norm() < kMoves_m * std::sqrt(static_cast<double>(c.of_length.size())))
       return;
     if (c.of_length.cols() <= static_cast<Eigen::Index>(files_.moment_arms.size())) return;
-    const double all = explained(c, -1);
+    const double all = explained(c, {});
     if (all >= kDoubtful) return;
     const std::string found =
         fmt::format("the changes of length do not follow from the moment arms (dl = -r dq explains {:.0f} % of them)",
@@ -373,12 +414,16 @@ class TrialCheck {
       const Eigen::VectorXd p = predicted(j);
       const double size = torque(j).norm() * p.norm();
       const double r = size > 0.0 ? torque(j).dot(p) / size : 0.0;
+      if (r >= -kDoubtful) continue;
+      // Muscles of other strengths may make this torque with its sign.
+      const SignsExplained signs = signs_explained(arms(j).cwiseProduct(force_n), torque(j));
+      if (signs.reversed < kDoubtful || signs.reversed < signs.as_given + kClearly) continue;
       const std::string found = fmt::format(
           "with the starting values the muscles' torque goes against that of {} (r = {:.2f}); are the signs of the "
           "moment arms (r = -dl/dq) or of the torque reversed?",
           files_.torques, r);
       if (r < kAgainst) fail(files_.moment_arms[j], found);
-      if (r < -kDoubtful) remark(files_.moment_arms[j], found);
+      remark(files_.moment_arms[j], found);
     }
   }
 

@@ -206,6 +206,7 @@ signals::EnvelopeOptions envelope_options(const Study& study) {
           .lowpass_hz = study.emg.lowpass_hz,
           .rectify = study.emg.rectify,
           .notch = study.emg.notch,
+          .remove_ecg = study.emg.remove_ecg,
           .whitening = study.emg.whitening ? std::nullopt : std::optional(false),
           .as_published = study.emg.as_published};
 }

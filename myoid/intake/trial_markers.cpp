@@ -11,6 +11,7 @@
 #include "myoid/files/label_match.h"
 #include "myoid/intake/clock_check.h"
 #include "myoid/kinematics/marker_misfit.h"
+#include "myoid/kinematics/marker_places.h"
 #include "myoid/recording/recording.h"
 #include "myoid/signals/marker_quality.h"
 #include "myoid/signals/mend_markers.h"
@@ -19,7 +20,7 @@
 namespace myoid {
 namespace {
 
-/// Renames labels whose spelling alone differs from the model's; asks about other labels that resemble one.
+/// Renames labels whose spelling alone differs from the model's.
 void match_labels(const model::BodyModel& model,
                   const std::filesystem::path& path,
                   std::vector<std::string>& names,
@@ -35,13 +36,18 @@ void match_labels(const model::BodyModel& model,
         input.remarks);
     name = same->second;
   }
-  for (const auto& [name, like] : match.similar) {
-    add_notes(
-        {fmt::format(
-            "{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] rename = {{ \"{}\" = \"{}\" }}",
-            path.filename().string(), name, like, name, like)},
-        input.remarks);
-  }
+}
+
+/// Asks about markers that stand at places of the model's under another name.
+void ask_by_place(const model::BodyModel& model,
+                  const std::filesystem::path& path,
+                  const recording::MarkerSeries& markers,
+                  TrialInput& input) {
+  const std::vector<kinematics::PlacedMarker> pairs = kinematics::markers_by_place(model, markers);
+  if (!pairs.empty())
+    add_notes({fmt::format("{}: {} Then name them in [markers] rename", path.filename().string(),
+                           kinematics::place_question(pairs))},
+              input.remarks);
 }
 
 recording::MarkerSeries read_markers(const Study& study,
@@ -55,6 +61,7 @@ recording::MarkerSeries read_markers(const Study& study,
     if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end()) name = it->second;
   }
   match_labels(model, path, file.markers.names, input);
+  ask_by_place(model, path, file.markers, input);
   const recording::LaboratoryUp up = trial_up(study.markers.up, path, model);
   input.up_L = *up.up_L;
   if (*up.up_L != model_up(model)) {

@@ -50,6 +50,16 @@ IdentificationResult finish(const Estimator& estimator,
                             std::chrono::steady_clock::time_point begin) {
   const TorqueOptions& options = estimator.options();
   IdentificationResult result = report_estimates(estimator, solution, data);
+  const Eigen::VectorXd start = estimator.model().parameters().start();
+  // A start that explains the torque may be the minimum; one that does not, and was not left, is no answer.
+  if (start.size() > 0 && result.r2 < kVerdictRules.least_r2 &&
+      (solution.search.x - start).cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + start.cwiseAbs().maxCoeff())) {
+    result.termination = math::Termination::no_descent;
+    result.message = "the search did not leave its start";
+    result.warnings.push_back(
+        "the search did not leave its start, which explains little of the torque: the numbers are the starting values, no "
+        "answer of the recording; do the muscles make any force there (lengths, slack lengths, activations)?");
+  }
   if (options.predictions) add_predictions(data, options, result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -31,6 +31,7 @@ struct IsolatedFitOptions {
   std::vector<std::string> parameters;  ///< Names of visit_parameters; positive at the start.
   double reach = 3.0;                   ///< A value stays within its start over and times this.
   double relative_tolerance = 1e-7;     ///< Tolerance of the integration.
+  int other_starts = 24;                ///< Points that are tried beside the start; 0: the start alone.
   Progress progress;
 };
 
@@ -38,8 +39,10 @@ struct IsolatedEstimate {
   std::string parameter;
   Unit unit = Unit::dimensionless;
   double start = 0.0, value = 0.0;
-  double std_error = 0.0;  ///< From the residuals, by their effective number.
+  /// From the residuals, by their effective number; infinite unless `told`.
+  double std_error = 0.0;
   bool at_bound = false;
+  bool told = true;  ///< False: the forces do not depend on the parameter, or on it apart from the others.
 };
 
 struct IsolatedFit {
@@ -48,6 +51,9 @@ struct IsolatedFit {
   math::Termination termination = math::Termination::no_descent;
   std::string message;
   int evaluations = 0;  ///< Number for all recordings.
+  bool moved = true;    ///< False: no parameter left the starting values.
+  /// True: the search from the starting values ended in a worse minimum than a search from elsewhere.
+  bool from_elsewhere = false;
 };
 
 /// Returns the model's force [N] at the times of the recording's; NaN at times that the integration did not reach.
@@ -57,9 +63,12 @@ struct IsolatedFit {
                                              const Progress& progress = {});
 
 /// Fits the parameters so that the simulated experiments (elastic tendon, mass and all) come nearest to the measured
-/// forces: least squares over all samples; logarithms as unknowns, derivatives by central differences. Under the law
-/// `millard` eccentric_plateau is the curve's greatest multiplier. Throws InvalidInput for names that are no parameters
-/// of the unit, values that are not positive, and sizes that differ.
+/// forces: least squares over all samples; logarithms as unknowns, derivatives by central differences. The search
+/// begins at the starting values and at the best of `other_starts` points spread evenly over the reach; the lower
+/// minimum counts. A parameter is not `told` if no change within its reach moves the forces by a thousandth of
+/// their spread, or if the change can be undone by the others. Under the law `millard` eccentric_plateau is the curve's
+/// greatest multiplier and passive_strain the curve's strain at F_max. Throws InvalidInput for names that are no
+/// parameters of the unit, values that are not positive, and sizes that differ.
 [[nodiscard]] IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
                                               const std::vector<IsolatedRecording>& recordings,
                                               const IsolatedFitOptions& options);

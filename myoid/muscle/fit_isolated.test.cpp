@@ -67,6 +67,48 @@ TEST(FitIsolatedMuscle, MovesThePlateauOfMillardsCurveWithTheParameter) {
   EXPECT_EQ(fit.model.millard.max_eccentric_multiplier, fit.estimates[0].value);
 }
 
+TEST(FitIsolatedMuscle, MovesThePassiveStrainOfMillardsCurveWithTheParameter) {
+  IsolatedModel truth = small_muscle();
+  truth.millard.passive_strain_at_one = 0.55;
+  truth.millard.passive_stiffness_at_one = 2.0 / 0.55;
+  std::vector<IsolatedRecording> recordings = recordings_of(truth);
+  for (IsolatedRecording& r : recordings) {
+    r.input.length_m.array() += 0.006;  // on the passive limb
+    r.force_n = isolated_force(truth, r);
+  }
+  const IsolatedFit fit = fit_isolated_muscle(small_muscle(), recordings, {.parameters = {"passive_strain"}});
+  EXPECT_EQ(fit.estimates[0].start, 0.7);
+  EXPECT_NEAR(fit.estimates[0].value, 0.55, 1e-3);
+  EXPECT_TRUE(fit.estimates[0].told);
+}
+
+TEST(FitIsolatedMuscle, AParameterWithoutAnEffectHasNoStandardError) {
+  // The exponent of the passive law is unused by Millard's curves: the derivative is 0, the standard error infinite.
+  IsolatedModel truth = small_muscle();
+  truth.parameters.hill.max_isometric_force_n = 2.4;
+  const IsolatedFit fit = fit_isolated_muscle(small_muscle(), recordings_of(truth),
+                                              {.parameters = {"max_isometric_force", "passive_shape"}});
+  EXPECT_NEAR(fit.estimates[0].value / 2.4, 1.0, 1e-4);
+  EXPECT_TRUE(fit.estimates[0].told);
+  EXPECT_FALSE(fit.estimates[1].told);
+  EXPECT_TRUE(std::isinf(fit.estimates[1].std_error));
+}
+
+TEST(FitIsolatedMuscle, FromASlackMuscleASearchElsewhereFindsTheMuscle) {
+  // A tendon 6 mm longer than whole unit and fiber: slack at every length, no force, no derivative.
+  const IsolatedModel truth = small_muscle();
+  IsolatedModel slack = truth;
+  slack.parameters.hill.tendon_slack_length_m = 0.046;
+  const IsolatedFitOptions alone{.parameters = {"tendon_slack_length"}, .other_starts = 0};
+  const IsolatedFit stuck = fit_isolated_muscle(slack, recordings_of(truth), alone);
+  EXPECT_FALSE(stuck.moved);
+  EXPECT_FALSE(stuck.estimates[0].told);
+  const IsolatedFit fit = fit_isolated_muscle(slack, recordings_of(truth), {.parameters = {"tendon_slack_length"}});
+  EXPECT_TRUE(fit.moved);
+  EXPECT_TRUE(fit.from_elsewhere);
+  EXPECT_NEAR(fit.estimates[0].value, 0.02, 2e-5);
+}
+
 /// A fit that found these values, each with this standard error from its residuals.
 IsolatedFit fit_of(const std::vector<double>& values, double std_error) {
   IsolatedFit fit;

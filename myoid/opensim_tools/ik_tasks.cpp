@@ -8,6 +8,7 @@
 
 #include "myoid/files/label_match.h"
 #include "myoid/files/text_file.h"
+#include "myoid/kinematics/marker_places.h"
 #include "myoid/math/spline.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
@@ -69,16 +70,19 @@ void add_coordinate_task(const OpensimSetup& setup,
   ik.tasks.push_back(std::move(task));
 }
 
-/// Notes the markers that tasks weigh and the recording lacks, with similar names of the recording.
-void note_unseen_markers(const kinematics::IkOptions& ik,
+/// Notes the markers that tasks weigh and the recording lacks, with the recorded markers of the same name but for its
+/// spelling, or at their place.
+void note_unseen_markers(const model::BodyModel& model,
+                         const kinematics::IkOptions& ik,
                          const recording::MarkerSeries& markers,
                          std::vector<std::string>& notes) {
   std::vector<std::string> wanted;
   for (const auto& [name, weight] : ik.marker_weights) wanted.push_back(name);
   const recording::LabelMatch match = recording::match_labels(markers.names, wanted);
   std::map<std::string, std::string> called;
-  for (const auto* names : {&match.similar, &match.same})
-    for (const auto& [found, name] : *names) called[name] = found;
+  for (const kinematics::PlacedMarker& pair : kinematics::markers_by_place(model, markers))
+    called[pair.wanted] = pair.recorded;
+  for (const auto& [found, name] : match.same) called[name] = found;
   std::string unseen;
   for (const std::string& name : wanted) {
     if (std::find(markers.names.begin(), markers.names.end(), name) != markers.names.end()) continue;
@@ -127,7 +131,7 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
     return true;
   });
   if (!unknown.empty()) notes.push_back(fmt::format("tasks of markers that the model does not have: {}", unknown));
-  note_unseen_markers(ik, markers, notes);
+  note_unseen_markers(model, ik, markers, notes);
   if (tasks.xml) {
     const std::vector<std::string>& defaulted = xml.defaulted();
     notes.insert(notes.end(), defaulted.begin(), defaulted.end());

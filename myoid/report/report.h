@@ -21,6 +21,7 @@ enum class Role {
   range,       ///< Area between y and y_upper that the recording visited: grey.
   norm,        ///< Area between y and y_upper of a group of people: light blue.
   points,      ///< Markers without a line; with y_lower/y_upper an error bar.
+  points_beside,  ///< The same of a second group, in another color and shape.
 };
 
 /// A curve. x and y have equal lengths; NaN in y is a gap. `y_upper` (and `y_lower` for points)

@@ -31,7 +31,7 @@ struct Style {
 
 /// Returns the style of a role; the table is in the order of the enumerators.
 const Style& style_of(Role role) {
-  static constexpr std::array<Style, 10> kStyles{{{"#1f5fa8", "", 1.6},
+  static constexpr std::array<Style, 11> kStyles{{{"#1f5fa8", "", 1.6},
                                                   {"#6b6b6b", "2 3", 1.5},
                                                   {"#d1491b", "6 3", 1.7},
                                                   {"#111111", "", 1.1},
@@ -40,7 +40,8 @@ const Style& style_of(Role role) {
                                                   {"#00694b", "7 2 1.5 2", 1.5},
                                                   {"#5a626b", "", 0.0},
                                                   {"#3d8fc4", "", 0.0},
-                                                  {"#1f5fa8", "", 1.3}}};
+                                                  {"#1f5fa8", "", 1.3},
+                                                  {"#d1491b", "", 1.3}}};
   return kStyles[static_cast<std::size_t>(role)];
 }
 
@@ -50,6 +51,17 @@ std::string dash_of(const Style& style) {
 }
 
 bool is_area(Role role) { return role == Role::band || role == Role::range || role == Role::norm; }
+
+bool is_points(Role role) { return role == Role::points || role == Role::points_beside; }
+
+/// Returns a disc, of a second group a diamond.
+std::string point_mark(Role role, double x, double y, double radius, const char* color) {
+  if (role == Role::points)
+    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y, radius, color);
+  const double half = 1.4 * radius;
+  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z\" fill=\"{}\"/>\n", x, y - half,
+                     x + half, y, x, y + half, x - half, y, color);
+}
 
 struct Range {
   double lower = kInfinity;
@@ -190,7 +202,7 @@ class PanelDrawing {
 
   [[nodiscard]] std::string curve(const Series& series) const {
     if (is_area(series.role)) return band(series);
-    if (series.role == Role::points) return points(series);
+    if (is_points(series.role)) return points(series);
     SvgPath path;
     for (const std::size_t k : decimate(series.y, kBinsPerPanel)) {
       if (std::isfinite(series.x[k]) && std::isfinite(series.y[k])) {
@@ -255,8 +267,7 @@ class PanelDrawing {
             px(series.x[k]), py(series.y_lower[k]), py(series.y_upper[k]), px(series.x[k]) - 3.0, px(series.x[k]) + 3.0,
             style.color, style.width);
       }
-      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", px(series.x[k]),
-                         py(series.y[k]), bars ? 3.0 : 2.0, style.color);
+      svg += point_mark(series.role, px(series.x[k]), py(series.y[k]), bars ? 3.0 : 2.0, style.color);
     }
     return svg;
   }
@@ -294,9 +305,7 @@ std::string legend_mark(Role role, double x, double y) {
         "fill-opacity=\"0.16\"/>\n",
         x, y - 8.0, style.color);
   }
-  if (role == Role::points) {
-    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", x + 12.0, y - 4.0, style.color);
-  }
+  if (is_points(role)) return point_mark(role, x + 12.0, y - 4.0, 3.0, style.color);
   return fmt::format(
       "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
       "stroke-width=\"{}\"{}/>\n",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -20,6 +21,7 @@
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/report/tables.h"
+#include "myoid/results/change_sentences.h"
 #include "myoid/study/run_identity.h"
 
 namespace myoid {
@@ -91,7 +93,7 @@ Run read_run(const std::filesystem::path& folder) {
 
 /// Returns true if the session's recording determines the number.
 bool told(const ParameterEstimate& e) {
-  return (e.verdict == Verdict::identified || e.verdict == Verdict::weak) && e.std_error && *e.std_error > 0.0;
+  return rests_on_measurement(e.method) && (e.verdict == Verdict::identified || e.verdict == Verdict::weak) && e.std_error && *e.std_error > 0.0;
 }
 
 /// Returns a number's standard error between sessions of one person. Moment arms, tendons and the torque's scale have
@@ -163,18 +165,20 @@ report::Badge badge(Change change) {
                                        : report::Badge::weak;
 }
 
-std::string sentence(const ComparedParameter& p) {
-  switch (p.change) {
-    case Change::differs:
-      return fmt::format("differs: p = {:.2g}, adjusted for the number of parameters", *p.p_value);
-    case Change::no_change:
-      return fmt::format("no difference shows; one below {} {} would not have been seen",
-                         report::format_value(*p.smallest_detectable, 2), symbol(p.first.unit));
-    case Change::cannot_tell:
-      return fmt::format("not compared: {} in the first session, {} in the second", name(p.first.verdict),
-                         name(p.second.verdict));
-  }
-  return {};
+/// Returns the day on which a folder's result was written.
+std::string day_of(const std::filesystem::path& folder) {
+  using namespace std::chrono;
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(folder / "parameters.json", error);
+  if (error) return "";
+  const year_month_day day{floor<days>(file_clock::to_sys(written))};
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(day.year()), static_cast<unsigned>(day.month()),
+                     static_cast<unsigned>(day.day()));
+}
+
+/// Returns "second (2026-03-01)".
+std::string session_name(std::string_view which, const std::string& day) {
+  return day.empty() ? std::string(which) : fmt::format("{} ({})", which, day);
 }
 
 /// Draws both intervals of one parameter for all muscles.
@@ -183,8 +187,8 @@ report::Panel panel_of(const RunComparison& comparison,
                        const std::string& parameter,
                        const std::string& fit_case) {
   report::Panel panel{.title = parameter + branch_text(fit_case, ", ")};
-  report::Series first{.name = "first", .role = report::Role::points};
-  report::Series second{.name = "second", .role = report::Role::points};
+  report::Series first{.name = session_name("first", comparison.first_date), .role = report::Role::points};
+  report::Series second{.name = session_name("second", comparison.second_date), .role = report::Role::points_beside};
   const auto add = [&](report::Series& series, const std::string& category, const ParameterEstimate& of) {
     series.x.push_back(static_cast<double>(panel.x.categories.size()));
     panel.x.categories.push_back(category);
@@ -208,9 +212,11 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
   ComparedParameter p{.muscle = std::get<0>(key), .first = run.estimates.at(key), .second = second};
   if (const auto sharers = run.sharers.find(key); sharers != run.sharers.end())
     p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
+  p.base = p.first.estimate;
   p.difference = p.second.estimate - p.first.estimate;
   if (told(p.first) && told(p.second)) {
     const auto [one, other] = of_sessions(p.first, p.second);
+    p.base = one.value;
     p.difference = other.value - one.value;
     const double se = std::hypot(one.sd, other.sd);
     p.smallest_detectable = kNormal95 * se;
@@ -242,12 +248,7 @@ std::vector<ComparedTrial> compared_trials(const Run& a, const Run& b) {
 }
 
 std::string headline(const RunComparison& comparison) {
-  std::map<Change, int> count;
-  for (const ComparedParameter& p : comparison.parameters) ++count[p.change];
-  std::string text = fmt::format(
-      "Of {} numbers that both sessions hold, {} differ by more than chance explains, {} show no difference, and {} "
-      "cannot be compared because a recording does not determine them.",
-      comparison.parameters.size(), count[Change::differs], count[Change::no_change], count[Change::cannot_tell]);
+  std::string text = changes_sentence(comparison);
   if (!comparison.unlike.empty())
     text += fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
   return text;
@@ -257,10 +258,11 @@ report::Section method_section(const RunComparison& comparison, const std::strin
   report::Table table{.id = "compared_" + method,
                       .title = "Parameters",
                       .caption = "Estimate with its 95 % interval. p-values are adjusted for their number (Holm).",
-                      .columns = {"muscle", "parameter", "unit", "first", "second", "difference", "verdict"}};
+                      .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
+                                  session_name("second", comparison.second_date), "difference", "%", "verdict"}};
   report::Figure figure{.id = "intervals_" + method,
                         .title = "Both sessions",
-                        .caption = "Estimates with 95 % intervals; 1 the first session, 2 the second.",
+                        .caption = "Estimates with 95 % intervals; 1 and a blue disc are the first session, 2 and a red diamond the second.",
                         .columns = 2};
   std::set<std::pair<std::string, std::string>> shown;
   for (const ComparedParameter& p : comparison.parameters) {
@@ -272,7 +274,8 @@ report::Section method_section(const RunComparison& comparison, const std::strin
                           {interval_text(p.first)},
                           {interval_text(p.second)},
                           {report::format_value(p.difference)},
-                          {std::string(name(p.change)), badge(p.change), sentence(p)}});
+                          {p.base == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.base))},
+                          {std::string(name(p.change)), badge(p.change), change_text(p)}});
     if (shown.insert({e.parameter, e.fit_case}).second)
       figure.panels.push_back(panel_of(comparison, method, e.parameter, e.fit_case));
   }
@@ -305,7 +308,8 @@ std::string_view name(Change change) {
 RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second) {
   const Run a = read_run(first);
   const Run b = read_run(second);
-  RunComparison comparison{.first = first, .second = second};
+  RunComparison comparison{
+      .first = first, .second = second, .first_date = day_of(first), .second_date = day_of(second)};
   IdentityDifferences unlike = differences(read_run_identity(first), read_run_identity(second));
   comparison.unlike = std::move(unlike.grave);
   std::ranges::move(unlike.other, std::back_inserter(comparison.unlike));
@@ -341,7 +345,9 @@ report::Report comparison_report(const RunComparison& comparison) {
       .headline = headline(comparison),
       .assumptions = {
           "The two sessions are independent; where both used the same prior, the test is cautious.",
-          "A number that a session calls prior_dominated, not_identifiable or non_physical is not compared."}};
+          "A number that a session calls prior_dominated, not_identifiable or non_physical is not compared.",
+          "Method paper fits forces that the program shared among the muscles: its numbers are shown, not compared.",
+          "The days are those on which the results were written."}};
   for (const std::string& method : methods_of(comparison)) page.sections.push_back(method_section(comparison, method));
   page.sections.push_back(errors_section(comparison));
   return page;

@@ -23,6 +23,7 @@ enum class Change {
 struct ComparedParameter {
   std::string muscle;  ///< All owners of the number, separated by commas.
   identification::ParameterEstimate first, second;
+  double base = 0.0;                          ///< Value of the first session on the compared scale.
   double difference = 0.0;                    ///< Second minus first, on the compared scale.
   std::optional<double> smallest_detectable;  ///< 1.96 standard errors of the difference.
   std::optional<double> p_value;              ///< Two-sided, adjusted (Holm) within the method.
@@ -37,6 +38,7 @@ struct ComparedTrial {
 
 struct RunComparison {
   std::filesystem::path first, second;
+  std::string first_date, second_date;  ///< Days on which the results were written, as "2026-03-01" (UTC).
   std::vector<ComparedParameter> parameters;
   std::vector<ComparedTrial> trials;
   std::vector<std::string> unlike;   ///< Differences of model, person, muscles or estimator.
@@ -48,7 +50,8 @@ struct RunComparison {
 /// Holm's method. If both runs use the estimator `posterior`, numbers and standard errors are those of the route
 /// `geometry_and_sensors_exact`, because errors of moment arms, tendons and the torque's scale are the same in both
 /// sessions. Numbers without this route omit these shares of the variance. A parameter with a verdict prior_dominated,
-/// not_identifiable or non_physical is not compared: both may agree on the prior alone. The sessions count as
+/// not_identifiable or non_physical is not compared: both may agree on the prior alone; nor is a number of method
+/// `paper`, whose forces nobody measured. The sessions count as
 /// independent; a shared prior makes the test cautious. Throws ReadError if a folder holds no parameters.json of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second);
 

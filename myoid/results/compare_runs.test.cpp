@@ -7,7 +7,9 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
 #include "myoid/methods/torque.h"
+#include "myoid/results/change_sentences.h"
 #include "myoid/results/parameter_files.h"
 
 #include "tests/support/elbow_study.h"
@@ -156,6 +158,42 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
   EXPECT_NE(c.remarks[0].find("ANC"), std::string::npos);
   EXPECT_EQ(*c.trials[0].rmse_second_nm, 2.0);
   report::validate(comparison_report(c));
+  // 180 N of 600 N, 1.96 standard errors 98 N; 11 % are 1.96 * sqrt(40^2 + 40^2) of 900 N.
+  EXPECT_EQ(changes_sentence(c),
+            "BIC stronger by 180 N (30 %, 95 % 82 to 278 N); a change below 16 % would not have been seen. 2 numbers "
+            "show no change, and of 1 a recording does not tell enough.");
+  EXPECT_EQ(change_text(c.parameters[1]),
+            "BRA: no change of maximal isometric force shows; a change below 12 % would not have been seen");
+}
+
+TEST(CompareRuns, AnnouncesNothingFromMethodPaper) {
+  // Shared forces of a person who did not change: the intervals of method paper exclude each other.
+  const test::TemporaryFolder folder;
+  const auto session = [&](const char* name, double shared, double measured) {
+    const auto path = run(folder.path() / name, {{"BIC", measured, 30, "identified"}}, 1.0);
+    std::string json = recording::read_text_file(path / "parameters.json");
+    const std::string paper = fmt::format(
+        R"({{"method": "paper", "trials": [], "estimates": [{{"muscle": "BIC", "parameter": "max_isometric_force",
+            "unit": "N", "method": "paper", "case": "both", "estimate": {}, "std_error": 5, "ci_low": {}, "ci_high": {},
+            "verdict": "identified"}}]}}, )",
+        shared, shared - 10, shared + 10);
+    json.insert(json.find("[{\"method\"") + 1, paper);
+    recording::write_file(path / "parameters.json", json);
+    return path;
+  };
+  const RunComparison c = compare_runs(session("one", 500, 600), session("two", 700, 610));
+  ASSERT_EQ(c.parameters.size(), 2U);
+  EXPECT_EQ(c.parameters[0].first.method, "paper");
+  EXPECT_EQ(c.parameters[0].change, Change::cannot_tell);
+  EXPECT_FALSE(c.parameters[0].p_value);
+  ASSERT_EQ(counted_parameters(c).size(), 1U);
+  EXPECT_EQ(counted_parameters(c)[0]->change, Change::no_change);
+  const report::Report page = comparison_report(c);
+  EXPECT_TRUE(page.headline.starts_with("No number changed")) << page.headline;
+  // Two sessions, two marks.
+  const std::vector<report::Series>& series = page.sections[1].figures[0].panels[0].series;
+  EXPECT_NE(series[0].role, series[1].role);
+  EXPECT_EQ(c.first_date.size(), 10U);
 }
 
 TEST(CompareRuns, AFolderWithoutARunIsRefused) {

@@ -11,6 +11,7 @@
 #include "myoid/math/statistics.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
+#include "myoid/results/change_sentences.h"
 
 namespace myoid {
 namespace {
@@ -18,15 +19,6 @@ namespace {
 using report::Badge;
 
 constexpr std::size_t kFewestForGroup = 3;
-
-std::string compared_method(const std::vector<PersonChange>& changes) {
-  std::string method;
-  for (const PersonChange& change : changes) {
-    for (const ComparedParameter& p : change.comparison.parameters)
-      if (method.empty() || p.first.method == "torque") method = p.first.method;
-  }
-  return method;
-}
 
 Badge mark_of(Change change) {
   return change == Change::differs ? Badge::weak : change == Change::no_change ? Badge::good : Badge::none;
@@ -95,10 +87,9 @@ void add_row(const report::StripGrid& grid, std::size_t column, report::Table& t
 
 report::Section change_section(const std::vector<PersonChange>& changes) {
   report::Section section{.id = "changes", .heading = "From the first session to the second"};
-  const std::string method = compared_method(changes);
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    for (const ComparedParameter& p : changes[i].comparison.parameters)
-      if (p.first.method == method) place(section.grids, changes, i, p) = change_cell(p);
+    for (const ComparedParameter* p : counted_parameters(changes[i].comparison))
+      place(section.grids, changes, i, *p) = change_cell(*p);
     if (!changes[i].comparison.unlike.empty())
       section.paragraphs.push_back(fmt::format("{}: the sessions are not of one kind: {}.", changes[i].person,
                                                fmt::join(changes[i].comparison.unlike, "; ")));

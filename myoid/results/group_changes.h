@@ -15,8 +15,8 @@ struct PersonChange {
   RunComparison comparison;
 };
 
-/// Returns the persons' changes from the first session to the second by method torque (by the first method if torque
-/// was not asked for). Strip plots show each parameter's difference with the person's smallest detectable change to
+/// Returns the persons' changes from the first session to the second in the counted numbers
+/// (`counted_parameters`). Strip plots show each parameter's difference with the person's smallest detectable change to
 /// either side, and a table lists all persons. From three persons on, the table has the group's smallest detectable
 /// change, 1.96 times the standard deviation of the differences between persons. For persons who did not change, this
 /// deviation contains all errors of a repetition.

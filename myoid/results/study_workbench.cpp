@@ -286,6 +286,14 @@ void add_carpet(const TrialResult& trial, WorkbenchTrial& shown) {
   for (Eigen::Index c = 3; c < errors.channel_count(); ++c) add(errors, c, "marker", "mm", 1e3);
 }
 
+/// True if a torque's own mean predicts it better, and the error is no small part of it: of an effort that is held R2
+/// tells nothing.
+bool is_missed(const identification::Score& score) {
+  constexpr double kSmall = 0.25;
+  const double torque_nm = std::sqrt(score.sst / std::max(score.n, 1.0) + score.mean_nm * score.mean_nm);
+  return score.n >= 2.0 && score.r2() < 0.0 && score.rmse_nm() > kSmall * torque_nm;
+}
+
 void add_remarks(const StudyResult& result,
                  const IdentificationResult* fit,
                  const std::vector<OutlyingFold>& outlying,
@@ -319,13 +327,15 @@ void add_remarks(const StudyResult& result,
   if (fit == nullptr) return;
   for (const identification::TrialFit& t : fit->trials) {
     if (t.trial != trial.spec.name || t.torque_fit_nm.size() == 0) continue;
+    if (is_missed(t.score)) worse(Badge::weak);
     shown.remarks.push_back(fmt::format("{}: torque {} within {:.2f} N m rms (R² {:.2f}).", report::spelled(t.joint),
                                         t.calibration ? "described" : "predicted", t.score.rmse_nm(), t.score.r2()));
   }
   for (const identification::Fold& fold : result.folds) {
-    if (fold.trial == trial.spec.name)
-      shown.remarks.push_back(fmt::format("Left out, it is predicted within {:.2f} N m rms (R² {:.2f}).",
-                                          fold.identified.rmse_nm(), fold.identified.r2()));
+    if (fold.trial != trial.spec.name) continue;
+    if (is_missed(fold.identified)) worse(Badge::weak);
+    shown.remarks.push_back(fmt::format("Left out, it is predicted within {:.2f} N m rms (R² {:.2f}).",
+                                        fold.identified.rmse_nm(), fold.identified.r2()));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/numbers.h"
+#include "myoid/intervals/verdict_rules.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/results/prediction_files.h"
 #include "myoid/run/prediction_gates.h"
@@ -137,7 +138,8 @@ Table folds_table(const StudyResult& result) {
     const std::string title = title_of(result, f.trial, f.joint);
     std::vector<Cell> row =
         score_cells(stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"} : Cell{title},
-                    f.identified, std::max(0.0, f.literature.r2()), smoothed_text(f.smooth, f.smooth_hz), f.band);
+                    f.identified, std::max(identification::kVerdictRules.least_r2, f.literature.r2()),
+                    smoothed_text(f.smooth, f.smooth_hz), f.band);
     row.insert(row.end(), {{fmt::format("{:.3f}", f.identified.vaf())},
                            {share_text(f.covered)},
                            {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
@@ -158,7 +160,8 @@ Table held_back_table(const StudyResult& result, const identification::Identific
       {"trial", "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"}};
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
-    table.rows.push_back(score_cells({title_of(result, t.trial, t.joint)}, t.score, 0.0,
+    table.rows.push_back(score_cells({title_of(result, t.trial, t.joint)}, t.score,
+                                     identification::kVerdictRules.least_r2,
                                      smoothed_text(smoothed_score(t), t.smooth_hz), t.band));
     table.rows.back().push_back(
         {share_text(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))});

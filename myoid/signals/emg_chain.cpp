@@ -39,6 +39,20 @@ void add_spikes(std::span<const EmgStages* const> trials, EmgChain& chain) {
   chain.methods.push_back(fmt::format("Isolated spikes were replaced by linear interpolation ({}).", text));
 }
 
+/// Adds the removal of the heart, of all trials together, if it was asked for and found.
+void add_ecg(std::span<const EmgStages* const> trials, EmgChain& chain) {
+  std::map<std::string, std::size_t> beats;
+  for (const EmgStages* trial : trials) {
+    for (const RemovedEcg& ecg : trial->ecg) beats[ecg.channel] += ecg.beats;
+  }
+  if (beats.empty()) return;
+  std::string text;
+  for (const auto& [channel, count] : beats)
+    text += fmt::format("{}{} beats in {}", text.empty() ? "" : ", ", count, channel);
+  chain.steps.push_back(fmt::format("the heart subtracted, each beat by the mean of up to 30 around it: {}", text));
+  chain.methods.push_back(fmt::format("Cardiac artifacts were removed by template subtraction ({}).", text));
+}
+
 void add_highpass(std::span<const EmgStages* const> trials, const EnvelopeOptions& options, EmgChain& chain) {
   chain.steps.emplace_back("mean of the trial removed");
   if (options.as_published) {
@@ -89,6 +103,7 @@ EmgChain envelope_chain(std::span<const EmgStages* const> trials,
                         const Whitening& whitening) {
   EmgChain chain;
   add_spikes(trials, chain);
+  add_ecg(trials, chain);
   add_highpass(trials, options, chain);
   add_rectification(options, whitening, chain);
   return chain;

@@ -10,7 +10,9 @@
 #include "myoid/core/index.h"
 #include "myoid/core/normal.h"
 #include "myoid/math/statistics.h"
+#include "myoid/signals/ecg.h"
 #include "myoid/signals/emg_kind.h"
+#include "myoid/signals/emg_reference.h"
 #include "myoid/signals/emg_spikes.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/mains_hum.h"
@@ -67,12 +69,16 @@ struct Means {
   double samples_per_window = 0.0;
 };
 
-/// Computes the means and sets in `n` the place of the greatest. Throws InvalidInput if no trial is
-/// as long as the window.
-Means moving_means(std::span<const TrialEnvelope> trials, double window_s, ChannelNormalisation& n) {
+/// Computes the means and sets in `n` the place of the greatest. Windows that touch one of the peaks are no window of
+/// the reference. Throws InvalidInput if no trial is as long as the window.
+Means moving_means(std::span<const TrialEnvelope> trials,
+                   double window_s,
+                   const std::vector<LonePeak>& peaks,
+                   ChannelNormalisation& n) {
   Means result;
   double largest = -1.0, longest_s = 0.0;
-  for (const TrialEnvelope& trial : trials) {
+  for (std::size_t number = 0; number < trials.size(); ++number) {
+    const TrialEnvelope& trial = trials[number];
     const Eigen::VectorXd x = trial.envelope->column(n.channel);
     const Eigen::VectorXd second = math::moving_mean(x, window_samples(*trial.envelope, kRest_s));
     result.of_a_second.insert(result.of_a_second.end(), second.begin(), second.end());
@@ -83,8 +89,13 @@ Means moving_means(std::span<const TrialEnvelope> trials, double window_s, Chann
     longest_s = std::max(longest_s, length_s);
     if (window_s > (1.0 + 1e-9) * length_s) continue;
     const Eigen::Index width = window_samples(*trial.envelope, window_s);
-    const Eigen::VectorXd means = math::moving_mean(x, width);
-    result.of_a_window.insert(result.of_a_window.end(), means.begin(), means.end());
+    Eigen::VectorXd means = math::moving_mean(x, width);
+    for (Eigen::Index i = 0; i < means.size(); ++i) {
+      if (touches(peaks, number, i, width))
+        means[i] = -1.0;
+      else
+        result.of_a_window.push_back(means[i]);
+    }
     Eigen::Index at = 0;
     if (const double top = means.maxCoeff(&at); top > largest) {
       largest = top;
@@ -102,6 +113,19 @@ Means moving_means(std::span<const TrialEnvelope> trials, double window_s, Chann
         window_s, longest_s);
   }
   return result;
+}
+
+/// True if a window of this length touches none of the peaks in some trial.
+bool window_fits(std::span<const TrialEnvelope> trials, double window_s, const std::vector<LonePeak>& peaks) {
+  for (std::size_t number = 0; number < trials.size(); ++number) {
+    const TimeSeries& envelope = *trials[number].envelope;
+    const Eigen::Index width = window_samples(envelope, window_s);
+    if (static_cast<double>(width) < 0.999 * window_s * envelope.mean_rate_hz()) continue;
+    for (Eigen::Index i = 0; i + width <= envelope.sample_count(); ++i) {
+      if (!touches(peaks, number, i, width)) return true;
+    }
+  }
+  return false;
 }
 
 /// True if all means agree to round-off: an electrode always has some noise.
@@ -136,6 +160,16 @@ Eigen::MatrixXd take_out_spikes(const TimeSeries& raw, EmgStages& stages) {
   return values;
 }
 
+/// Takes the heart out of the channels that hold it.
+void take_out_heart(double rate_hz, const std::vector<Channel>& channels, Eigen::MatrixXd& values, EmgStages& stages) {
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    const std::optional<EcgBeats> beats = find_ecg(values.col(c), rate_hz);
+    if (!beats) continue;
+    values.col(c) = without_ecg(values.col(c), rate_hz, *beats);
+    stages.ecg.push_back({channels[at(c)].name, beats->at.size()});
+  }
+}
+
 }  // namespace
 
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
@@ -148,6 +182,8 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   require_finite(raw, "EMG");
   EmgStages stages;
   Eigen::MatrixXd values = take_out_spikes(raw, stages);
+  if (options.remove_ecg && !options.as_published)
+    take_out_heart(raw.mean_rate_hz(), raw.channels(), values, stages);
   const Eigen::RowVectorXd mean = values.colwise().mean();
   values.rowwise() -= mean;
   stages.raw = TimeSeries(raw.time_s(), raw.channels(), std::move(values));
@@ -224,7 +260,9 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
     ChannelNormalisation n;
     n.channel = channel.name;
     n.unit = channel.unit;
-    Means means = moving_means(trials, options.window_s, n);
+    const std::vector<LonePeak> peaks = lone_peaks(trials, channel.name);
+    const bool room = std::ranges::any_of(peaks, &LonePeak::replaced) && window_fits(trials, options.window_s, peaks);
+    Means means = moving_means(trials, options.window_s, room ? peaks : std::vector<LonePeak>{}, n);
     if (is_flat(means)) {
       throw InvalidInput("EMG channel '{}' never rises above its resting level: was the electrode connected?",
                          channel.name);

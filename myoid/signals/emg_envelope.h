@@ -17,6 +17,7 @@ struct EnvelopeOptions {
   bool rectify = true;
   bool notch = true;  ///< Removes mains hum where it holds a tenth of the power (`find_hum`);
                       ///< ignored with `as_published`.
+  bool remove_ecg = false;  ///< Takes the heart out of channels that hold it (`find_ecg`); ignored with `as_published`.
   /// Empty: whitens if the recording allows (`decide_whitening`). Never whitens with `as_published`
   /// or without `rectify`.
   std::optional<bool> whitening;
@@ -36,9 +37,15 @@ struct MendedSpikes {
   std::size_t count = 0;
 };
 
+/// The heart that was taken out of a channel.
+struct RemovedEcg {
+  std::string channel;
+  std::size_t beats = 0;
+};
+
 /// One trial's EMG at each stage of processing.
 struct EmgStages {
-  TimeSeries raw;                ///< As read, without spikes, mean removed [V].
+  TimeSeries raw;                ///< As read, without spikes and, if asked, the heart; mean removed [V].
   TimeSeries filtered;           ///< High-passed, hum removed [V].
   TimeSeries rectified;          ///< Whitened (if so decided) and rectified [V].
   TimeSeries envelope;           ///< Low-passed, never negative [V].
@@ -48,6 +55,7 @@ struct EmgStages {
   Eigen::VectorXd flatness;
   std::vector<Notch> notches;
   std::vector<MendedSpikes> spikes;
+  std::vector<RemovedEcg> ecg;
   std::vector<std::string> findings;  ///< A rate too low for the EMG, an envelope clipped at 0.
 };
 
@@ -108,7 +116,8 @@ struct NormalisationOptions {
   bool held_back = false;  ///< For `add_normalisation`: trials for validation took no part.
 };
 
-/// Returns one entry for each channel of the first trial. All trials must have the same channels. Throws InvalidInput
+/// Returns one entry for each channel of the first trial. Half seconds that no other effort confirms (`lone_peaks`) are
+/// not the reference while another effort can be; `check_emg_levels` names them. All trials must have the same channels. Throws InvalidInput
 /// if a channel is missing in a trial or flat, or no trial is as long as the window.
 [[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelope> trials,
                                                                    const NormalisationOptions& options = {});

@@ -11,6 +11,7 @@
 
 #include "myoid/core/numbers.h"
 #include "myoid/math/statistics.h"
+#include "myoid/signals/emg_reference.h"
 
 namespace myoid::signals {
 namespace {
@@ -29,7 +30,8 @@ struct Levels {
 
 constexpr double kEffort_s = 0.5;
 
-Levels levels(const TimeSeries& envelope, Eigen::Index c) {
+/// The levels of a channel of trial `number`, without the peaks.
+Levels levels(const TimeSeries& envelope, Eigen::Index c, const std::vector<LonePeak>& peaks, std::size_t number) {
   Levels result;
   const Eigen::VectorXd x = envelope.values().col(c);
   for (const double mean : math::moving_mean(x, window_samples(envelope, kPause_s))) {
@@ -40,7 +42,7 @@ Levels levels(const TimeSeries& envelope, Eigen::Index c) {
   const Eigen::VectorXd efforts = math::moving_mean(x, wide);
   for (Eigen::Index i = 0; i < efforts.size(); ++i) {
     result.quietest = std::min(result.quietest, efforts[i]);
-    if (efforts[i] <= result.greatest) continue;
+    if (efforts[i] <= result.greatest || touches(peaks, number, i, wide)) continue;
     result.greatest = efforts[i];
     result.greatest_s = envelope.time_s()[i + wide / 2];
   }
@@ -49,11 +51,15 @@ Levels levels(const TimeSeries& envelope, Eigen::Index c) {
 
 using LevelsByChannel = std::map<std::string, Levels>;
 
-LevelsByChannel levels_of(const TrialEnvelope& trial) {
+using PeaksByChannel = std::map<std::string, std::vector<LonePeak>>;
+
+LevelsByChannel levels_of(std::span<const TrialEnvelope> trials, std::size_t number, const PeaksByChannel& peaks) {
+  const TrialEnvelope& trial = trials[number];
   LevelsByChannel found;
   for (Eigen::Index c = 0; c < trial.envelope->channel_count(); ++c) {
-    Levels& here = found[trial.envelope->channels()[static_cast<std::size_t>(c)].name];
-    here = levels(*trial.envelope, c);
+    const std::string& name = trial.envelope->channels()[static_cast<std::size_t>(c)].name;
+    Levels& here = found[name];
+    here = levels(*trial.envelope, c, peaks.at(name), number);
     if (c < trial.flatness.size()) here.flatness = trial.flatness[c];
   }
   return found;
@@ -88,11 +94,11 @@ std::optional<Remark> other_unit(const TrialEnvelope& trial,
 }
 
 /// Returns the levels of the maximal contractions, each channel's from its greatest one.
-LevelsByChannel maximal_levels(std::span<const TrialEnvelope> trials) {
+LevelsByChannel maximal_levels(std::span<const TrialEnvelope> trials, const PeaksByChannel& peaks) {
   LevelsByChannel maximal;
-  for (const TrialEnvelope& trial : trials) {
-    if (!trial.is_mvc) continue;
-    for (const auto& [channel, here] : levels_of(trial)) {
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (!trials[i].is_mvc) continue;
+    for (const auto& [channel, here] : levels_of(trials, i, peaks)) {
       Levels& most = maximal[channel];
       if (here.greatest > most.greatest) most = here;
     }
@@ -114,6 +120,27 @@ Remark above_reference(const std::string& channel,
       .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in {} at {:.6g} s", channel,
                           movement.greatest / mvc.greatest, mvc_trial, movement_trial, movement.greatest_s),
       .remedy = "the contraction was not maximal: the larger effort counts as 1, and F_max means the force there"};
+}
+
+Remark unconfirmed(const std::string& channel, const LonePeak& peak, const std::string& trial) {
+  Remark remark{.code = RemarkCode::emg_over_reference,
+                .severity = Severity::warning,
+                .about = channel,
+                .when = Stretch{peak.begin_s, peak.end_s},
+                .value = peak.ratio,
+                .says = fmt::format("channel '{}': the half second from {:.6g} s of {}{} is {:.3g} times every other; ",
+                                    channel, peak.begin_s, trial, peak.at_end ? ", at an end of the recording," : "",
+                                    peak.ratio)};
+  if (peak.replaced) {
+    remark.says += "nothing confirms such an effort, and it does not count as 1: the next greatest does";
+    remark.remedy =
+        "look at it; an artefact there is still in the activation (above 1), so leave that time out; a true effort "
+        "that short needs a second one to confirm it";
+  } else {
+    remark.says += "no other effort is recorded, so that it counts as 1 unconfirmed";
+    remark.remedy = "look at it: is it an artefact? Record an effort twice, and for a second";
+  }
+  return remark;
 }
 
 /// Widens the extremes of `all` by those of a trial.
@@ -304,10 +331,17 @@ double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples, double rat
 std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
   std::vector<Remark> faults;
   std::vector<std::string> names;
-  const LevelsByChannel maximal = maximal_levels(trials);
-  LevelsByTrial of_trials;
+  PeaksByChannel peaks;
   for (const TrialEnvelope& trial : trials) {
-    LevelsByChannel own = levels_of(trial);
+    for (const Channel& channel : trial.envelope->channels()) {
+      if (!peaks.contains(channel.name)) peaks[channel.name] = lone_peaks(trials, channel.name);
+    }
+  }
+  const LevelsByChannel maximal = maximal_levels(trials, peaks);
+  LevelsByTrial of_trials;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const TrialEnvelope& trial = trials[i];
+    LevelsByChannel own = levels_of(trials, i, peaks);
     if (auto unit = other_unit(trial, own, maximal)) {
       faults.push_back(std::move(*unit));
       continue;
@@ -321,6 +355,7 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
   for (auto i = scaled.rbegin(); i != scaled.rend(); ++i)
     of_trials.erase(of_trials.begin() + static_cast<std::ptrdiff_t>(*i));
   for (const std::string& channel : names) {
+    for (const LonePeak& peak : peaks.at(channel)) faults.push_back(unconfirmed(channel, peak, trials[peak.trial].trial));
     Levels all;
     all.flatness = 1.0;
     Levels mvc;

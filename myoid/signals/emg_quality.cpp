@@ -12,6 +12,7 @@
 #include "myoid/math/statistics.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/signals/emg_kind.h"
+#include "myoid/signals/ecg.h"
 #include "myoid/signals/emg_spikes.h"
 #include "myoid/signals/mains_hum.h"
 
@@ -85,6 +86,7 @@ class ChannelCheck {
           remedy("was the transmission lost? Cut that part off with start_s and end_s",
                  "was the transmission lost? Cut that part off with --start and --end", "was the transmission lost?"));
     }
+    if (!smoothed && !rectified) heart(faults);
     if (smoothed || rectified) {
       envelope(smoothed, faults);
       return {};
@@ -99,6 +101,21 @@ class ChannelCheck {
   }
 
  private:
+  /// Names the heart in a channel, as in the trunk's.
+  void heart(std::vector<Remark>& faults) const {
+    const std::optional<EcgBeats> beats = find_ecg(x_, rate_hz_);
+    if (!beats) return;
+    faults.push_back(
+        {.code = RemarkCode::emg_artifact,
+         .severity = Severity::note,
+         .about = name_,
+         .when = Stretch{time_s_[beats->at.front()], time_s_[beats->at.back()]},
+         .value = beats->alike,
+         .says = fmt::format("channel '{}' holds the heart: {} alike waves of {:.2g} uV, {:.0f} a minute", name_,
+                             beats->at.size(), 1e6 * beats->amplitude, 60.0 * beats->rate_hz),
+         .remedy = remedy("[emg] remove_ecg = true takes it out", "--remove-ecg takes it out", "")});
+  }
+
   [[nodiscard]] double seconds(Eigen::Index samples) const { return static_cast<double>(samples) / rate_hz_; }
 
   void add(std::vector<Remark>& faults,
@@ -191,7 +208,7 @@ class ChannelCheck {
   void hum(std::vector<Remark>& faults) {
     const auto found = find_hum(emg_, rate_hz_);
     if (!found || found->share < kLimits.hum_share) return;
-    add(faults, RemarkCode::emg_hum, true, 0, x_.size() - 1, found->share,
+    add(faults, RemarkCode::emg_hum, !treatment_.notched, 0, x_.size() - 1, found->share,
         fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz", name_, 100.0 * found->share,
                     fmt::join(found->lines_hz, ", ")),
         treatment_.notched ? "notches take it out; check the reference electrode"

@@ -26,12 +26,16 @@ struct QualityLimits {
   double artifact_over_rms = 3.0;  ///< Amplitude between 1 and 15 Hz over the loudest EMG above 20 Hz.
   double spike_s = 1e-3;           ///< Width of a spike; EMG behind an amplifier's band is wider.
   double spike_over_emg = 5.0;     ///< Height of a spike over the 98th percentile around it.
+  double ecg_alike = 0.8;          ///< Correlation of a beat of the heart with the others; bursts of EMG have none.
+  double ecg_irregular = 0.15;     ///< Median departure of the beats' intervals from their median, over it.
   double noise_flatness = 0.8;     ///< Bandwidth over that of white noise; EMG has 0.2 to 0.65.
   double noise_v = 1e-5;           ///< No amplifier is so noisy.
   double noise_rises = 1.5;        ///< Largest over smallest level of a channel that is nothing but noise.
   double noise_level = 2.0;        ///< Factor between the level of such noise and the channel's rest.
   double rectified_share = 0.02;   ///< Samples near zero of rectified EMG.
   double over_reference = 1.1;     ///< A movement's effort over that of the maximal contraction.
+  double lone_reference = 3.0;         ///< Greatest half second over the next: an effort lasts, or comes again.
+  double lone_reference_at_end = 1.5;  ///< The same within half a second of an end of a recording.
   /// The same ratio in all channels, of efforts and of quietest levels, that only another unit makes.
   double other_unit = 10.0;
   double gain = 2.5;        ///< The same ratio to the other trials: the gain of an amplifier.

@@ -115,6 +115,7 @@ struct EmgSpec {
   std::string unit;  ///< "uV", ...; empty: as the file states.
   bool rectify = true;
   bool notch = true;      ///< Removes mains hum if the EMG has any.
+  bool remove_ecg = false;  ///< Takes the heart out of channels that hold it.
   bool whitening = true;  ///< Whitens raw EMG if the recording allows.
   double highpass_hz = 20.0;
   double lowpass_hz = 6.0;

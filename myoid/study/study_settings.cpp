@@ -147,6 +147,9 @@ void visit(EmgSpec& emg, SettingVisitor& v) {
   v.text("unit", emg.unit, {.says = "`V`, `mV` or `uV`, if the file does not say.", .otherwise = "as the file says"});
   v.flag("rectify", emg.rectify, {.says = "First step of [the chain](emg.md) after the high-pass."});
   v.either("notch", emg.notch, {.says = "`auto`: takes mains hum out [where it is found](check.md).", .words = kNotch});
+  v.flag("remove_ecg", emg.remove_ecg,
+         {.says = "Takes the heart out of channels that hold it, as those of the trunk do ([where it is found]"
+                  "(check.md))."});
   v.flag("whitening", emg.whitening,
          {.says = "Raw EMG is [whitened](../theory/emg.md#whitening) before it is rectified, in all channels or in "
                   "none, as the recording allows; the report says which, and why. `false`: in none."});

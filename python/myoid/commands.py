@@ -76,9 +76,10 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
              free: Texts | None = None, residual_cutoff: float | None = None, max_rate: float | None = None,
              estimator: str | None = None, posterior_draws: int | None = None, loss: str | None = None,
              bootstrap: int | None = None, profile: bool = False, compare_solvers: bool = False,
-             starts: int | None = None, folds: str | None = None, validate: Texts | None = None,
-             out: File | None = None, mat: File | None = None, threads: int | None = None, seed: int | None = None,
-             start: float | None = None, end: float | None = None, overwrite: bool = False,
+             starts: int | None = None, folds: str | None = None, scales: str | None = None,
+             validate: Texts | None = None, out: File | None = None, mat: File | None = None,
+             threads: int | None = None, seed: int | None = None, start: float | None = None,
+             end: float | None = None, overwrite: bool = False,
              progress: Report = None) -> Result:  # fmt: skip
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
 
@@ -108,6 +109,7 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         compare_solvers: Also writes solvers.csv.
         starts: Starts of the search.
         folds: The part that is left out and predicted: "trial", "block" or "none".
+        scales: "electrode": muscles that share an electrode share one scale of every parameter; "muscle": each its own.
         validate: Trials that are not fitted but predicted, each by its number or its file of lengths.
         out: Folder of the results; None: a temporary folder.
         mat: Parameters, series and draws also as one MATLAB file, which ends in .mat.
@@ -278,8 +280,9 @@ class EmgResult:
 def emg(inputs: Files, *, out: File | None = None, mvc: Files | None = None, channel: Texts | None = None,
         unit: str | None = None, highpass: float | None = None, lowpass: float | None = None, no_notch: bool = False,
         whitening: bool = False, no_whitening: bool = False, as_published: bool = False, window: float | None = None,
-        envelope: File | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
-        progress: Report = None) -> EmgResult:  # fmt: skip
+        envelope: File | None = None, remove_ecg: bool = False, measures: File | None = None,
+        measure_window: float | None = None, start: float | None = None, end: float | None = None,
+        overwrite: bool = False, progress: Report = None) -> EmgResult:  # fmt: skip
     """Raw EMG to activation: high-pass, rectify, low-pass, resting level, normalized to the largest effort.
 
     Args:
@@ -295,6 +298,9 @@ def emg(inputs: Files, *, out: File | None = None, mvc: Files | None = None, cha
         as_published: As the source paper.
         window: Window of the mean that counts as 1 [s] (default 0.5).
         envelope: Also write the envelope [V] here.
+        remove_ecg: Take the heart out of channels that hold it, as the trunk's do.
+        measures: Write onset, end, root mean square and median frequency of every burst here (.csv).
+        measure_window: With `measures` also those of successive windows this long [s].
     """
     found = call("emg", locals())
     found["normalisation"] = Table(found["normalisation"])
@@ -474,7 +480,8 @@ class MuscleResult:
         series: activation, lengths [m], velocities [m/s], pennation [rad], forces [N]; None for a fit.
         mean_absolute_error: From the measured force [N]; None without one.
         relative_error: The same as a share of the isometric force.
-        estimates: Of a fit: parameter, unit, start, estimate, std_error, at_bound.
+        estimates: Of a fit: parameter, unit, start, estimate, std_error (infinite
+            unless `told`), at_bound, told.
         errors: Of a fit: recording, starting_values, fitted, predicted, as shares of the isometric force.
     """
 

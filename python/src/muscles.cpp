@@ -25,6 +25,7 @@ py::list estimate_rows(const muscle::IsolatedFit& fit) {
     d["estimate"] = e.value;
     d["std_error"] = e.std_error;
     d["at_bound"] = e.at_bound;
+    d["told"] = e.told;
     rows.append(d);
   }
   return rows;

@@ -45,7 +45,7 @@ py::dict emg(py::dict given) {
   Keywords k("emg", std::move(given));
   Work work(k);
   commands::EmgOptions o;
-  std::string out, envelope;
+  std::string out, envelope, measures;
   bool overwrite = false, no_notch = false, whitening = false, no_whitening = false;
   k.take("inputs", o.in);
   k.take("out", out);
@@ -58,8 +58,11 @@ py::dict emg(py::dict given) {
   k.take("whitening", whitening);
   k.take("no_whitening", no_whitening);
   k.take("as_published", o.chain.as_published);
+  k.take("remove_ecg", o.chain.remove_ecg);
   k.above_zero("window", o.window_s);
   k.take("envelope", envelope);
+  k.take("measures", measures);
+  k.above_zero("measure_window", o.measure_window_s);
   k.take("overwrite", overwrite);
   k.refuse_others();
   if (whitening && no_whitening) throw InvalidInput("whitening and no_whitening exclude each other");
@@ -71,8 +74,10 @@ py::dict emg(py::dict given) {
     const auto activations = commands::emg_files(o.in, out, "out");
     const auto envelopes = commands::emg_files(o.in, envelope, "envelope");
     commands::check_emg_files(o, activations, envelopes, overwrite);
+    if (!measures.empty()) commands::check_emg_files(o, {measures}, {}, overwrite);
     commands::EmgResult r = commands::emg(o);
     if (!activations.empty() || !envelopes.empty()) commands::write_emg(r, activations, envelopes);
+    if (!measures.empty()) commands::write_emg_measures(r, measures);
     return r;
   });
   py::dict d;

@@ -1,0 +1,83 @@
+#include "myoid/results/change_sentences.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/counted.h"
+#include "myoid/report/tables.h"
+#include "myoid/report/typeset.h"
+
+namespace myoid {
+namespace {
+
+/// Returns "stronger", "optimal fiber length shorter".
+std::string direction(const std::string& parameter, double difference) {
+  const bool more = difference > 0.0;
+  if (parameter == "max_isometric_force") return more ? "stronger" : "weaker";
+  return fmt::format("{} {}", report::spelled(parameter), more ? "larger" : "smaller");
+}
+
+std::string with_unit(double value, Unit unit) {
+  return report::format_value(value) + (unit == Unit::dimensionless ? "" : fmt::format(" {}", symbol(unit)));
+}
+
+/// Returns "8 %", or the size itself where the number of the first session is no scale.
+std::string share_or_size(const ComparedParameter& p, double size) {
+  if (!(std::abs(p.base) > 0.0)) return with_unit(size, p.first.unit);
+  return fmt::format("{:.2g} %", 100.0 * size / std::abs(p.base));
+}
+
+}  // namespace
+
+bool rests_on_measurement(std::string_view method) { return method != "paper"; }
+
+std::vector<const ComparedParameter*> counted_parameters(const RunComparison& comparison) {
+  const bool torque =
+      std::ranges::any_of(comparison.parameters, [](const auto& p) { return p.first.method == "torque"; });
+  std::vector<const ComparedParameter*> counted;
+  for (const ComparedParameter& p : comparison.parameters) {
+    if (torque ? p.first.method == "torque" : rests_on_measurement(p.first.method)) counted.push_back(&p);
+  }
+  return counted;
+}
+
+std::string change_text(const ComparedParameter& p) {
+  if (p.change == Change::cannot_tell) {
+    if (!rests_on_measurement(p.first.method))
+      return fmt::format("{}: not compared: method {} fits forces that nobody measured", p.muscle, p.first.method);
+    return fmt::format("{}: not compared: {} in the first session, {} in the second", p.muscle, name(p.first.verdict),
+                       name(p.second.verdict));
+  }
+  const double seen = *p.smallest_detectable, size = std::abs(p.difference);
+  const std::string unseen = fmt::format("a change below {} would not have been seen", share_or_size(p, seen));
+  if (p.change == Change::no_change)
+    return fmt::format("{}: no change of {} shows; {}", p.muscle, report::spelled(p.first.parameter), unseen);
+  const std::string share = std::abs(p.base) > 0.0 ? fmt::format("{:.2g} %, ", 100.0 * size / std::abs(p.base)) : "";
+  return fmt::format("{} {} by {} ({}95 % {} to {}); {}", p.muscle, direction(p.first.parameter, p.difference),
+                     with_unit(size, p.first.unit), share, report::format_value(size - seen),
+                     with_unit(size + seen, p.first.unit), unseen);
+}
+
+std::string changes_sentence(const RunComparison& comparison) {
+  constexpr std::size_t kNamed = 4;
+  std::vector<std::string> found;
+  std::size_t same = 0, untold = 0;
+  for (const ComparedParameter* p : counted_parameters(comparison)) {
+    if (p->change == Change::differs) found.push_back(change_text(*p));
+    same += p->change == Change::no_change;
+    untold += p->change == Change::cannot_tell;
+  }
+  const std::string rest =
+      fmt::format("{} no change, and of {} a recording does not tell enough", same == 1 ? "1 number shows"
+                                                                              : fmt::format("{} numbers show", same),
+                  untold);
+  if (found.empty()) return fmt::format("No number changed by more than chance explains: {}.", rest);
+  const std::size_t more = found.size() - std::min(found.size(), kNamed);
+  found.resize(found.size() - more);
+  return fmt::format("{}{}. {}.", fmt::join(found, ". "), more > 0 ? fmt::format(". And {} more", more) : "", rest);
+}
+
+}  // namespace myoid

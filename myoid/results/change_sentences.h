@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "myoid/results/compare_runs.h"
+
+namespace myoid {
+
+/// True if a method's numbers rest on measurements of the person. Method `paper` fits forces that the program shared
+/// among the muscles itself.
+[[nodiscard]] bool rests_on_measurement(std::string_view method);
+
+/// Returns the numbers that a headline may announce: those of method torque if both sessions hold any, else those of
+/// the other methods that rest on measurements.
+[[nodiscard]] std::vector<const ComparedParameter*> counted_parameters(const RunComparison& comparison);
+
+/// Returns "BIC stronger by 264 N (25 %, 95 % 180 to 348 N); a change below 8 % would not have been seen" of a number
+/// that both sessions tell, and why a number is not compared otherwise.
+[[nodiscard]] std::string change_text(const ComparedParameter& parameter);
+
+/// Returns the sentences of all counted numbers that differ, "No number changed ..." if none does. `compare` and the
+/// group's page both print it.
+[[nodiscard]] std::string changes_sentence(const RunComparison& comparison);
+
+}  // namespace myoid
