@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/core/document_limits.h"
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
 #include "myoid/files/named_file.h"
@@ -196,6 +197,7 @@ void load_document(pugi::xml_document& document,
                    std::string_view text,
                    const fs::path& path,
                    pugi::xml_encoding encoding) {
+  if (const auto fault = xml_fault(text)) throw ReadError(path, line_at(text, fault->offset), fault->message);
   const auto parsed = document.load_buffer(text.data(), text.size(), pugi::parse_default, encoding);
   if (parsed) return;
   using recording::FileFormat;
