@@ -133,7 +133,8 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
                                     const std::filesystem::path& path,
                                     double cutoff_hz,
                                     const Call& call,
-                                    Remarks& remarks) {
+                                    Remarks& remarks,
+                                    kinematics::HeldValues held) {
   const recording::Storage file = recording::read_storage(path);
   warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries q = in_si(file, model);
@@ -144,7 +145,7 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
     remarks.warn(
         fmt::format("{}: {}; a spline bridges the gaps, and its derivatives beside a gap are not to be relied on",
                     path.string(), gaps.text()));
-  kinematics::MotionOptions options;
+  kinematics::MotionOptions options{.held = held};
   if (cutoff_hz > 0.0) {
     if (cutoff_hz >= 0.5 * q.mean_rate_hz()) {
       throw InvalidInput(fmt::format("--lowpass {} Hz: {} has {:.4g} Hz; give less than half of that, or leave it out",

@@ -165,6 +165,59 @@ Eigen::VectorXd unbounded(const Dual& dual) {
   return h.selfadjointView<Eigen::Lower>().ldlt().solve(dual.b());
 }
 
+/// The controls of least sum |x|^q for rising q up to p, each by Newton's method from the controls before. A step is the
+/// problem of exponent 2 with weights |x|^(q-2) and targets x (q-2)/(q-1), which the dual solves.
+class RisingExponent {
+ public:
+  RisingExponent(const ActuatorProblem& problem, const Dual& scaled, Eigen::VectorXd start)
+      : problem_(problem), scaled_(scaled), x_(std::move(start)) {}
+
+  /// Leaves the controls in x() and the multipliers of the scaled rows in lambda().
+  void run() {
+    constexpr double kRise = 1.5;
+    constexpr int kMostSteps = 60;
+    for (double q = std::min(problem_.exponent, 2.0 * kRise);; q = std::min(problem_.exponent, q * kRise)) {
+      for (int step = 0; step < kMostSteps && take_step(q); ++step) ++steps_;
+      if (q >= problem_.exponent) return;
+    }
+  }
+  [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
+  [[nodiscard]] const Eigen::VectorXd& lambda() const { return lambda_; }
+  [[nodiscard]] int steps() const { return steps_; }
+
+ private:
+  /// Returns false if the controls are optimal or cannot be improved.
+  bool take_step(double q) {
+    constexpr double kLeastWeight = 1e-14;  // of the greatest: controls below it cost nothing
+    const double size = std::max(x_.cwiseAbs().maxCoeff(), 1e-300);
+    const Eigen::VectorXd weight = (x_.cwiseAbs() / size).array().pow(q - 2.0).max(kLeastWeight);
+    const Eigen::VectorXd target = x_ * ((q - 2.0) / (q - 1.0));
+    const Eigen::VectorXd root = weight.cwiseSqrt();
+    Dual step(scaled_.a() * root.cwiseInverse().asDiagonal(), scaled_.b() - scaled_.a() * target,
+              root.cwiseProduct(problem_.lower - target), root.cwiseProduct(problem_.upper - target), 2.0);
+    const Maximum best = maximize(step, unbounded(step));
+    const Eigen::VectorXd next =
+        (target + step.x().cwiseQuotient(root)).cwiseMax(problem_.lower).cwiseMin(problem_.upper);
+    lambda_ = best.lambda * (0.5 * q * (q - 1.0) * std::pow(size, q - 2.0));
+    const Eigen::VectorXd way = next - x_;
+    const auto cost = [&](const Eigen::VectorXd& x) { return (x.cwiseAbs() / size).array().pow(q).sum(); };
+    const double before = cost(x_);
+    constexpr double kRoundOff = 1e-14;
+    for (double share = 1.0; share > 1e-6; share *= 0.5) {
+      const Eigen::VectorXd tried = x_ + share * way;
+      if (cost(tried) > before * (1.0 + kRoundOff)) continue;
+      x_ = share == 1.0 ? next : tried;
+      return way.cwiseAbs().maxCoeff() > 1e-13 * size;
+    }
+    return false;
+  }
+
+  const ActuatorProblem& problem_;
+  const Dual& scaled_;
+  Eigen::VectorXd x_, lambda_;
+  int steps_ = 0;
+};
+
 /// Finds the nearest controls if the actuators cannot produce the required torques: costly extra
 /// actuators produce the rest.
 void take_nearest(const ActuatorProblem& problem,
@@ -218,7 +271,24 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
   solution.iterations = best.iterations;
   solution.kkt_residual = certificate(problem, solution);
   solution.solved = best.balanced && solution.kkt_residual <= 1e-9;
-  if (!best.balanced) take_nearest(problem, dual, scale, solution);
+  if (best.balanced || problem.exponent <= 2.0) {
+    if (!best.balanced) take_nearest(problem, dual, scale, solution);
+    return solution;
+  }
+  // Whether the actuators can produce b does not depend on the exponent.
+  Dual squares(dual.a(), dual.b(), problem.lower, problem.upper, 2.0);
+  const Maximum least = maximize(squares, unbounded(squares));
+  if (!least.balanced) {
+    take_nearest(problem, dual, scale, solution);
+    return solution;
+  }
+  RisingExponent rising(problem, dual, squares.x());
+  rising.run();
+  solution.control = rising.x();
+  solution.multiplier = scale.cwiseProduct(rising.lambda());
+  solution.iterations += least.iterations + rising.steps();
+  solution.kkt_residual = certificate(problem, solution);
+  solution.solved = solution.kkt_residual <= 1e-9;
   return solution;
 }
 

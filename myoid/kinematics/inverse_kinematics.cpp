@@ -109,8 +109,20 @@ void note_ends(const model::BodyModel& model, const PoseFit& fit, const Eigen::M
       if (lies_at_end(of, value)) ++(value - of.lower < of.upper - value ? lower : upper);
     }
     const Eigen::Index most = std::max(lower, upper);
-    if (q.rows() < 2 || static_cast<double>(most) < kMostFramesAtEnd * static_cast<double>(q.rows())) continue;
     const double end = lower > upper ? of.lower : of.upper;
+    // A person may turn as far as they like: a range of the whole body is the model's habit.
+    const bool turns_body =
+        model.joints[at(of.joint)].parent == 0 && of.motion == model::MotionType::rotational && lower + upper > 1;
+    if (q.rows() < 2) continue;
+    if (static_cast<double>(most) < kMostFramesAtEnd * static_cast<double>(q.rows())) {
+      if (turns_body) {
+        result.notes.push_back(fmt::format(
+            "coordinate '{}' turns the whole body and lies at an end of its range, {:.4g} to {:.4g} deg, in {} of {} "
+            "frames: does the person turn farther? <clamped> false, or a wider range, lets the model follow",
+            of.name, of.lower * 180.0 / kPi, of.upper * 180.0 / kPi, lower + upper, q.rows()));
+      }
+      continue;
+    }
     result.notes.push_back(fmt::format(
         "coordinate '{}' lies at the end of its range, {}, in {} of {} frames: its markers, or the range", of.name,
         of.motion == model::MotionType::rotational ? fmt::format("{:.4g} deg", end * 180.0 / kPi)

@@ -71,6 +71,8 @@ class OpensimSetup {
                    std::vector<std::string>& notes) const;
 
  private:
+  /// Returns the option that replaces the file of an element ("--model"); empty if none does.
+  [[nodiscard]] std::string_view option_for(std::string_view name) const;
   /// Returns the file that replaces the file of an element; empty without a replacement.
   [[nodiscard]] std::filesystem::path replacement(std::string_view name) const;
   /// Returns the text of an element that names a file; empty for "Unassigned".

@@ -33,6 +33,7 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
   const std::vector<std::string> unknown = unknown_elements(setup.xml(), setup.tool());
   const ToolRun run{setup, options, result};
   run.add_notes(unknown);
+  run.add_notes(setup.xml().ignored());
   result.tool = setup.kind();
   try {
     for (const auto& [name, run_named] : kRuns)
@@ -42,7 +43,7 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
     if (unknown.empty()) throw;
     throw InvalidInput(fmt::format("{}; {}", error.what(), fmt::join(unknown, "; ")));
   }
-  run.add_notes(setup.xml().defaulted());
+  run.add_notes(setup.xml().repairs());
   return result;
 }
 

@@ -114,6 +114,7 @@ void run_inverse_dynamics(const ToolRun& run) {
   const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   kinematics::JointMotion motion = kinematics::joint_motion(model, q).motion;
+  run.add_notes(kinematics::held_notes(model, q, kinematics::HeldValues::of_motion));
   const Eigen::VectorXd& times = motion.q.time_s();
   motion = rows_of(motion, Eigen::seq(row_at(times, start_s), row_at(times, end_s)));
   dynamics::InverseDynamicsOptions dynamics_options{.passive_forces = true};

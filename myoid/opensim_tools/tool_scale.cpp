@@ -78,12 +78,14 @@ model::OsimEditor::Factors factors_of(const ToolRun& run, pugi::xml_node scaler,
     if (method == "measurements") {
       std::optional<recording::MarkerSeries> markers;
       const model::BodyState state = default_state(model);
+      int used = 0;
       for (const auto node : OsimXml::objects(scaler.child("MeasurementSet"))) {
         if (!xml.flag(node, "apply", true)) continue;
         if (!markers) markers = markers_of(run, run.setup.required_file(scaler, "marker_file"));
         const auto factor =
             measured_factor(run, node, model, state, *markers, run.setup.time_range(scaler, "time_range"));
         if (!factor) continue;
+        ++used;
         for (const auto body : OsimXml::objects(node.child("BodyScaleSet"))) {
           const std::string name = OsimXml::name_of(body);
           if (!known(node, name)) continue;
@@ -95,12 +97,17 @@ model::OsimEditor::Factors factors_of(const ToolRun& run, pugi::xml_node scaler,
           }
         }
       }
+      if (used == 0) run.note("<scaling_order> asks for measurements, and no measurement is used: no factor comes from them");
     } else if (method == "manualScale") {
+      int used = 0;
       for (const auto node : OsimXml::objects(scaler.child("ScaleSet"))) {
         if (!xml.flag(node, "apply", true)) continue;
         const std::string name = xml.word(node, "segment");
-        if (known(node, name)) factors[name] = xml.vec3(node, "scales", Vec3::Ones());
+        if (!known(node, name)) continue;
+        factors[name] = xml.vec3(node, "scales", Vec3::Ones());
+        ++used;
       }
+      if (used == 0) run.note("<scaling_order> asks for manualScale, and <ScaleSet> has no factor that applies");
     } else {
       xml.fail(scaler.child("scaling_order"), "<scaling_order>: expected measurements or manualScale, found '{}'",
                method);

@@ -57,5 +57,25 @@ TEST(OpensimLowpass, RefusesWhatItCannotFilter) {
   EXPECT_THROW((void)opensim_lowpass(TimeSeries(t, {{"q", Unit::radian}}, Eigen::MatrixXd(t)), 6.0), InvalidInput);
 }
 
+// Rows of a range are chosen by comparing times: the last digit decides whether the first row belongs to it.
+TEST(OpensimLowpass, TimesAreTheFilesOrSumsOfTheInterval) {
+  // Powers of two have no rounding: nothing is resampled, and the padded times stay.
+  Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(33, 0.0, 0.5);
+  const TimeSeries kept = opensim_lowpass({even, {{"q", Unit::radian}}, Eigen::MatrixXd(even)}, 6.0);
+  ASSERT_EQ(kept.sample_count(), 65);
+  for (Eigen::Index i = 0; i < 33; ++i) EXPECT_EQ(kept.time_s()[i + 16], even[i]);
+  // Otherwise each time is the sum of the time before and the smallest interval.
+  Eigen::VectorXd uneven(7);
+  uneven << 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7000001;
+  const TimeSeries summed = opensim_lowpass({uneven, {{"q", Unit::radian}}, Eigen::MatrixXd(uneven)}, 1.0);
+  const double interval = 0.3 - 0.2;
+  ASSERT_LE(summed.time_s()[1] - summed.time_s()[0], 0.1);
+  double t = summed.time_s()[0];
+  for (Eigen::Index i = 1; i < summed.sample_count(); ++i) {
+    t += 0.4 - 0.3 < interval ? 0.4 - 0.3 : interval;
+    EXPECT_NEAR(summed.time_s()[i], t, 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace myoid::signals
