@@ -11,6 +11,7 @@
 #include "myoid/checks/load_points.h"
 #include "myoid/checks/marker_sides.h"
 #include "myoid/checks/model_mass.h"
+#include "myoid/checks/stated_body.h"
 #include "myoid/checks/study_muscles.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/ground_support.h"
@@ -121,7 +122,7 @@ std::vector<Remark> StudyPlausibility::findings() const {
   if (auto sizes = unlike_sizes(sizes_)) found.push_back(std::move(*sizes));
   for (std::vector<Remark> more :
        {shared_muscles(*study_), idle_muscles(*study_, *model_), tendons_too_long(*study_, *model_),
-        unlikely_mass(*study_, *model_), same, grouped(unlike_lengths(lengths_))})
+        unlikely_mass(*study_, *model_), unlike_stated_bodies(*study_), same, grouped(unlike_lengths(lengths_))})
     std::ranges::move(more, std::back_inserter(found));
   return found;
 }

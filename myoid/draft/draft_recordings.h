@@ -7,6 +7,7 @@
 #include "myoid/core/time_series.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/model/body_model.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/force_plate.h"
 
 namespace myoid {
@@ -21,6 +22,7 @@ struct FoundRecording {
   bool has_unit = true;               ///< The EMG has a unit.
   bool raw = true;
   int plates = 0;
+  recording::StatedBody body;  ///< Body mass and height that the file states.
   bool motion_taken = false;
   bool emg_taken = false;
 };

@@ -22,6 +22,7 @@
 #include "myoid/files/file_format.h"
 #include "myoid/files/label_match.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/trial_up.h"
@@ -120,6 +121,7 @@ class Draft {
       const auto format = recording::format_of(path);
       recording::Recording file = recording::read_recording(path);
       f.plates = static_cast<int>(file.plates.size());
+      f.body = recording::read_stated_body(path);
       note_up(path, file);
       f.markers = std::move(file.markers);
       for (const Channel& c : file.analog.channels()) {
@@ -201,11 +203,25 @@ class Draft {
           "{} in the names: are these {} persons? A study is of one person: draft one for each (`myoid init "
           "DIR --from` that person's files) and run all with `myoid cohort`",
           name_list(persons), persons.size()));
-    if (!model_file_) {
+    body_mass();
+    line("");
+  }
+
+  /// Offers the mass that a file states; the built-in arm needs one.
+  void body_mass() {
+    const auto stated =
+        std::ranges::find_if(found_, [](const FoundRecording& f) { return f.body.mass_kg.has_value(); });
+    if (stated == found_.end()) {
+      if (model_file_) return;
       todo("the person's mass, for the segments of the built-in arm");
       line("# mass_kg = 70.0");
+      return;
     }
-    line("");
+    const std::string height =
+        stated->body.height_m ? fmt::format(" and a height of {:.3g} m", *stated->body.height_m) : "";
+    todo(fmt::format("is this the person's mass? {} states it (PROCESSING:BODYMASS){}",
+                     stated->path.filename().string(), height));
+    line(fmt::format("mass_kg = {:g}", *stated->body.mass_kg));
   }
 
   void model_table() {

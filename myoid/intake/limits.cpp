@@ -39,6 +39,11 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
                               "`[subject] mass_kg`; so below, of a model that stands (pounds?). A model of a part of "
                               "the body is lighter than the person",
                               l.heaviest_kg, l.lightest_kg, l.heavier_than)});
+  rows.push_back({"body mass or height that a C3D file states", "warning or note",
+                  fmt::format("a warning if `PROCESSING:BODYMASS` differs by more than {:g} % from `[subject] mass_kg` "
+                              "or between two files, or `PROCESSING:HEIGHT` by more than {:g} % between two files: two "
+                              "persons? A note if the study gives no mass",
+                              percent(l.other_mass), percent(l.other_height))});
   rows.push_back({"lengths of the model", "error",
                   fmt::format("two neighboring segments have their origins more than {:g} m apart: mm, cm? No command "
                               "that computes takes such a model",

@@ -16,6 +16,8 @@ struct PlausibilityLimits {
   double heaviest_kg = 500.0;  ///< No person weighs more.
   double heavier_than = 1.2;   ///< Ratio of the model's mass to the person's; clothes and shoes weigh less.
   double lightest_kg = 0.1;    ///< A model of a hand is heavier.
+  double other_mass = 0.1;     ///< Share by which two statements of a body mass differ: clothes, shoes, months.
+  double other_height = 0.05;  ///< Likewise of a body height.
   // EMG.
   double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
   double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.
