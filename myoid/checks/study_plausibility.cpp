@@ -13,6 +13,7 @@
 #include "myoid/checks/load_points.h"
 #include "myoid/checks/marker_sides.h"
 #include "myoid/checks/model_mass.h"
+#include "myoid/checks/stated_body.h"
 #include "myoid/checks/study_muscles.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/ground_support.h"
@@ -137,7 +138,8 @@ std::vector<Remark> StudyPlausibility::findings() const {
   for (Remark& remark : of_model) remark.where = "study";
   for (std::vector<Remark> more :
        {shared_muscles(*study_), idle_muscles(*study_, *model_), tendons_too_long(*study_, *model_),
-        unlikely_mass(*study_, *model_), of_model, same, grouped(unlike_lengths(lengths_))})
+        unlikely_mass(*study_, *model_), unlike_stated_bodies(*study_), of_model, same,
+        grouped(unlike_lengths(lengths_))})
     std::ranges::move(more, std::back_inserter(found));
   return found;
 }

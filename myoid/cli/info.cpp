@@ -31,8 +31,10 @@ void add_model_page_options(CLI::App& command, commands::ModelPageOptions& optio
                   "Folder with the model's meshes (.vtp, .stl, .obj), repeated; the model's folder and its subfolder "
                   "Geometry are looked through without it")
       ->needs(html);
-  command.add_option("--up", options.up, "Vertical axis of --markers: x, y or z (default y)")
-      ->check(CLI::IsMember({"x", "y", "z"}))
+  command
+      .add_option("--up", options.up,
+                  "Vertical axis of --markers: x, y, z, -x, -y or -z (default: as a .c3d file says, else as the model)")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
       ->needs(html);
 }
 

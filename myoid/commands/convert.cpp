@@ -20,6 +20,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/ground_reaction.h"
 #include "myoid/recording/plate_standing.h"
+#include "myoid/signals/plate_quality.h"
 #include "myoid/signals/resample.h"
 #include "myoid/tables/storage_reader.h"
 #include "myoid/tables/storage_writer.h"
@@ -101,7 +102,7 @@ class Converter {
 
   void markers(const fs::path& out) {
     recording::MarkerFile file = recording::read_markers(o_.in);
-    if (file.screen_up_L) tell_vertical(*file.screen_up_L);
+    tell_vertical();
     write_markers(out, std::move(file.markers), file.repairs);
     report(file.repairs);
   }
@@ -203,10 +204,16 @@ class Converter {
   }
 
   /// Without plates only --up turns the recording.
-  void tell_vertical(const Vec3& up_L) const {
+  void tell_vertical() const {
     if (!o_.up.empty() || !o_.turns.empty()) return;
-    const std::string up = recording::axis_name(up_L);
-    if (up != "y")
+    std::string up;
+    try {
+      const recording::LaboratoryUp own = recording::read_laboratory_up(o_.in);
+      if (own.up_L) up = recording::axis_name(*own.up_L);
+    } catch (const ReadError& error) {
+      remarks_.warn(error.what());  // the markers stay as they are
+    }
+    if (!up.empty() && up != "y")
       remarks_.note(
           fmt::format("note: {}: up is {} in this file; the markers are written as recorded; --up {} turns them to y "
                       "up, as models stand",
@@ -219,9 +226,13 @@ class Converter {
     report(file.repairs);
     const std::vector<int> numbers = plate_numbers(o_, file);
     std::vector<recording::Repair> notes;
+    const std::vector<recording::ForcePlate> over_time = file.force_plates();
     const TimeSeries loads =
-        recording::ground_reaction(file.force_plates(), {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
+        recording::ground_reaction(over_time, {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
     report(notes);
+    for (const recording::ForcePlate& plate : over_time) {
+      for (const Remark& fault : signals::check_plate_pressure(plate)) remarks_.warn(o_.in + ": " + sentence(fault));
+    }
     recording::write_storage(out, at_rate(cut(loads, o_.call)), {.title = out.stem().string(), .comments = {}});
     wrote(out);
     if (o_.bodies.empty()) {
@@ -241,8 +252,8 @@ class Converter {
     (void)plate_numbers(o_, file);
     if (!file.plates.empty()) {
       stand(file);
-    } else if (file.screen_up_L && file.markers.frame_count() > 0) {
-      tell_vertical(*file.screen_up_L);
+    } else if (file.markers.frame_count() > 0) {
+      tell_vertical();
     }
     report(file.repairs);
     file.repairs.clear();

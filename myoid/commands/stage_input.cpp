@@ -15,6 +15,7 @@
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/signals/clock_gaps.h"
+#include "myoid/study/trial_up.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::commands {
@@ -127,6 +128,13 @@ kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
   replace(motion.qdot, speeds);
   replace(motion.qddot, accelerations);
   return motion;
+}
+
+Mat3 onto_model(const model::BodyModel& model, const std::string& markers, const std::string& up, Remarks& remarks) {
+  if (const auto told = recording::axis_vector(up)) return rotation_onto(model, *told);
+  const recording::LaboratoryUp own = trial_up(kUpOfTheFile, markers, model);
+  if (*own.up_L != model_up(model)) remarks.note(fmt::format("note: {}: {}", markers, up_note(own, model)));
+  return rotation_onto(model, *own.up_L);
 }
 
 kinematics::JointMotion load_motion(const model::BodyModel& model,

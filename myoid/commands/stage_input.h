@@ -30,6 +30,13 @@ void warn_of_repairs(const std::filesystem::path& path,
 /// Warns of the muscles whose exact path differs visibly (1 mm) from OpenSim's at random postures.
 void warn_of_path_differences(const model::BodyModel& model, const std::string& name, Remarks& remarks);
 
+/// Returns the rotation of a marker file's laboratory onto the model's: by `up` ("z", "-y"); if
+/// `up` is empty by the vertical of the file (`trial_up`), with a note; else none.
+[[nodiscard]] Mat3 onto_model(const model::BodyModel& model,
+                              const std::string& markers,
+                              const std::string& up,
+                              Remarks& remarks);
+
 /// Reads a motion file (.mot, .sto) as coordinates with two derivatives. `cutoff_hz` > 0 smooths.
 /// The whole file is smoothed and differentiated, then cut to the call's time, so that the numbers
 /// do not depend on the cut. Warns of gaps of the clock, and of locked and prescribed coordinates that move otherwise.

@@ -18,6 +18,7 @@
 #include "myoid/core/numbers.h"
 #include "myoid/files/file_format.h"
 #include "myoid/recording/angle_file.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/c3d_survey.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/laboratory_up.h"
@@ -133,9 +134,9 @@ ordered_json events_json(const std::vector<recording::Event>& events) {
 /// Adds the upward direction and its sources in the file; "not known" without any, "contradictory"
 /// where two sources disagree.
 void add_up(const std::filesystem::path& path, const recording::C3dSurvey& survey, ordered_json& j) {
-  recording::LaboratoryUp up{recording::screen_up(survey.file), "POINT:Y_SCREEN or POINT:SCREEN"};
+  recording::LaboratoryUp up;
   try {
-    if (!survey.plates.empty()) up = recording::read_laboratory_up(path);
+    if (!survey.plates.empty() || recording::screen_up(survey.file)) up = recording::read_laboratory_up(path);
   } catch (const ReadError& error) {
     j["up"] = "contradictory";
     j["up_from"] = error.what();
@@ -184,6 +185,9 @@ ordered_json c3d_json(const std::filesystem::path& path) {
                                  {"largest_force_n", survey.largest_force_n[p]}});
   }
   add_up(path, survey, j);
+  const recording::StatedBody body = recording::stated_body(file);
+  if (body.mass_kg) j["body_mass_kg"] = *body.mass_kg;
+  if (body.height_m) j["body_height_m"] = *body.height_m;
   j["events"] = events_json(file.events);
   j["repairs"] = repairs_json(survey.repairs);
   return j;

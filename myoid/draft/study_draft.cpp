@@ -28,6 +28,7 @@
 #include "myoid/files/quoted_text.h"
 #include "myoid/kinematics/marker_places.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/trial_up.h"
@@ -138,6 +139,7 @@ class Draft {
       const auto format = recording::format_of(path);
       recording::Recording file = recording::read_recording(path);
       f.plates = static_cast<int>(file.plates.size());
+      f.body = recording::read_stated_body(path);
       note_up(path, file);
       f.markers = std::move(file.markers);
       if (format != recording::FileFormat::storage && !file.analog.empty())
@@ -223,11 +225,25 @@ class Draft {
                        "out. If these are other persons, draft a study for each (`myoid init DIR --from` that person's "
                        "files) and run all with `myoid cohort`; if not, name all files with --from one by one",
                        name_list(person_.all), person_.kept, counted(person_.left_out.size(), "file")));
-    if (!model_file_) {
+    body_mass();
+    line("");
+  }
+
+  /// Offers the mass that a file states; the built-in arm needs one.
+  void body_mass() {
+    const auto stated =
+        std::ranges::find_if(found_, [](const FoundRecording& f) { return f.body.mass_kg.has_value(); });
+    if (stated == found_.end()) {
+      if (model_file_) return;
       todo("the person's mass, for the segments of the built-in arm");
       line("# mass_kg = 70.0");
+      return;
     }
-    line("");
+    const std::string height =
+        stated->body.height_m ? fmt::format(" and a height of {:.3g} m", *stated->body.height_m) : "";
+    todo(fmt::format("is this the person's mass? {} states it (PROCESSING:BODYMASS){}",
+                     stated->path.filename().string(), height));
+    line(fmt::format("mass_kg = {:g}", *stated->body.mass_kg));
   }
 
   void model_table() {

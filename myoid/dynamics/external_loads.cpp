@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/dynamics/load_units.h"
 #include "myoid/files/named_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_xml.h"
@@ -151,12 +152,14 @@ ExternalForce read_force(const OsimXml& xml,
   }
   const Eigen::MatrixX3d f = values_of(xml, node, "force", data, file);
   Eigen::MatrixX3d p = values_of(xml, node, "point", data, file);
-  const Eigen::MatrixX3d t = values_of(xml, node, "torque", data, file);
+  Eigen::MatrixX3d t = values_of(xml, node, "torque", data, file);
   if (f.rows() == 0 && t.rows() == 0) {
     xml.fail(node, fmt::format("{} '{}' names neither columns of a force nor of a torque", node.name(), force.name));
   }
   check_finite(f, data, "force of '" + force.name + "'", file);
   check_finite(t, data, "torque of '" + force.name + "'", file);
+  for (const std::string& said : mend_load_units(f, p, t))
+    notes.push_back(fmt::format("{}: '{}': {}", file.string(), force.name, said));
   if (p.rows() > 0) {
     std::vector<bool> is_loaded(static_cast<std::size_t>(p.rows()), false);
     if (f.rows() > 0) {

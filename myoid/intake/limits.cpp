@@ -50,6 +50,11 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
                               "{:g} m, a force above {:g} N: mm, cm?",
                               model::kModelLimits.shortest_fiber_m, model::kModelLimits.longest_fiber_m,
                               model::kModelLimits.longest_tendon_m, model::kModelLimits.strongest_muscle_n)});
+  rows.push_back({"body mass or height that a C3D file states", "warning or note",
+                  fmt::format("a warning if `PROCESSING:BODYMASS` differs by more than {:g} % from `[subject] mass_kg` "
+                              "or between two files, or `PROCESSING:HEIGHT` by more than {:g} % between two files: two "
+                              "persons? A note if the study gives no mass",
+                              percent(l.other_mass), percent(l.other_height))});
   rows.push_back({"lengths of the model", "error",
                   fmt::format("two neighboring segments have their origins more than {:g} m apart: mm, cm? No command "
                               "that computes takes such a model",

@@ -13,7 +13,9 @@ struct PlausibilityLimits {
   double least_arm_m = 1e-4;  ///< A muscle with smaller moment arms does not cross the joint.
   // The model: lengths of fibers in optimal ones, the mass of the bodies (others: model/model_plausibility.h).
   double shortest_fiber = 0.1, longest_fiber = 3.0;
-  double heavier_than = 1.2;  ///< Ratio of the model's mass to the person's; clothes and shoes weigh less.
+  double heavier_than = 1.2;   ///< Ratio of the model's mass to the person's; clothes and shoes weigh less.
+  double other_mass = 0.1;     ///< Share by which two statements of a body mass differ: clothes, shoes, months.
+  double other_height = 0.05;  ///< Likewise of a body height.
   // EMG.
   double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
   double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.

@@ -62,7 +62,6 @@ MarkerFile markers_of_c3d(const std::filesystem::path& path) {
   if (file.markers.frame_count() == 0) throw ReadError(path, 0, "the C3D file holds no markers");
   result.markers = std::move(file.markers);
   result.repairs = std::move(file.repairs);
-  result.screen_up_L = file.screen_up_L;
   return result;
 }
 
