@@ -147,7 +147,8 @@ std::vector<Remark> check_recording(const std::filesystem::path& path,
                         .severity = Severity::note,
                         .where = where,
                         .says = recording::to_string(repair)});
-  if (recording::format_of(path) == recording::FileFormat::storage) findings = joined(std::move(findings), check_motion_file(path, model));
+  if (recording::format_of(path) == recording::FileFormat::storage)
+    findings = joined(std::move(findings), check_motion_file(path, model));
   const auto add = [&](std::vector<Remark> faults) {
     for (Remark& fault : faults) {
       fault.where = where;

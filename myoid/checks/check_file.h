@@ -17,9 +17,9 @@ namespace myoid {
                                                   const std::optional<Vec3>& stated_up_L = {},
                                                   const model::BodyModel* model = nullptr);
 
-/// Checks the motion in a storage file: clock, unit of its angles, speeds, jumps and, with a model, the coordinates that
-/// it lacks. Without a model the columns are angles if the header says inDegrees=yes, but for names as "pelvis_tx", and
-/// nothing is known of others. Empty for a file of forces or EMG.
+/// Checks the motion in a storage file: clock, unit of its angles, speeds, jumps and, with a model, the coordinates
+/// that it lacks. Without a model the columns are angles if the header says inDegrees=yes, but for names as
+/// "pelvis_tx", and nothing is known of others. Empty for a file of forces or EMG.
 [[nodiscard]] std::vector<Remark> check_motion_file(const std::filesystem::path& path, const model::BodyModel* model);
 
 /// Checks a model file: elements that are not supported, and numbers that no body has (model::implausible). Throws

@@ -25,7 +25,8 @@ std::optional<Remark> open_joint(const Study& study,
   }
   std::vector<std::string> own;
   for (const std::string& name : study_coordinates(study.model)) {
-    const bool held = study.ik.calibrate && std::ranges::find(study.ik.calibrate->hold, name) != study.ik.calibrate->hold.end();
+    const bool held =
+        study.ik.calibrate && std::ranges::find(study.ik.calibrate->hold, name) != study.ik.calibrate->hold.end();
     if (!held && std::ranges::find(open, name) != open.end()) own.push_back(name);
   }
   if (own.empty()) return std::nullopt;
@@ -40,8 +41,9 @@ std::optional<Remark> open_joint(const Study& study,
                 .says = fmt::format("the markers of the recording that the model has ({}) leave {} open: they would be "
                                     "as near at another angle",
                                     fmt::join(known, ", "), fmt::join(own, ", ")),
-                .remedy = "name markers on both sides of the joint ([markers] rename), or lock the coordinates that turn "
-                          "with it ([ik] lock)"};
+                .remedy =
+                    "name markers on both sides of the joint ([markers] rename), or lock the coordinates that turn "
+                    "with it ([ik] lock)"};
 }
 
 }  // namespace myoid

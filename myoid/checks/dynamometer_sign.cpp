@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/trial_plausibility.h"
+#include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/intake/limits.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/path_survey.h"

@@ -14,7 +14,9 @@ std::vector<Stretch> margined(std::vector<Stretch> times) {
   return times;
 }
 
-std::vector<Remark> excluded_times(const TrialSpec& trial, const TrialInput& input, const std::vector<Stretch>& foreign) {
+std::vector<Remark> excluded_times(const TrialSpec& trial,
+                                   const TrialInput& input,
+                                   const std::vector<Stretch>& foreign) {
   std::vector<Stretch> times = trial.exclude.windows;
   if (trial.exclude.foreign_contacts) std::ranges::copy(margined(foreign), std::back_inserter(times));
   const Eigen::VectorXd* clock = input.markers  ? &input.markers->time_s
@@ -47,10 +49,10 @@ std::vector<Remark> excluded_times(const TrialSpec& trial, const TrialInput& inp
   found.push_back({.code = RemarkCode::general,
                    .severity = Severity::note,
                    .where = trial.name,
-                   .says = fmt::format("left out of fit, scores and activation 1, as the study says: {} ({:.0f} % of the "
-                                       "trial)",
-                                       fmt::join(said, ", "),
-                                       100.0 * static_cast<double>(out) / static_cast<double>(clock->size()))});
+                   .says = fmt::format(
+                       "left out of fit, scores and activation 1, as the study says: {} ({:.0f} % of the "
+                       "trial)",
+                       fmt::join(said, ", "), 100.0 * static_cast<double>(out) / static_cast<double>(clock->size()))});
   return found;
 }
 

@@ -282,7 +282,8 @@ std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s
 /// Says the cause and the remedy of contacts that another body bears, or that no body of the model is near.
 std::string remedy_of(bool of_another, bool own_clock) {
   if (of_another)
-    return "; leave these times out ([[trial]] exclude = [\"foreign_contacts\"]), or give these forces to the body that "
+    return "; leave these times out ([[trial]] exclude = [\"foreign_contacts\"]), or give these forces to the body "
+           "that "
            "bears them";
   return fmt::format(
       ", and no other body of the model is near: {}did somebody else step there? Then leave these "

@@ -31,8 +31,9 @@ std::optional<Remark> unstated_loads(const std::vector<TrialSpec>& trials) {
                 .says = fmt::format("the study does not say what was held, carried or pushed in {}{}: every torque and "
                                     "strength is computed as if it was nothing",
                                     fmt::join(silent, ", "), more),
-                .remedy = "give each [[trial]] held_mass_kg (0: nothing was held), external_loads, force_plates, "
-                          "load_cell or external_torque"};
+                .remedy =
+                    "give each [[trial]] held_mass_kg (0: nothing was held), external_loads, force_plates, "
+                    "load_cell or external_torque"};
 }
 
 }  // namespace myoid

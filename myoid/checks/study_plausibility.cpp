@@ -159,7 +159,8 @@ void require_plausible(Study& study, const model::BodyModel& model, std::vector<
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     plausibility.look_at(study.trials[i], inputs[i]);
     ExcludeSpec& exclude = study.trials[i].exclude;
-    if (exclude.foreign_contacts) std::ranges::copy(margined(plausibility.foreign_times()), std::back_inserter(exclude.windows));
+    if (exclude.foreign_contacts)
+      std::ranges::copy(margined(plausibility.foreign_times()), std::back_inserter(exclude.windows));
   }
   take(plausibility.findings());
 }

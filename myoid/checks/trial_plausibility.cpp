@@ -183,9 +183,9 @@ std::vector<Remark> implausible(const Study& study,
     for (const auto& [name, capacity] : capacities) {
       const auto column = input.external_torque->find(name + "_moment");
       if (!column) continue;
-      const std::string text = dynamics::too_much_torque(
-          name, dynamics::usual_peak(input.external_torque->values().col(*column)), capacity.greatest_nm(),
-          trial.external_torque->filename().string());
+      const std::string text =
+          dynamics::too_much_torque(name, dynamics::usual_peak(input.external_torque->values().col(*column)),
+                                    capacity.greatest_nm(), trial.external_torque->filename().string());
       if (!text.empty())
         findings.push_back({.code = RemarkCode::torque_impossible,
                             .severity = Severity::error,

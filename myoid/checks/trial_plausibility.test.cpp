@@ -7,6 +7,7 @@
 #include "myoid/arm/arm4.h"
 #include "myoid/core/units.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/recording/laboratory_up.h"
 
 namespace myoid {
 namespace {

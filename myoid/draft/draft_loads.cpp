@@ -124,8 +124,8 @@ std::vector<std::string> object_markers(const recording::MarkerSeries& markers, 
         body.push_back(other);
     }
     if (body.size() <= std::max<std::size_t>(2, best.size())) continue;
-    const bool of_the_person = std::ranges::any_of(
-        known, [&](Eigen::Index own) { return distance_spread_m(markers, own, first) < kApart_m; });
+    const bool of_the_person =
+        std::ranges::any_of(known, [&](Eigen::Index own) { return distance_spread_m(markers, own, first) < kApart_m; });
     if (!of_the_person) best = std::move(body);
   }
   std::vector<std::string> names;
@@ -134,14 +134,16 @@ std::vector<std::string> object_markers(const recording::MarkerSeries& markers, 
 }
 
 std::vector<std::string> load_channels(const TimeSeries& analog, const std::vector<recording::PlateSetup>& plates) {
-  const bool named_emg = std::ranges::any_of(analog.channels(), [](const Channel& c) { return has_word(c.name, {"emg"}); });
+  const bool named_emg =
+      std::ranges::any_of(analog.channels(), [](const Channel& c) { return has_word(c.name, {"emg"}); });
   std::vector<std::string> found;
   for (Eigen::Index c = 0; c < analog.channel_count(); ++c) {
     const Channel& channel = analog.channels()[static_cast<std::size_t>(c)];
     const bool of_plate = std::ranges::any_of(plates, [&](const recording::PlateSetup& plate) {
       return std::ranges::find(plate.channels, c) != plate.channels.end();
     });
-    const bool other = has_word(channel.name, {"emg", "acc", "gyr", "mag", "sync", "trig", "foot", "switch", "time", "frame"});
+    const bool other =
+        has_word(channel.name, {"emg", "acc", "gyr", "mag", "sync", "trig", "foot", "switch", "time", "frame"});
     const bool force = channel.unit == Unit::newton || channel.unit == Unit::newton_meter ||
                        has_word(channel.name, {"force", "moment", "torque", "load", "cell", "handle"});
     const auto values = analog.values().col(c);

@@ -90,7 +90,8 @@ TEST(AskForLoads, AsksOnceAndPrefillsWhatTheNameTells) {
   ask_for_loads("slow", {}, true, asked, out);
   ask_for_loads("fast", {}, true, asked, out);
   EXPECT_EQ(out.questions.size(), 1U);
-  ask_for_loads("load5p5_t1", {.object_markers = {"box 1", "box 2", "box 3"}, .channels = {"Voltage.1"}}, true, asked, out);
+  ask_for_loads("load5p5_t1", {.object_markers = {"box 1", "box 2", "box 3"}, .channels = {"Voltage.1"}}, true, asked,
+                out);
   EXPECT_EQ(out.questions.size(), 4U);
   EXPECT_THAT(out.toml, HasSubstr("# held_mass_kg = 0.0\n# held_mass_kg = 0.0\n"));
   EXPECT_THAT(out.toml, HasSubstr("# held_mass_kg = 5.5\n"));

@@ -94,7 +94,7 @@ TEST(DraftTrials, TakeTheKindOfEmgOfMostMovementsAndSayWhichKindTheOthersHave) {
               ::testing::Contains("the EMG of 'other' (other_raw.sto) is raw, and the study takes envelopes; 'other' "
                                   "gives motion and torque only"));
   EXPECT_EQ(out.questions.size(), 2U);  // the other: what was held, once for all trials
-  files[3].raw = true;  // as many raw as envelopes
+  files[3].raw = true;                  // as many raw as envelopes
   files.resize(4);
   EXPECT_TRUE(takes_raw_emg(files));
 }

@@ -382,8 +382,9 @@ class TrialCheck {
                                           .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
                                           .lever_m = 1.0,
                                           .body_mass_kg = 100.0};
-      const std::string text = dynamics::too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
-                                               dynamics::usual_peak(torque(j)), joint.greatest_nm(), "the torque");
+      const std::string text =
+          dynamics::too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
+                                    dynamics::usual_peak(torque(j)), joint.greatest_nm(), "the torque");
       if (!text.empty()) fail(files_.torques, text);
     }
   }

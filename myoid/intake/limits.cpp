@@ -82,9 +82,9 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
 }
 
 void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
-  rows.push_back(
-      {"a clock that is not in seconds", "error", fmt::format("fewer than {:g} samples a second; of a motion also more than {:g}",
-                                                                       kinematics::kMotionLimits.slowest_hz, kinematics::kMotionLimits.fastest_hz)});
+  rows.push_back({"a clock that is not in seconds", "error",
+                  fmt::format("fewer than {:g} samples a second; of a motion also more than {:g}",
+                              kinematics::kMotionLimits.slowest_hz, kinematics::kMotionLimits.fastest_hz)});
   rows.push_back({"a pause of a clock", "warning; error if no part lasts a second",
                   fmt::format("longer than {:g} s: the trial is cut there. With `[ik] calibrate` an error. A spline "
                               "bridges shorter pauses, with a warning",
@@ -123,11 +123,12 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
                               "clock or the unit is another. Only a pitcher's shoulder is faster, for some hundredths "
                               "of a second",
                               kMotion.fastest_radps / kDegree, kMotion.fastest_mps, percent(kMotion.share))});
-  rows.push_back({"coordinates that the motion lacks", "warning",
-                  "they rest at their default; locked ones are left out"});
-  rows.push_back({"markers that do not determine a joint of the study", "error",
-                  "in three frames that show most markers, the study's coordinate is open: the markers of the file that "
-                  "the model has would be as near at another angle"});
+  rows.push_back(
+      {"coordinates that the motion lacks", "warning", "they rest at their default; locked ones are left out"});
+  rows.push_back(
+      {"markers that do not determine a joint of the study", "error",
+       "in three frames that show most markers, the study's coordinate is open: the markers of the file that "
+       "the model has would be as near at another angle"});
   rows.push_back({"windows of `exclude`", "note; warning",
                   "the times that are left out of fit, scores and activation 1; a warning if one lies outside of the "
                   "trial"});

@@ -8,9 +8,10 @@ namespace {
 IdentificationResult three_numbers() {
   IdentificationResult result;
   result.method = "torque";
-  result.estimates = {{.muscle = "BIC", .parameter = "max_isometric_force", .verdict = Verdict::identified, .reason = "a"},
-                      {.muscle = "BIC", .parameter = "optimal_fiber_length", .verdict = Verdict::identified},
-                      {.muscle = "TRI", .parameter = "max_isometric_force", .verdict = Verdict::not_identifiable}};
+  result.estimates = {
+      {.muscle = "BIC", .parameter = "max_isometric_force", .verdict = Verdict::identified, .reason = "a"},
+      {.muscle = "BIC", .parameter = "optimal_fiber_length", .verdict = Verdict::identified},
+      {.muscle = "TRI", .parameter = "max_isometric_force", .verdict = Verdict::not_identifiable}};
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/arm/arm4.h"
+#include "myoid/model/kinematic_tree.h"
 #include "myoid/osim/osim_reader.h"
 
 namespace myoid::kinematics {

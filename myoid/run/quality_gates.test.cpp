@@ -150,7 +150,8 @@ TEST(VerdictCaps, EmgThatIsCutOffInTheMaximalContractionCapsTheStrengthThatRests
   result.fit.methods[0].estimates[0].parameter = "optimal_fiber_length";
   EXPECT_EQ(verdict_of(result), Verdict::identified);
   // In a fitted trial every number of the muscle rests on it.
-  result.trials[0].faults = {{.code = RemarkCode::emg_saturated, .where = "t", .about = "emg BIC", .when = Stretch{0.2, 0.4}}};
+  result.trials[0].faults = {
+      {.code = RemarkCode::emg_saturated, .where = "t", .about = "emg BIC", .when = Stretch{0.2, 0.4}}};
   EXPECT_EQ(verdict_of(result), Verdict::weak);
   result.trials[0].spec.exclude.windows = {{0.1, 0.5}};
   EXPECT_EQ(verdict_of(result), Verdict::identified);
@@ -158,8 +159,9 @@ TEST(VerdictCaps, EmgThatIsCutOffInTheMaximalContractionCapsTheStrengthThatRests
 
 TEST(VerdictCaps, AFaultThatIsMendedOrANoteCapsNothing) {
   StudyResult result = with_emg();
-  result.trials[1].faults = {{.code = RemarkCode::emg_hum, .where = "mvc", .about = "emg BIC"},
-                             {.code = RemarkCode::emg_clipped, .severity = Severity::note, .where = "mvc", .about = "emg BIC"}};
+  result.trials[1].faults = {
+      {.code = RemarkCode::emg_hum, .where = "mvc", .about = "emg BIC"},
+      {.code = RemarkCode::emg_clipped, .severity = Severity::note, .where = "mvc", .about = "emg BIC"}};
   EXPECT_EQ(verdict_of(result), Verdict::identified);
 }
 

@@ -101,6 +101,7 @@ std::vector<TrialResult> joined(const Study& study,
                          [&](const Remark& remark) { return remark.where == trial.spec.name; });
     if (trial.emg.stages) add_notes(trial.emg.stages->findings, remarks);
     add_notes(trial.motion.notes, remarks);
+    remarks.insert(remarks.end(), trial.motion.remarks.begin(), trial.motion.remarks.end());
     remarks.insert(remarks.end(), trial.forces.remarks.begin(), trial.forces.remarks.end());
   }
   require_one(trials);

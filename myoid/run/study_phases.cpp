@@ -76,9 +76,9 @@ identification::StudyData plain_data(const FitSource& source, identification::St
   ComparedEnvelopes envelopes;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (uses[i] != Use::validation)
-      envelopes.add(
-          {trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg.stages->bandwidth_hz, Eigen::VectorXd()},
-          trials[i]->spec.exclude.windows);
+      envelopes.add({trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg.stages->bandwidth_hz,
+                     Eigen::VectorXd()},
+                    trials[i]->spec.exclude.windows);
   }
   const auto normalisation = signals::find_normalisation(envelopes.trials, {.window_s = study.emg.normalise_window_s});
   for (identification::TrialData& trial : data.trials) {

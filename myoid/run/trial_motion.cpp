@@ -11,6 +11,7 @@
 #include "myoid/core/error.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/intake/trial_markers.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/signals/resample.h"
 #include "myoid/study/study_model.h"
 
@@ -95,6 +96,8 @@ TrialMotion trial_motion(const StudySource& source, const TrialSpec& spec, const
   if (input.markers) {
     solve_ik(source, *input.markers, store, motion);
     motion.notes = motion.ik->notes;
+    motion.remarks = kinematics::implausible(motion.ik->q);
+    for (Remark& remark : motion.remarks) remark.where = spec.name;
     add_joint_motion(source.study, motion.ik->q, motion);
   } else if (input.motion) {
     add_joint_motion(source.study, *input.motion, motion);

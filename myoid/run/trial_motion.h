@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/remark.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/model/body_model.h"
@@ -23,7 +24,8 @@ struct TrialMotion {
   kinematics::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
                                            ///< motion.
   std::vector<std::string> notes;
-  std::string failure;  ///< Reason why the motion is missing; empty: none.
+  std::vector<Remark> remarks;  ///< What no movement does, in the solution of inverse kinematics.
+  std::string failure;          ///< Reason why the motion is missing; empty: none.
 };
 
 /// Computes the motion of one trial from its markers or coordinates. Reads inverse kinematics of the same input from

@@ -16,9 +16,7 @@ namespace {
 
 using identification::VerdictCap;
 
-VerdictCap of_all(std::string reason) {
-  return {.reason = std::move(reason)};
-}
+VerdictCap of_all(std::string reason) { return {.reason = std::move(reason)}; }
 
 /// Faults of an EMG channel that no processing mends.
 bool spoils_emg(RemarkCode code) {

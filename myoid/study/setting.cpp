@@ -158,8 +158,8 @@ bool SettingVisitor::numbers(std::string_view key, std::vector<double>& value, c
 
 bool SettingVisitor::stretches(std::string_view key, std::vector<Stretch>& value, bool& worded, const About& about) {
   const bool empty = value.empty() && !worded;
-  return met({key, SettingKind::stretches, about}, empty ? SettingValue() : SettingValue(WordedStretches{value, worded}),
-             [&](SettingValue given) {
+  return met({key, SettingKind::stretches, about},
+             empty ? SettingValue() : SettingValue(WordedStretches{value, worded}), [&](SettingValue given) {
                auto& list = std::get<WordedStretches>(given);
                value = std::move(list.stretches);
                worded = list.worded;

@@ -66,11 +66,14 @@ SettingValue SettingReader::numbers(const Setting& setting) {
 
 SettingValue SettingReader::stretches(const Setting& setting) {
   WordedStretches value;
-  for (const TomlTable::NumbersOrText& each : *table_->numbers_or_texts(setting.key)) {
-    const std::string expected = fmt::format("expected pairs of times [begin, end] in s{}",
-                                             setting.about.word.empty() ? "" : fmt::format(" or \"{}\"", setting.about.word));
+  const std::vector<TomlTable::NumbersOrText> list = *table_->numbers_or_texts(setting.key);
+  for (const TomlTable::NumbersOrText& each : list) {
+    const std::string expected =
+        fmt::format("expected pairs of times [begin, end] in s{}",
+                    setting.about.word.empty() ? "" : fmt::format(" or \"{}\"", setting.about.word));
     if (each.text) {
-      if (*each.text != setting.about.word) table_->fail(setting.key, fmt::format("found \"{}\", {}", *each.text, expected));
+      if (*each.text != setting.about.word)
+        table_->fail(setting.key, fmt::format("found \"{}\", {}", *each.text, expected));
       value.worded = true;
       continue;
     }
@@ -78,7 +81,8 @@ SettingValue SettingReader::stretches(const Setting& setting) {
       table_->fail(setting.key, fmt::format("found a list of {} numbers, {}", each.numbers.size(), expected));
     const Stretch stretch{each.numbers[0], each.numbers[1]};
     if (!(stretch.begin_s < stretch.end_s))
-      table_->fail(setting.key, fmt::format("found [{}, {}], expected the begin before the end", stretch.begin_s, stretch.end_s));
+      table_->fail(setting.key,
+                   fmt::format("found [{}, {}], expected the begin before the end", stretch.begin_s, stretch.end_s));
     value.stretches.push_back(stretch);
   }
   return value;

@@ -144,7 +144,8 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
   visit_use(trial, v);
   v.number("held_mass_kg", trial.held_mass_kg,
            {.says = "Mass in the hand; 0: the person held nothing. Without it, and without forces of the surroundings "
-                    "(`external_loads`, `force_plates`, `load_cell`, `external_torque`), the [gate](check.md#quality-gates-of-run) "
+                    "(`external_loads`, `force_plates`, `load_cell`, `external_torque`), the "
+                    "[gate](check.md#quality-gates-of-run) "
                     "\"External loads stated\" stays at caution.",
             .limits = within(0.0, 100.0, "kg"),
             .otherwise = "not stated; nothing is computed to be held"});

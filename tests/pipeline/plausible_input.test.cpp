@@ -115,8 +115,9 @@ TEST(PlausibleInput, AHeldMassWithoutItsDecimalPointIsSaidByCheckAndRun) {
 
 /// A motion of the built-in arm with all coordinates: the elbow swings by 50 degrees at 0.5 Hz for 5 s.
 std::string arm_motion(double time_factor, double angle_factor) {
-  std::string text = "Coordinates\nversion=1\nnRows=501\nnColumns=5\ninDegrees=yes\nendheader\n"
-                     "time\tshoulder_flexion\tshoulder_adduction\tshoulder_rotation\telbow_flexion\n";
+  std::string text =
+      "Coordinates\nversion=1\nnRows=501\nnColumns=5\ninDegrees=yes\nendheader\n"
+      "time\tshoulder_flexion\tshoulder_adduction\tshoulder_rotation\telbow_flexion\n";
   for (int i = 0; i <= 500; ++i) {
     const double time_s = 0.01 * i;
     char line[200];
@@ -164,13 +165,15 @@ TEST(PlausibleInput, AModelThatCannotBeIsSaidAlike) {
   for (const auto& [from, to, says] :
        {std::tuple{"<gravity>0 -9.80665 0", "<gravity>0 -6e13 0", "the gravity of the model is 6e+13 m/s2"},
         std::tuple{"<mass>36.5", "<mass>36500", ", more than any person: are its masses in grams?"}}) {
-    std::filesystem::copy_file(rec / "model.osim", folder / "m.osim", std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(rec / "model.osim", folder / "m.osim",
+                               std::filesystem::copy_options::overwrite_existing);
     replace_in(folder / "m.osim", from, to);
     EXPECT_THAT(
         myoid({"id", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "c.sto"}).err,
         HasSubstr(says));
-    EXPECT_THAT(myoid({"paths", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "p"}).err,
-                HasSubstr(says));
+    EXPECT_THAT(
+        myoid({"paths", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "p"}).err,
+        HasSubstr(says));
     const Finished check = myoid({"check", folder / "m.osim"});
     EXPECT_EQ(check.exit_code, 3);
     EXPECT_THAT(check.out, HasSubstr(says));
