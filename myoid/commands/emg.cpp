@@ -78,7 +78,9 @@ std::vector<EmgMeasures> measures_of(const std::string& file,
                                      const TimeSeries& filtered,
                                      const std::vector<std::string>& channels,
                                      double window_s) {
+  constexpr double kSlowest_hz = 100.0;  // onsets are looked for below 25 Hz
   std::vector<EmgMeasures> found;
+  if (filtered.mean_rate_hz() < kSlowest_hz) return found;
   for (const std::string& channel : channels) {
     const auto c = filtered.find(channel);
     if (!c) continue;

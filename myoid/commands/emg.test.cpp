@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 #include <fmt/format.h>
@@ -97,6 +98,28 @@ TEST(EmgFunction, ASpikeChangesNothingAndNoiseIsLeftOut) {
   EXPECT_NE(results[1].chain.steps[0].find("1 in BIC"), std::string::npos) << results[1].chain.steps[0];
   o.channels = {"TRI"};
   EXPECT_THROW((void)emg(o), InvalidInput);
+}
+
+TEST(EmgFunction, MeasuresHaveOnsetRmsAndMedianFrequency) {
+  // A tone of 79.6 Hz and 1 mV from 1 to 3 s.
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "a.csv", two_channels());
+  EmgOptions o;
+  o.in = {folder / "a.csv"};
+  o.chain.whitening = false;
+  o.measure_window_s = 0.5;
+  const EmgResult result = emg(o);
+  ASSERT_EQ(result.measures.size(), 1U);
+  EXPECT_EQ(result.measures[0].channel, "BIC");
+  ASSERT_EQ(result.measures[0].bursts.size(), 1U);
+  const signals::EmgWindow& burst = result.measures[0].bursts[0];
+  EXPECT_NEAR(burst.begin_s, 1.0, 0.03);
+  EXPECT_NEAR(burst.end_s, 3.0, 0.03);
+  EXPECT_NEAR(burst.rms, 1e-3 / std::sqrt(2.0), 0.03e-3);
+  EXPECT_NEAR(burst.median_frequency_hz, 79.6, 4.0);
+  EXPECT_EQ(result.measures[0].windows.size(), 8U);
+  write_emg_measures(result, folder / "m.csv");
+  EXPECT_TRUE(std::filesystem::exists(folder / "m.csv"));
 }
 
 TEST(GroupedWarnings, WhatIsAlikeIsSaidOnceWithTheOtherPlaces) {

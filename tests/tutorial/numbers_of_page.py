@@ -147,11 +147,6 @@ def length_with_literature(muscle):
     return values
 
 
-def delay(r):
-    estimates = [e for e in r.torque(POSTERIOR)["estimates"] if e["parameter"] == "emg_delay"]
-    return [*scaled(estimates[0], 1000.0, "{:.0f}")[1:], *expected(estimates[0], 1000.0, "{:.0f}")]
-
-
 def delay_row(r):
     texts = []
     for run in (ELBOW, POSTERIOR):
@@ -186,6 +181,15 @@ def moved(r):
     return [f"{100 * estimate['estimate']:.1f}", f"{100 * estimate['initial']:.1f}"]
 
 
+def strengths(r):
+    found = {verdict(r.number(POSTERIOR, muscle, "max_isometric_force")) for muscle in ("BIC", "BRA", "BRD", "TRI")}
+    return [" and ".join(sorted(found))]
+
+
+def variance_gone(r):
+    return [f"{100 * r.number(POSTERIOR, 'BRD', 'optimal_fiber_length')['shrinkage']:.0f}"]
+
+
 def held_back(r):
     return r.found("tutorial_prediction", r"held_back_2kg\s.*?(\d+) %")
 
@@ -209,13 +213,14 @@ CLAIMS = [
     ("| force of brachialis [N] | {} ({} to {}), {} | {} to {} |", force("BRA")),
     ("| force of brachioradialis [N] | {} ({} to {}), {} | {} to {} |", force("BRD")),
     ("| force of triceps [N] | {} ({} to {}), {} | {} to {} |", force("TRI")),
+    ("| F_max of the muscles at their maximum | – | {} |", strengths),
+    ("takes {} % off the variance of what was known", variance_gone),
     ("| trials left out: R², RMSE [N m] | {} to {}, {} to {} | {} to {}, {} to {} |", scores_of_both),
     ("with an error of {} to {} N m (root mean square) for trials that were not fitted. The literature's muscles with the "
      "best single gain err by {} to {} N m", errors),
     ("brachioradialis lies between {} and {} cm (95 %, posterior; the literature says {} to {} cm)",
      length_with_literature("BRD")),
     ("biceps lies between {} and {} cm (the literature says {} to {} cm)", length_with_literature("BIC")),
-    ("EMG delay between {} and {} ms (expected {} to {} ms)", delay),
     ("{} cm with the narrow interval, although it is called {}: the posterior's is {} times as wide", narrower),
 ]  # fmt: skip
 
