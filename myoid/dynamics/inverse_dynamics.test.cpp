@@ -7,6 +7,7 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/arm/planar_elbow.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/tables/storage_reader.h"
 
