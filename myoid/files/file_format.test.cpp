@@ -87,7 +87,8 @@ TEST(FileFormat, OtherProgramsFormatsAreRefusedWithTheNextStep) {
       EXPECT_THAT(error.what(), AllOf(HasSubstr(name), HasSubstr("not read; "))) << name;
     }
   }
-  for (const char* name : {"a.csv", "a.c3d", "a", "a.xyz", "acq", "mat.sto"}) EXPECT_NO_THROW(refuse_foreign_format(name)) << name;
+  for (const char* name : {"a.csv", "a.c3d", "a", "a.xyz", "acq", "mat.sto"})
+    EXPECT_NO_THROW(refuse_foreign_format(name)) << name;
 }
 
 TEST(WrongKind, NamesTheKindOfTheFileAndTheOneExpected) {

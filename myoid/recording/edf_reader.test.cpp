@@ -154,9 +154,8 @@ TEST(Edf, EachRateIsAClockAndTheClockOfTheEmgIsTheFirst) {
                                         {"EMG BIC", "uV", -1000, 1000, -1000, 1000, 4},
                                         {"EMG TRI", "uV", -1000, 1000, -1000, 1000, 2},
                                         {"EMG BRA", "uV", -1000, 1000, -1000, 1000, 4}};
-  const EdfFile file = parse(make_edf(false, "", signals, 2, 2, [](std::size_t s, int i) {
-    return static_cast<int>(100 * s) + i;
-  }));
+  const EdfFile file =
+      parse(make_edf(false, "", signals, 2, 2, [](std::size_t s, int i) { return static_cast<int>(100 * s) + i; }));
   ASSERT_EQ(file.data.channel_count(), 2);
   EXPECT_EQ(file.data.channels()[1].name, "EMG BRA");
   EXPECT_NEAR(file.data.series().values()(5, 1), 305e-6, 1e-18);
@@ -192,9 +191,8 @@ TEST(Edf, ATransferAsTextIsRefusedWhateverTheNumberOfItsLineFeeds) {
   // Counts of 10 are line feeds: two, and some hundred.
   for (const int records : {1, 100}) {
     for (const int said : {records, -1}) {
-      const std::string good = make_edf(false, "", kTwo, records, said, [](std::size_t s, int i) {
-        return s == 1 && i % 4 < 2 ? 10 : 50;
-      });
+      const std::string good =
+          make_edf(false, "", kTwo, records, said, [](std::size_t s, int i) { return s == 1 && i % 4 < 2 ? 10 : 50; });
       EXPECT_NO_THROW((void)parse(good));
       if (records == 1 && said < 0) continue;  // two line feeds alone prove nothing where no size is stated
       EXPECT_THROW((void)parse(with_returns(good)), ReadError) << records << " " << said;
