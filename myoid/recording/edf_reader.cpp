@@ -273,6 +273,15 @@ std::optional<double> read_record_annotations(const EdfHeader& header,
   return onset;
 }
 
+/// Returns true if the annotations of a record begin with the sign of its time stamp, or if there are none.
+bool begins_with_stamp(const EdfHeader& header, std::span<const std::byte> record) {
+  const auto annotations =
+      std::ranges::find_if(header.signals, [](const EdfSignal& s) { return s.annotations && s.per_record > 0; });
+  if (annotations == header.signals.end()) return true;
+  const std::byte sign = record[annotations->offset];
+  return sign == std::byte{'+'} || sign == std::byte{'-'};
+}
+
 /// The signals of one rate while they are read.
 struct RateGroup {
   std::vector<std::size_t> signals;
@@ -334,11 +343,18 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   state_units(header, clocks, file.repairs);
   std::vector<RateGroup> groups;
   for (const auto& clock : clocks) groups.push_back(room_for_group(header, clock, records));
+  const bool odd_size = header.records != records || (source.size() - header.bytes) % header.record_bytes != 0;
   RecordTimes times(header, groups[0].counts.records->interval_s, path);
   for (std::int64_t r = 0; r < records; ++r) {
     const auto record = source.view(header.bytes + static_cast<std::uint64_t>(r) * header.record_bytes,
                                     static_cast<std::size_t>(header.record_bytes));
     const auto onset = read_record_annotations(header, record, file.events);
+    if (odd_size && header.plus && !begins_with_stamp(header, record))
+      throw ReadError(
+          path, 0,
+          "record {} does not begin with its time, and the size of the file is not as its header says: bytes "
+          "are lost or inserted before it, as by a transfer as text; copy it again in binary mode",
+          r + 1);
     const double begin_s = times.begin_s(r, onset, file.repairs);
     for (RateGroup& group : groups) {
       group.counts.records->begin_s.push_back(begin_s);

@@ -204,6 +204,18 @@ TEST(Edf, ATransferAsTextIsRefusedWhateverTheNumberOfItsLineFeeds) {
   EXPECT_NE(file.repairs[0].message.find("3 bytes behind the last record"), std::string::npos);
 }
 
+TEST(Edf, LostBytesAreFoundByTheStampsOfTheRecords) {
+  using namespace std::string_literals;
+  auto signals = kTwo;
+  signals.push_back({"EDF Annotations", "", -1, 1, -32768, 32767, 20});
+  const std::vector<std::string> notes{"+0\x14\x14\0"s, "+0.5\x14\x14\0"s, "+1\x14\x14\0"s};
+  std::string bytes = make_edf(false, "EDF+C", signals, 3, 3, ramp, notes);
+  EXPECT_EQ(parse(bytes).data.sample_count(), 12);
+  EXPECT_EQ(parse(bytes.substr(0, bytes.size() - 7)).data.sample_count(), 8);  // cut off, not shifted
+  bytes.erase(256 * 5 + 3, 1);
+  EXPECT_THROW((void)parse(bytes), ReadError);
+}
+
 TEST(Edf, NoBytesWhateverMakeAnythingButAReadError) {
   const std::string good = make_edf(false, "EDF+C", kTwo, 3, 3, ramp);
   std::mt19937_64 random(11);
