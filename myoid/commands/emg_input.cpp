@@ -114,8 +114,8 @@ void warn_of_faults(const std::string& path,
   }
 }
 
-/// Returns the part between two pauses of the recording that holds all times asked for, or all samples where there is no
-/// pause. Filters cannot bridge a pause. Throws ReadError where a pause is among the times asked for.
+/// Returns the part between two pauses of the recording that holds all times asked for, or all samples where there is
+/// no pause. Filters cannot bridge a pause. Throws ReadError where a pause is among the times asked for.
 TimeSeries between_pauses(const std::string& path, TimeSeries emg, const Call& call, GroupedWarnings& warnings) {
   const signals::ClockGaps gaps = signals::find_clock_gaps(emg.time_s());
   if (gaps.count == 0) return emg;
@@ -129,8 +129,8 @@ TimeSeries between_pauses(const std::string& path, TimeSeries emg, const Call& c
                                 "--start and --end, or save its parts as files of their own",
                                 gaps.text()));
   warnings.add(RemarkCode::clock_pause, path, "pauses",
-               fmt::format("{}: the recording pauses ({}); its part from {:.6g} to {:.6g} s is taken", path, gaps.text(),
-                           asked[0].begin_s, asked[0].end_s));
+               fmt::format("{}: the recording pauses ({}); its part from {:.6g} to {:.6g} s is taken", path,
+                           gaps.text(), asked[0].begin_s, asked[0].end_s));
   return emg.slice(asked[0].begin_s, asked[0].end_s);
 }
 
@@ -164,7 +164,8 @@ std::vector<TimeSeries> read_raw_emg(const EmgOptions& o, GroupedWarnings& warni
   const std::vector<std::string> paths = emg_paths(o);
   std::vector<TimeSeries> raw;
   for (std::size_t i = 0; i < paths.size(); ++i)
-    raw.push_back(between_pauses(paths[i], read_raw(paths[i], o, warnings), i < o.in.size() ? o.call : Call{}, warnings));
+    raw.push_back(
+        between_pauses(paths[i], read_raw(paths[i], o, warnings), i < o.in.size() ? o.call : Call{}, warnings));
   keep_common_channels(paths, raw, warnings);
   for (std::size_t i = 0; i < raw.size(); ++i) warn_of_faults(paths[i], raw[i], o.chain, warnings);
   return raw;

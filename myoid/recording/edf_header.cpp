@@ -44,10 +44,10 @@ double required_number(std::span<const std::byte> head,
 
 /// Reads the fields of one signal. The header lists a field for all signals before the next field begins.
 EdfSignal read_edf_signal(std::span<const std::byte> head,
-                   std::size_t signals,
-                   std::size_t s,
-                   const std::filesystem::path& path,
-                   std::vector<Repair>& repairs) {
+                          std::size_t signals,
+                          std::size_t s,
+                          const std::filesystem::path& path,
+                          std::vector<Repair>& repairs) {
   const auto of = [&](std::size_t before, std::size_t length) {
     return edf_field(head, kHead + before * signals + length * s, length);
   };

@@ -121,17 +121,17 @@ void take_samples(const EdfHeader& header,
 /// Throws ReadError if a transfer as text explains why the file is longer than its header says.
 void refuse_returns(const EdfHeader& header, ByteSource& source, const std::filesystem::path& path) {
   const std::uint64_t data = source.size() - header.bytes;
-  const std::uint64_t said =
-      header.records >= 0 ? static_cast<std::uint64_t>(header.records) * header.record_bytes : 0;
+  const std::uint64_t said = header.records >= 0 ? static_cast<std::uint64_t>(header.records) * header.record_bytes : 0;
   const std::uint64_t more = header.records >= 0 && data > said ? data - said : data % header.record_bytes;
   if (more == 0) return;
   const TextMarks marks = text_marks(source, source.size());
   const bool explained = header.records >= 0 ? marks.returned == more : marks.line_feeds >= 4;
   if (marks.all_returned(1) && explained)
-    throw ReadError(path, 0,
-                    "the file is {} bytes longer than its header says, and a carriage return stands before each of its {} "
-                    "line feeds: it was transferred as text; copy it again in binary mode",
-                    more, marks.line_feeds);
+    throw ReadError(
+        path, 0,
+        "the file is {} bytes longer than its header says, and a carriage return stands before each of its {} "
+        "line feeds: it was transferred as text; copy it again in binary mode",
+        more, marks.line_feeds);
 }
 
 /// Returns the number of records to read: the complete ones in the file, at most as many as the header states.
@@ -148,8 +148,10 @@ std::int64_t record_count(const EdfHeader& header,
   } else if (header.records != records) {
     note(repairs, "the header says {} records, the file has {} whole ones, which are taken", header.records, records);
   } else if (left != 0) {
-    note(repairs, "{} bytes behind the last record belong to no record; if bytes were inserted, the samples are wrong: "
-         "compare with the original", left);
+    note(repairs,
+         "{} bytes behind the last record belong to no record; if bytes were inserted, the samples are wrong: "
+         "compare with the original",
+         left);
   }
   if (records <= 0) throw ReadError(path, 0, "the file holds no whole record of samples");
   return records;
@@ -163,7 +165,9 @@ struct Scaled {
 };
 
 /// Gives each signal that is read a name of its own.
-void name_signals(EdfHeader& header, const std::vector<std::vector<std::size_t>>& clocks, std::vector<Repair>& repairs) {
+void name_signals(EdfHeader& header,
+                  const std::vector<std::vector<std::size_t>>& clocks,
+                  std::vector<Repair>& repairs) {
   std::vector<std::size_t> order;
   for (const auto& clock : clocks) order.insert(order.end(), clock.begin(), clock.end());
   std::ranges::sort(order);
@@ -177,12 +181,15 @@ void name_signals(EdfHeader& header, const std::vector<std::vector<std::size_t>>
 }
 
 /// Notes units that cannot be read as they stand.
-void state_units(const EdfHeader& header, const std::vector<std::vector<std::size_t>>& clocks, std::vector<Repair>& repairs) {
+void state_units(const EdfHeader& header,
+                 const std::vector<std::vector<std::size_t>>& clocks,
+                 std::vector<Repair>& repairs) {
   std::map<std::string, std::vector<std::string>> odd;
   for (const auto& clock : clocks) {
     for (const std::size_t s : clock) {
       const EdfSignal& signal = header.signals[s];
-      if (!signal.dimension.empty() && !parse_file_unit(signal.dimension)) odd[signal.dimension].push_back(signal.label);
+      if (!signal.dimension.empty() && !parse_file_unit(signal.dimension))
+        odd[signal.dimension].push_back(signal.label);
     }
   }
   for (const auto& [unit, names] : odd)
@@ -266,6 +273,15 @@ std::optional<double> read_record_annotations(const EdfHeader& header,
   return onset;
 }
 
+/// Returns true if the annotations of a record begin with the sign of its time stamp, or if there are none.
+bool begins_with_stamp(const EdfHeader& header, std::span<const std::byte> record) {
+  const auto annotations =
+      std::ranges::find_if(header.signals, [](const EdfSignal& s) { return s.annotations && s.per_record > 0; });
+  if (annotations == header.signals.end()) return true;
+  const std::byte sign = record[annotations->offset];
+  return sign == std::byte{'+'} || sign == std::byte{'-'};
+}
+
 /// The signals of one rate while they are read.
 struct RateGroup {
   std::vector<std::size_t> signals;
@@ -327,11 +343,18 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   state_units(header, clocks, file.repairs);
   std::vector<RateGroup> groups;
   for (const auto& clock : clocks) groups.push_back(room_for_group(header, clock, records));
+  const bool odd_size = header.records != records || (source.size() - header.bytes) % header.record_bytes != 0;
   RecordTimes times(header, groups[0].counts.records->interval_s, path);
   for (std::int64_t r = 0; r < records; ++r) {
     const auto record = source.view(header.bytes + static_cast<std::uint64_t>(r) * header.record_bytes,
                                     static_cast<std::size_t>(header.record_bytes));
     const auto onset = read_record_annotations(header, record, file.events);
+    if (odd_size && header.plus && !begins_with_stamp(header, record))
+      throw ReadError(
+          path, 0,
+          "record {} does not begin with its time, and the size of the file is not as its header says: bytes "
+          "are lost or inserted before it, as by a transfer as text; copy it again in binary mode",
+          r + 1);
     const double begin_s = times.begin_s(r, onset, file.repairs);
     for (RateGroup& group : groups) {
       group.counts.records->begin_s.push_back(begin_s);

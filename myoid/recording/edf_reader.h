@@ -35,7 +35,8 @@ struct EdfFile : EdfSignals {
 /// impossible scale are left out with a note. Repairs with a note: a number of records that disagrees with the size of
 /// the file, a last record that is cut off, bytes behind the last record, decimal commas, repeated names, a unit of
 /// volts whose prefix cannot be read (".V": uV), other unknown units. Throws ReadError if the file is of another kind,
-/// its header makes no sense, or a transfer as text has changed its bytes. Sources: the EDF and EDF+ specifications (1992, 2003), BioSemi's description of BDF.
+/// its header makes no sense, or a transfer as text has changed its bytes. Sources: the EDF and EDF+ specifications
+/// (1992, 2003), BioSemi's description of BDF.
 [[nodiscard]] EdfFile read_edf(const std::filesystem::path& path);
 [[nodiscard]] EdfFile parse_edf(std::span<const std::byte> bytes, const std::filesystem::path& path);
 

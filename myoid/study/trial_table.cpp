@@ -91,7 +91,8 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
          "give either 'markers' or 'motion', not both: the motion is computed from the markers");
   v.path("emg", trial.emg, {.says = kEmgFiles, .otherwise = "required, but for `static` and `passive`"});
   v.path("external_torque", trial.external_torque,
-         {.says = "File (`.sto`, `.mot`, a table) with `<coordinate>_moment` [N m], where a dynamometer took part: the torque that the "
+         {.says = "File (`.sto`, `.mot`, a table) with `<coordinate>_moment` [N m], where a dynamometer took part: the "
+                  "torque that the "
                   "surroundings exert on the body, positive in the coordinate's direction. The muscles provide inverse "
                   "dynamics minus it. A coordinate without a column is acted on by nothing."});
   v.path("external_loads", trial.external_loads,

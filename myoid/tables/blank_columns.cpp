@@ -87,8 +87,8 @@ std::optional<HeaderRows> header_rows(const TableText& text, std::size_t first, 
                      });
   if (units && far != text.lines.size()) {
     Words names = header_cells(text.lines[far], columns);
-    Words below = rows.names.empty() && !names.empty() ? under_names(names, text.lines[far], text.lines[near])
-                                                       : rows.names;
+    Words below =
+        rows.names.empty() && !names.empty() ? under_names(names, text.lines[far], text.lines[near]) : rows.names;
     if (!names.empty() && !below.empty()) rows = {far, near, std::move(names), std::move(below)};
   }
   if (rows.names.empty()) return std::nullopt;

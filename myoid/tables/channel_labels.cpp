@@ -209,9 +209,9 @@ void set_kinds(TableLayout& layout) {
   for (TableColumn& column : columns)
     if (!column.unit && lower(column.name) == "time_ms") column.unit = parse_unit("ms");
   if (!others.empty())
-    layout.repairs.push_back({layout.names_line + 1,
-                              fmt::format("a channel here, since the clock is '{}': {}",
-                                          plain ? columns[*plain].name : "X[s]", fmt::join(others, ", "))});
+    layout.repairs.push_back(
+        {layout.names_line + 1, fmt::format("a channel here, since the clock is '{}': {}",
+                                            plain ? columns[*plain].name : "X[s]", fmt::join(others, ", "))});
 }
 
 double packet_rate(double rate_hz) {

@@ -35,8 +35,8 @@ struct StatedRate {
 /// Finds the number behind a word that means a sampling rate, anywhere in a line. A number alone is in Hz.
 [[nodiscard]] std::optional<StatedRate> rate_in_line(std::string_view line);
 
-/// Returns the column of the clock by its name ("time", "Zeit", "timestamp", "t") and its unit, a time or none. A column
-/// called just "t" or "T" may be a trigger or a torque: it is the clock where no other column is.
+/// Returns the column of the clock by its name ("time", "Zeit", "timestamp", "t") and its unit, a time or none. A
+/// column called just "t" or "T" may be a trigger or a torque: it is the clock where no other column is.
 [[nodiscard]] std::optional<std::size_t> plain_clock(const std::vector<TableColumn>& columns);
 
 /// Gives every column its kind by its name: times, numbers of frames and samples, remarks. A table has one clock, or a

@@ -43,7 +43,8 @@ std::optional<TableLayout> nexus_outputs(const TableText& text, const std::files
   const auto section = nexus_section(text, "Model Outputs", path);
   if (!section) return std::nullopt;
   TableLayout layout = section->layout;
-  layout.repairs.push_back({layout.names_line + 1, "the section 'Model Outputs' is read: results of Nexus, no markers"});
+  layout.repairs.push_back(
+      {layout.names_line + 1, "the section 'Model Outputs' is read: results of Nexus, no markers"});
   std::string output;
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     TableColumn& column = layout.columns[c];

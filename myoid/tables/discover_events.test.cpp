@@ -9,7 +9,10 @@ namespace myoid::recording {
 namespace {
 
 /// A text of Discover 2.1: two clocks, rows of rates and of periods. EMG is 0, 1, 2, ... mV, the acceleration 0.5 g.
-std::string discover(char between, bool commas, const std::string& event_names, const std::vector<std::string>& events) {
+std::string discover(char between,
+                     bool commas,
+                     const std::string& event_names,
+                     const std::vector<std::string>& events) {
   const std::string s = std::string(1, between) + (between == ',' ? " " : "");
   const auto number = [&](double value) {
     std::string text = std::to_string(value);
@@ -17,7 +20,8 @@ std::string discover(char between, bool commas, const std::string& event_names, 
     return text;
   };
   std::string text = "Application:" + s + "Trigno Discover (2.1.0.7)\nDate/Time:" + s + "2026/01/15 15:50:51\n";
-  text += "Collection Length (seconds):" + s + "1\nAvanti Sensor 1 (75923)" + s + s + s + "\nsensor mode: 65" + s + s + s + "\n";
+  text += "Collection Length (seconds):" + s + "1\nAvanti Sensor 1 (75923)" + s + s + s + "\nsensor mode: 65" + s + s +
+          s + "\n";
   text += "EMG 1 Time Series (s)" + s + "EMG 1 (mV)" + s + "ACC X Time Series (s)" + s + "ACC X (G)\n";
   text += s + "1000.0000 Hz" + s + s + "250.0000 Hz\n";
   text += s + number(0.001) + " s" + s + s + number(0.004) + " s" + event_names + "\n";
@@ -57,7 +61,8 @@ TEST(Discover, EventsBesideTheFirstRowsAreEvents) {
   EXPECT_EQ(file.events[1].label, "Marker 2");
   EXPECT_DOUBLE_EQ(file.events[1].time_s, 0.0075);
   const CsvSeries commas = parse_emg_table(
-      discover(';', true, ";Type;Name;Label;Time (s)", {";General;Marker 1;go;0,0025", ";General;Marker 2;;0,0075"}), "a.csv");
+      discover(';', true, ";Type;Name;Label;Time (s)", {";General;Marker 1;go;0,0025", ";General;Marker 2;;0,0075"}),
+      "a.csv");
   expect_the_channels(commas);
   ASSERT_EQ(commas.events.size(), 2U);
   EXPECT_DOUBLE_EQ(commas.events[1].time_s, 0.0075);

@@ -86,9 +86,11 @@ class TableFinder {
       const TableColumn label = take_label_apart(cell);
       return unit_in_cell(cell) || (label.name.empty() && label.unit);
     };
-    // Rows of rates, sample periods and units stand below the names in any order.
+    // Rows of rates, sample periods and units stand below the names in any order. Some units may be unknown.
     for (bool more = true; more;)
-      more = take_row(names, rates, is_rate) || take_row(names, periods, is_period) || take_row(names, units, is_unit);
+      more = take_row(names, rates, is_rate) || take_row(names, periods, is_period) ||
+             take_row(names, units, is_unit, 0.5);
+    state_unknown_units(units);
     layout_.names_line = above_;
     layout_.end_row = text_.lines.size();
     names.resize(std::max(filled(names), width_));
@@ -148,23 +150,36 @@ class TableFinder {
     return true;
   }
 
-  /// Takes the row `names` as `taken`, once, if `is` holds for all its cells; `names` becomes the row above it.
+  /// Takes the row `names` as `taken`, once, if `is` holds for all its cells; `names` becomes the row above it. With a
+  /// `share` below 1 the rule need hold only for this share of the cells, where the row above has a name for each.
   template <typename Is>
-  bool take_row(Cells& names, Cells& taken, const Is& is) {
+  bool take_row(Cells& names, Cells& taken, const Is& is, double share = 1.0) {
     if (!taken.empty()) return false;
-    std::size_t count = 0;
-    for (const std::string& cell : names) {
-      if (cell.empty()) continue;
-      if (!is(cell)) return false;
-      ++count;
-    }
+    const auto filled_in = [](const Cells& cells) {
+      return cells.size() - static_cast<std::size_t>(std::ranges::count(cells, ""));
+    };
+    const std::size_t count = filled_in(names);
+    const auto fitting = static_cast<std::size_t>(
+        std::ranges::count_if(names, [&](const std::string& cell) { return !cell.empty() && is(cell); }));
     const std::size_t here = above_;
-    if (count == 0 || !previous()) {
+    const bool all = fitting == count;
+    const bool enough = all || (fitting > 1 && static_cast<double>(fitting) >= share * static_cast<double>(count));
+    if (fitting == 0 || !enough || !previous() || (!all && filled_in(row(above_)) < count)) {
       above_ = here;
       return false;
     }
     taken = std::exchange(names, row(above_));
     return true;
+  }
+
+  void state_unknown_units(const Cells& units) {
+    std::set<std::string> unknown;
+    for (const std::string& cell : units) {
+      const TableColumn label = take_label_apart(cell);
+      if (!cell.empty() && !unit_in_cell(cell) && !(label.name.empty() && label.unit)) unknown.insert(cell);
+    }
+    if (!unknown.empty())
+      layout_.repairs.push_back({above_ + 2, fmt::format("units that are not known: {}", fmt::join(unknown, ", "))});
   }
 
   void make_columns(const Cells& names, const Cells& units, const Cells& rates, const Cells& periods) {

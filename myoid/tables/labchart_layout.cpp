@@ -31,7 +31,8 @@ std::string_view key_of(std::string_view line) {
   const std::size_t end = line.find('=');
   if (end == std::string_view::npos || end == 0) return {};
   const std::string_view key = line.substr(0, end);
-  const bool letters = std::ranges::all_of(key, [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
+  const bool letters =
+      std::ranges::all_of(key, [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
   return letters ? key : std::string_view();
 }
 
@@ -87,7 +88,8 @@ std::vector<BlockHead> take_blocks(TableText& text, char separator) {
 void require_equal_channels(const std::vector<BlockHead>& blocks, const std::filesystem::path& path) {
   for (const BlockHead& block : blocks) {
     if (!block.titles.empty() && block.titles != blocks[0].titles)
-      throw ReadError(path, block.line + 1, "the channels differ from those of the first block ({}); export each block alone",
+      throw ReadError(path, block.line + 1,
+                      "the channels differ from those of the first block ({}); export each block alone",
                       fmt::join(blocks[0].titles, ", "));
   }
 }
@@ -128,8 +130,8 @@ std::vector<TableColumn> columns_of(const BlockHead& head,
                                     std::vector<Repair>& repairs) {
   const std::size_t channels = head.titles.size();
   if (row.size() < channels || row.size() > channels + 2)
-    throw ReadError(path, head.first_row + 1, "{} cells below {} channels in 'ChannelTitle='; expected {} or {}", row.size(),
-                    channels, channels, channels + 1);
+    throw ReadError(path, head.first_row + 1, "{} cells below {} channels in 'ChannelTitle='; expected {} or {}",
+                    row.size(), channels, channels, channels + 1);
   std::vector<TableColumn> columns;
   bool timed = false;
   for (std::size_t c = 0; c + channels < row.size(); ++c) {
@@ -159,7 +161,8 @@ std::vector<TableColumn> columns_of(const BlockHead& head,
 /// Puts the blocks one behind another and notes the pauses.
 class Blocks {
  public:
-  Blocks(const TableText& text, char separator, TableLayout& layout) : text_(text), separator_(separator), layout_(layout) {}
+  Blocks(const TableText& text, char separator, TableLayout& layout)
+      : text_(text), separator_(separator), layout_(layout) {}
 
   void place(const std::vector<BlockHead>& blocks) {
     double end_s = 0.0;
@@ -205,10 +208,12 @@ class Blocks {
     const double begin_s = dated ? dated_s : end_s - first_s + kPause_s;
     layout_.repairs.push_back(
         {block.first_row + 1,
-         dated ? fmt::format("block {}: the recording pauses from {:.6g} s to {:.6g} s", number, end_s, begin_s + first_s)
-               : fmt::format("block {}: the file does not say how long the recording paused; here it begins {:g} s behind "
-                             "the block before, at {:.6g} s",
-                             number, kPause_s, begin_s + first_s)});
+         dated
+             ? fmt::format("block {}: the recording pauses from {:.6g} s to {:.6g} s", number, end_s, begin_s + first_s)
+             : fmt::format(
+                   "block {}: the file does not say how long the recording paused; here it begins {:g} s behind "
+                   "the block before, at {:.6g} s",
+                   number, kPause_s, begin_s + first_s)});
     return begin_s;
   }
 

@@ -19,7 +19,8 @@ using ::testing::HasSubstr;
 /// The lines above a block, at a time in days.
 std::string head(double days, const std::string& titles = "Torque\tEMG BIC") {
   return fmt::format(
-      "Interval=\t0.001 s\nExcelDateTime=\t{:.13e}\t02/03/21 10:11:12.000000\nTimeFormat=\tStartOfBlock\nDateFormat=\t\n"
+      "Interval=\t0.001 s\nExcelDateTime=\t{:.13e}\t02/03/21 "
+      "10:11:12.000000\nTimeFormat=\tStartOfBlock\nDateFormat=\t\n"
       "ChannelTitle=\t{}\nRange=\t10.000 V\t2.000 mV\nUnitName=\tNm\t*\nTopValue=\t250.0\t*\nBottomValue=\t-250.0\t*\n",
       days, titles);
 }

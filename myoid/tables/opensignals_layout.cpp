@@ -77,8 +77,8 @@ std::optional<TableLayout> opensignals_layout(const TableText& text, const std::
     if (!device.is_object() || !device.contains("sampling rate") || !device["sampling rate"].is_number()) continue;
     const double rate_hz = device["sampling rate"].get<double>();
     if (layout.rate_hz > 0.0 && rate_hz != layout.rate_hz)
-      throw ReadError(path, *json + 1, "devices with {} and {} Hz share the rows; export each device alone", layout.rate_hz,
-                      rate_hz);
+      throw ReadError(path, *json + 1, "devices with {} and {} Hz share the rows; export each device alone",
+                      layout.rate_hz, rate_hz);
     layout.rate_hz = rate_hz;
     counts = counts || !device.contains("convertedValues") || device["convertedValues"] == 0;
     take_device(device, layout.columns);
@@ -91,8 +91,7 @@ std::optional<TableLayout> opensignals_layout(const TableText& text, const std::
       throw ReadError(path, layout.first_row + 1, "{} cells, where the header names {} columns", cells.size(),
                       layout.columns.size());
   }
-  if (counts)
-    layout.repairs.push_back({*json + 1, "the samples are counts of the converter: they have no unit"});
+  if (counts) layout.repairs.push_back({*json + 1, "the samples are counts of the converter: they have no unit"});
   return layout;
 }
 

@@ -21,7 +21,8 @@ const std::string kHead =
     "# EndOfHeader\n";
 
 TEST(OpenSignals, ChannelsHaveTheirLabelsAndTheRateOfTheHeader) {
-  const CsvSeries s = parse_emg_table(kHead + "14\t0\t32948\t15163\t\n15\t0\t33060\t15198\t\n0\t1\t32996\t15216\t\n", "a.txt");
+  const CsvSeries s =
+      parse_emg_table(kHead + "14\t0\t32948\t15163\t\n15\t0\t33060\t15198\t\n0\t1\t32996\t15216\t\n", "a.txt");
   ASSERT_EQ(s.data.channel_count(), 3);
   EXPECT_EQ(s.data.channels()[0].name, "DI");
   EXPECT_EQ(s.data.channels()[1].name, "BIC");

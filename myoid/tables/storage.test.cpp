@@ -146,8 +146,10 @@ TEST(ReadStorage, EveryResultFileOfTheSharedDataReads) {
 }
 
 TEST(ParseStorage, LabelsMayMixTabsAndBlanks) {
-  for (const char* labels : {"time\t\tq1\ttx", "time  q1\ttx", "time \t q1 \t\t tx\t", "time q1  tx"}) {
-    const Storage s = parse_storage("x\nversion=1\nendheader\n" + std::string(labels) + "\n0\t1\t2\n1\t3\t4\n", "f.sto");
+  for (const char* labels :
+       {"time\t\tq1\ttx", "time  q1\ttx", "time \t q1 \t\t tx\t", "time q1  tx", "time\t\tq1   tx", "time q1\ttx"}) {
+    const Storage s =
+        parse_storage("x\nversion=1\nendheader\n" + std::string(labels) + "\n0\t1\t2\n1\t3\t4\n", "f.sto");
     ASSERT_EQ(s.data.channel_count(), 2) << labels;
     EXPECT_EQ(s.data.column("q1"), Eigen::Vector2d(1, 3)) << labels;
     EXPECT_EQ(s.data.column("tx"), Eigen::Vector2d(2, 4)) << labels;
@@ -156,7 +158,8 @@ TEST(ParseStorage, LabelsMayMixTabsAndBlanks) {
 
 TEST(ParseStorage, ASpreadsheetsSeparatorsAreNoPartOfTheHeader) {
   const std::string commas =
-      "Coordinates,,\nversion=1,,\nnRows=2,,\nnColumns=3,,\ninDegrees=yes,,\nendheader,,\ntime,q1,tx\n0,90,1\n0.1,180,2\n";
+      "Coordinates,,\nversion=1,,\nnRows=2,,\nnColumns=3,,\ninDegrees=yes,,\nendheader,,\ntime,q1,tx\n0,90,1\n0.1,180,"
+      "2\n";
   std::string semicolons = commas;
   std::ranges::replace(semicolons, ',', ';');
   std::ranges::replace(semicolons, '.', ',');

@@ -59,7 +59,8 @@ std::optional<Pair> channel_unit(std::string_view line) {
 /// Returns a line without the separators and quotes that a spreadsheet puts around its text.
 std::string_view without_empty_cells(std::string_view line) {
   line = trim(line);
-  while (!line.empty() && std::string_view(",; \t\r\"").find(line.back()) != std::string_view::npos) line.remove_suffix(1);
+  while (!line.empty() && std::string_view(",; \t\r\"").find(line.back()) != std::string_view::npos)
+    line.remove_suffix(1);
   while (line.starts_with('"')) line.remove_prefix(1);
   return line;
 }

@@ -97,7 +97,8 @@ struct Columns {
 };
 
 /// Splits the line of labels. Where tabs and blanks are mixed ("time <tab><tab> a b"), the labels are those that are as
-/// many as the numbers of the first row: the cells between tabs, these without the empty ones, or the words.
+/// many as the numbers of the first row: the cells between tabs, these without the empty ones, the cells between tabs
+/// or two blanks, or the words. A label that is empty stays only where none of these fits.
 std::vector<std::string> labels_of(std::string_view line, bool comma_cells, std::size_t numbers) {
   const auto trimmed = [](std::vector<std::string_view> cells) {
     for (std::string_view& cell : cells) cell = trim(cell);
@@ -107,11 +108,18 @@ std::vector<std::string> labels_of(std::string_view line, bool comma_cells, std:
   if (line.find('\t') == std::string_view::npos)
     return trimmed(comma_cells ? split(trim(line), ',') : split_words(line));
   const std::vector<std::string> cells = trimmed(split(trim(line), '\t'));
-  std::vector<std::string> filled = cells;
+  std::vector<std::string> filled = cells, wide;
   std::erase(filled, "");
-  for (const auto& labels : {cells, filled, trimmed(split_words(line))})
-    if (labels.size() == numbers) return labels;
-  return cells;
+  if (filled.size() == numbers) return filled;
+  for (std::string_view cell : filled) {
+    for (std::size_t end = 0; !cell.empty(); cell = trim(cell.substr(end))) {
+      end = std::min(cell.find("  "), cell.size());
+      wide.emplace_back(cell.substr(0, end));
+    }
+  }
+  if (wide.size() == numbers) return wide;
+  const std::vector<std::string> words = trimmed(split_words(line));
+  return words.size() == numbers && cells.size() != numbers ? words : cells;
 }
 
 Columns read_columns(const std::vector<std::string_view>& lines,

@@ -253,9 +253,9 @@ void state_uneven_step(const Eigen::VectorXd& time_s,
   // A lost row makes a step longer by a whole one.
   const bool lost = (step - usual).maxCoeff() > 0.5 * usual;
   repairs.push_back({lines[at(first + 1)],
-                     fmt::format("'{}' steps by {:.6g} s, {:.6g} s elsewhere: {} ({} such {})", name, step[first], usual,
-                                 lost ? "rows are lost or a time is wrong" : "a time is wrong; no row is lost", odd,
-                                 odd == 1 ? "step" : "steps")});
+                     fmt::format("'{}' steps by {:.6g} s, {:.6g} s elsewhere: {} ({} such {})", name, step[first],
+                                 usual, lost ? "rows are lost or a time is wrong" : "a time is wrong; no row is lost",
+                                 odd, odd == 1 ? "step" : "steps")});
 }
 
 Eigen::VectorXd row_times(const TableLayout& layout,

@@ -347,14 +347,16 @@ void refuse_other_kinds(const TableText& text, const std::filesystem::path& path
     line = trim(line);
     if (line.starts_with('"')) line.remove_prefix(1);
     if (equal_ignoring_case(line, "endheader"))
-      throw ReadError(path, n + 1,
-                      "this is a storage file (.mot, .sto) under another name: its header, which says whether angles are "
-                      "in degrees, ends here; give it a name that ends in .mot or .sto");
+      throw ReadError(
+          path, n + 1,
+          "this is a storage file (.mot, .sto) under another name: its header, which says whether angles are "
+          "in degrees, ends here; give it a name that ends in .mot or .sto");
     if (line == "TRAJECTORIES" || line == "ANALOG" || line == "MODEL OUTPUTS")
-      throw ReadError(path, n + 1,
-                      "this is an ASCII export of Vicon Workstation or Polygon (section '{}'), which is not read; export "
-                      "the trial as .c3d",
-                      line);
+      throw ReadError(
+          path, n + 1,
+          "this is an ASCII export of Vicon Workstation or Polygon (section '{}'), which is not read; export "
+          "the trial as .c3d",
+          line);
   }
 }
 

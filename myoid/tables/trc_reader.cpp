@@ -165,8 +165,8 @@ Header read_header(const std::vector<std::string_view>& lines, const std::filesy
 }
 
 /// Returns true if the rows have an empty cell in front of the frame's number: their first cell is always empty, their
-/// second counts the frames, and their third is a time in the stated rate. Throws ReadError where the first cell is always
-/// empty and the second counts like a frame, but the third is no such time.
+/// second counts the frames, and their third is a time in the stated rate. Throws ReadError where the first cell is
+/// always empty and the second counts like a frame, but the third is no such time.
 bool rows_are_shifted(const TableText& text, const Header& header, const std::filesystem::path& path) {
   std::vector<double> second, third;
   for (std::size_t n = header.first_frame; n < text.lines.size(); ++n) {
@@ -189,9 +189,11 @@ bool rows_are_shifted(const TableText& text, const Header& header, const std::fi
   const double rate = static_cast<double>(third.size() - 1) / (third.back() - third.front());
   if (said > 0.0 && std::abs(rate - said) <= 0.05 * said) return true;
   if (said > 0.0 && std::abs(said - 1.0) <= 0.05) return false;
-  throw ReadError(path, header.first_frame + 1,
-                  "the first cell of every row is empty and the second counts the frames, but the third is no time at {} "
-                  "Hz; export the file again", said);
+  throw ReadError(
+      path, header.first_frame + 1,
+      "the first cell of every row is empty and the second counts the frames, but the third is no time at {} "
+      "Hz; export the file again",
+      said);
 }
 
 /// Reads the frames and keeps the first line of each kind of repair.
@@ -330,10 +332,11 @@ class TrcFrames {
     const double said = parse_number(header_.field("DataRate")).value_or(0.0);
     constexpr double kOtherQuantity = 20.0;
     if (rate > 0.0 && said > 0.0 && (rate > kOtherQuantity * said || said > kOtherQuantity * rate))
-      throw ReadError(path_, header_.first_frame + 1,
-                      "the header says {} Hz, the column of the time {:.6g} Hz: that column is no time in seconds, or the "
-                      "columns are shifted; correct the file",
-                      said, rate);
+      throw ReadError(
+          path_, header_.first_frame + 1,
+          "the header says {} Hz, the column of the time {:.6g} Hz: that column is no time in seconds, or the "
+          "columns are shifted; correct the file",
+          said, rate);
     if (rate > 0.0 && said > 0.0 && std::abs(rate - said) > 0.05 * said)
       repairs_.push_back(
           {3, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", said, rate)});
