@@ -17,6 +17,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/byte_source.h"
+#include "myoid/files/input_log.h"
 
 namespace myoid::recording {
 namespace {
@@ -82,6 +83,7 @@ std::string read_text_file(const std::filesystem::path& path) {
   if (!std::filesystem::is_fifo(path, error)) require_regular_file(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw ReadError(path, 0, "cannot be opened: {}", std::strerror(errno));
+  note_input(fileno(file.get()));
   std::string text;
   const auto size = std::filesystem::file_size(path, error);
   if (!error) text.reserve(size);
