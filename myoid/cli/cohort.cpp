@@ -68,7 +68,8 @@ void run_cohort(Context& context,
     context.end_progress();
     context.warn(fmt::format("{} failed: {}", each.person, each.outcome->message));
   };
-  commands::prepare_cohort_folder(options, folder, context.overwrite);
+  options.overwrite = context.overwrite;
+  commands::prepare_cohort_folder(options, folder);
   std::vector<PersonOutcome> outcomes;
   if (steps.persons) outcomes = commands::write_cohort_persons(options, folder);
   context.end_progress();
@@ -126,7 +127,9 @@ void add_cohort(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options, out, group, engine] {
     if (*engine) {
-      commands::prepare_cohort_folder(*options, *out, context.overwrite);
+      options->call = context.call();
+      options->overwrite = context.overwrite;
+      commands::prepare_cohort_folder(*options, *out);
       say("{}\n", commands::write_cohort_workflow(*options, **engine, *out));
       return;
     }

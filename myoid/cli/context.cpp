@@ -185,8 +185,20 @@ void Context::prepare_folder(const std::filesystem::path& folder, std::string_vi
   if (const std::string& note = held_folders.back()->note(); !note.empty()) log(note);
 }
 
+void Context::prepare_run_folder(const std::filesystem::path& folder) const {
+  const std::string author = recording::author_of(folder / "run.json");
+  held_folders.push_back(
+      std::make_unique<recording::ResultFolder>(folder, command_line, author.empty() ? "run" : author, true));
+}
+
 void Context::finish_folders() const {
   for (const auto& held : held_folders) held->finish();
+}
+
+void Context::release_folders() const {
+  for (const auto& held : held_folders)
+    for (const std::string& note : held->take_notes()) log(note);
+  held_folders.clear();
 }
 
 std::string Context::contents_of_folders() const {

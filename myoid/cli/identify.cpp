@@ -200,7 +200,7 @@ void add_identify(CLI::App& app, Context& context) {
     visit(o, reader);
     mat.prepare(context, {o.muscles.string()});
     context.prepare_folder(*out);
-    commands::protect_inputs(*out, commands::kIdentifyFiles, {o.muscles.string()});
+    commands::protect_files(*out, commands::kIdentifyFiles, {o.muscles.string()});
     o.call = context.call();
     const commands::IdentifyResult result = commands::identify(o);
     context.end_progress();

@@ -26,7 +26,7 @@ void add_init(CLI::App& app, Context& context) {
     context.prepare_file(file, {});
     o->call = context.call();
     const commands::InitResult result = commands::init(*o);
-    commands::write_init(result, file);
+    commands::write_init(result, file, o->call);
     const std::vector<std::string>& todos = result.draft.todo;
     if (context.json) {
       say_whole(json_text(nlohmann::ordered_json{{"file", file.string()}, {"todo", todos}}) + "\n");

@@ -24,6 +24,7 @@
 #include "myoid/cli/say.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
+#include "myoid/files/input_log.h"
 #include "myoid/files/toml_table.h"
 
 namespace {
@@ -231,32 +232,34 @@ int main(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
   std::set_terminate(end_with_a_message);
   stop_on_signals(context.stop);
+  const recording::InputLog inputs;
   try {
     const int code = run(argc, argv, context);
     context.finish_folders();
+    context.release_folders();
     if (std::fflush(stdout) != 0) return stdout_lost(std::strerror(errno));
     return code;
   } catch (const Interrupted&) {
     context.end_progress();
     const std::string contents = context.contents_of_folders();
-    context.held_folders.clear();
+    context.release_folders();
     myoid::cli::say_error("interrupted; {}\n", contents.empty() ? "no file is half-written" : contents);
     return cli::kInterrupted;
   } catch (const InvalidInput& error) {
     context.end_progress();
-    context.held_folders.clear();
+    context.release_folders();
     myoid::cli::say_error("error: {}\n", error.what());
     return cli::kBadInput;
   } catch (const std::bad_alloc&) {
     context.end_progress();
-    context.held_folders.clear();
+    context.release_folders();
     cli::say_error(
         "error: these files need more memory than this program may use; close other programs, raise the limit "
         "(ulimit -v), or cut the recordings into parts\n");
     return cli::kBadInput;
   } catch (const std::exception& error) {
     context.end_progress();
-    context.held_folders.clear();
+    context.release_folders();
     if (std::ferror(stdout) != 0) return stdout_lost(error.what());
     myoid::cli::say_error("internal error: {}\nPlease report this with the command line and, if you can, the files.\n",
                           error.what());

@@ -10,6 +10,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
@@ -141,6 +142,7 @@ void add_run(CLI::App& app, Context& context) {
     const auto begin = std::chrono::steady_clock::now();
     mat.prepare(context, {options->study});
     context.prepare_folder(*out, commands::kStageFolder);
+    commands::protect_files(*out, commands::kRunFiles, {options->study});
     options->call = context.call();
     options->store = std::filesystem::path(*out) / commands::kStageFolder;
     const commands::RunResult result = commands::run(*options);

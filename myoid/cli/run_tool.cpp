@@ -20,6 +20,8 @@ void add_run_tool(CLI::App& app, Context& context) {
       "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers (.trc), instead of the set-up's");
   command.add_option("--external-loads", o->files.external_loads, "External loads (.xml), instead of the set-up's");
   command.add_option("--out", o->files.out, "Folder of the results, instead of the set-up's");
+  command.add_flag("--anywhere", o->anywhere,
+                   "Write outside the folder of the set-up too, where the set-up says so (default: refused)");
   command
       .add_option(
           "--compat", o->compat,

@@ -83,7 +83,7 @@ void add_simulate(CLI::App& app, Context& context) {
   command.callback([&context, o, out, paper_figures_only] {
     if (*paper_figures_only) return draw_paper_figures(*out, context);
     context.prepare_folder(*out);
-    commands::protect_inputs(*out, commands::kSimulateFiles, {o->model, o->excitations});
+    commands::protect_files(*out, commands::kSimulateFiles, {o->model, o->excitations});
     o->call = context.call();
     const commands::SimulateResult result = commands::simulate(*o);
     context.end_progress();

@@ -9,6 +9,7 @@
 #include "myoid/cohort/group_person.h"
 #include "myoid/core/counted.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/result_record.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/write_report.h"
@@ -129,14 +130,13 @@ Group read_group(const Manifest& manifest, const fs::path& folder) {
 }
 
 void write_group(const Group& group, const Manifest& manifest, const fs::path& folder) {
+  recording::remove_earlier_results(folder);
   recording::write_file(folder / "persons.csv", report::table_csv(group.persons));
   report::write_report(group.page, folder);
-  recording::write_file(folder / "participants.tsv", participants_tsv(manifest));
-  recording::write_file(folder / ".bidsignore", "persons/\nworkflow/\nfigures/\ntables/\n*.csv\nreport.*\n");
+  recording::write_unless_foreign(folder / "participants.tsv", participants_tsv(manifest));
+  recording::write_unless_foreign(folder / ".bidsignore", "persons/\nworkflow/\nfigures/\ntables/\n*.csv\nreport.*\n");
   for (std::size_t i = 0; i < manifest.persons.size(); ++i) {
     const Person& person = manifest.persons[i];
-    std::error_code ignored;
-    fs::remove_all(folder / ("sub-" + person.label), ignored);
     if (has_results(group.outcomes[i]))
       recording::write_bids_derivative(person_folder(folder, person), folder, person.label);
   }

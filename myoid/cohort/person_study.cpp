@@ -118,8 +118,7 @@ fs::path person_study(const Person& person, const fs::path& folder) {
   study.file = fs::absolute(folder / "study.toml").lexically_normal();
   const std::string own = study_toml(study);
   const fs::path place = folder / "study.toml";
-  std::error_code ignored;
-  if (!fs::exists(place, ignored) || recording::read_text_file(place) != own) recording::write_file(place, own);
+  recording::write_file(place, own);
   return place;
 }
 

@@ -14,6 +14,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/result_record.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/channel_writer.h"
@@ -240,13 +241,14 @@ class Converter {
       return;
     }
     const fs::path xml = fs::path(out).replace_extension(".xml");
-    claim(xml);
+    check_companion(xml, {o_.in, o_.analog}, o_.overwrite, "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSim");
     recording::write_file(
         xml, recording::format_external_loads(out.stem().string(), numbers, o_.bodies, out.filename().string()));
     wrote(xml);
   }
 
   void everything(const fs::path& folder) {
+    recording::RecordedFolder held(folder, "convert");
     recording::Recording file = recording::read_recording(o_.in);
     const std::string stem = fs::path(o_.in).stem().string();
     (void)plate_numbers(o_, file);
@@ -264,6 +266,8 @@ class Converter {
     }
     if (!file.analog.empty()) write_all_channels(folder, stem, file);
     if (!file.plates.empty()) plates(folder / (stem + "_grf.mot"), std::move(file));
+    held.finish();
+    for (std::string& note : held.take_notes()) remarks_.note(std::move(note));
   }
 
   /// Writes all channels, and a second file of the voltages that may be EMG.

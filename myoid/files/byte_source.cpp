@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/input_log.h"
 
 namespace myoid::recording {
 
@@ -39,6 +40,7 @@ ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
     if (descriptor_ >= 0) close(descriptor_);
     throw ReadError(path, 0, "cannot be opened: {}", std::strerror(cause));
   }
+  note_input(descriptor_);
   size_ = static_cast<std::uint64_t>(info.st_size);
   if (size_ == 0) {
     close(descriptor_);

@@ -19,6 +19,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/byte_source.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/input_log.h"
 
 namespace myoid::recording {
 namespace {
@@ -85,6 +86,7 @@ std::string read_text_file(const std::filesystem::path& path) {
   refuse_foreign_format(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw ReadError(path, 0, "cannot be opened: {}", std::strerror(errno));
+  note_input(fileno(file.get()));
   std::string text;
   const auto size = std::filesystem::file_size(path, error);
   char buffer[1 << 16];

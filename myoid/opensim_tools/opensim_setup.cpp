@@ -211,6 +211,17 @@ std::vector<std::string> OpensimSetup::notes() const {
   return notes;
 }
 
+bool OpensimSetup::is_near(const std::filesystem::path& output) const {
+  std::error_code ignored;
+  const auto real = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::current_path() / path, ignored);
+  };
+  std::filesystem::path folder = real(instead_.out.empty() ? path_.parent_path() : instead_.out);
+  if (!folder.has_filename()) folder = folder.parent_path();
+  const std::filesystem::path file = real(output);
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
 std::filesystem::path OpensimSetup::results_folder() const {
   if (!instead_.out.empty()) return instead_.out;
   const std::string text = named_in(tool_, "results_directory");

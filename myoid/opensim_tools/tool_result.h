@@ -15,7 +15,8 @@ namespace myoid {
 
 struct ToolOptions {
   model::Compat compat = model::kOpenSim452;
-  SetupFiles files{};  ///< Replacements of the files named in the set-up.
+  SetupFiles files{};     ///< Replacements of the files named in the set-up.
+  bool anywhere = false;  ///< Writes outside the folder of the set-up too, where the set-up says so.
   Progress progress{};
   /// Called with each file before it is computed; throws to refuse it.
   std::function<void(const std::filesystem::path&)> claim{};

@@ -10,6 +10,7 @@
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/name_ids.h"
+#include "myoid/files/result_record.h"
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -77,7 +78,7 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results, const fs::p
                                  {"BIDSVersion", "1.10.0"},
                                  {"DatasetType", "derivative"},
                                  {"GeneratedBy", ordered_json::array({{{"Name", "Myoid"}, {"Version", version()}}})}};
-  write(out / "dataset_description.json", json_text(description) + '\n');
+  write_unless_foreign(out / "dataset_description.json", json_text(description) + '\n');
   const std::string stem = sub + "_desc-identified_parameters";
   write(out / sub / (stem + ".tsv"), parameters_tsv(table));
   write(out / sub / (stem + ".json"), json_text(parameters_columns(table)) + '\n');

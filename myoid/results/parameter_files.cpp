@@ -13,6 +13,7 @@
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/quoted_text.h"
+#include "myoid/files/result_record.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/methods/prediction.h"
@@ -341,11 +342,10 @@ void write_parameter_files(const std::vector<IdentificationResult>& methods,
   recording::write_file(folder / "parameters.json", parameters_json(methods, folds, provenance, context));
   recording::write_file(folder / "parameters.csv", parameters_csv(methods));
   const auto write_or_remove = [&](const char* name, bool there, const auto& text) {
-    std::error_code ignored;
     if (there)
       recording::write_file(folder / name, text());
     else
-      std::filesystem::remove(folder / name, ignored);  // from an earlier run
+      recording::remove_result(folder / name);  // from an earlier run
   };
   write_or_remove("fold_parameters.csv", !folds.empty(), [&] { return fold_parameters_csv(folds); });
   const auto drawn = std::ranges::find_if(methods, [](const auto& method) { return method.draws.size() > 0; });

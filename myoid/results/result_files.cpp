@@ -1,8 +1,6 @@
 #include "myoid/results/result_files.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -141,34 +139,6 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
 }
 
 }  // namespace
-
-void remove_results(const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
-  std::ifstream stream(folder / "run.json");
-  if (!stream) return;
-  const nlohmann::json run = parse_json(std::string(std::istreambuf_iterator<char>(stream), {}), false);
-  if (run.is_discarded() || !run.contains("trials")) return;
-  std::error_code ignored;
-  const auto remove_if = [&](const fs::path& place, const auto& is_ours) {
-    for (const auto& entry : fs::directory_iterator(place, ignored))
-      if (is_ours(entry.path().filename().string())) fs::remove(entry.path(), ignored);
-  };
-  for (const nlohmann::json& trial : run["trials"]) {
-    const std::string name = trial.value("folder", trial.value("name", ""));
-    if (name.empty() || name.find('/') != std::string::npos || name == "..") continue;
-    remove_if(folder / name, [](const std::string& file) {
-      return file == "ik.mot" || file == "ik_marker_errors.sto" || file == "id.sto" || file == "activation.sto" ||
-             file == "identified_forces.sto" || file.starts_with("MuscleAnalysis_") ||
-             file.starts_with("EmgInformed_") || file.starts_with("StaticOptimization_");
-    });
-    fs::remove(folder / name, ignored);  // removes only an empty folder
-  }
-  for (const char* place : {"figures", "tables"}) {
-    remove_if(folder / place,
-              [](const fs::path& file) { return file.extension() == ".svg" || file.extension() == ".csv"; });
-  }
-  remove_if(folder, [](const std::string& file) { return file.ends_with("_identified.osim"); });
-}
 
 void write_results(const StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};

@@ -59,6 +59,7 @@ void solve_ik(const StudySource& source,
   if (store != nullptr) motion.ik = store->find(key);
   motion.ik_reused = motion.ik.has_value();
   if (motion.ik_reused) return;
+  motion.ik_was_damaged = store != nullptr && store->is_damaged(key);
   kinematics::IkOptions options;
   options.marker_weights = source.study.markers.weight;
   motion.ik = kinematics::inverse_kinematics(*motion.model, markers, options);

@@ -21,6 +21,7 @@ struct TrialMotion {
   std::shared_ptr<const model::BodyModel> model = std::make_shared<const model::BodyModel>();
   std::optional<kinematics::IkResult> ik;  ///< For a trial with markers.
   bool ik_reused = false;                  ///< Read from an earlier run with the same input.
+  bool ik_was_damaged = false;             ///< An earlier run kept it, and its bytes changed since.
   kinematics::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
                                            ///< motion.
   std::vector<std::string> notes;
