@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/decompositions.h"
 
 namespace myoid::forces {
 namespace {
@@ -196,8 +197,9 @@ class RisingExponent {
     Dual step(scaled_.a() * root.cwiseInverse().asDiagonal(), scaled_.b() - scaled_.a() * target,
               root.cwiseProduct(problem_.lower - target), root.cwiseProduct(problem_.upper - target), 2.0);
     const Maximum best = maximize(step, unbounded(step));
-    const Eigen::VectorXd next =
-        (target + step.x().cwiseQuotient(root)).cwiseMax(problem_.lower).cwiseMin(problem_.upper);
+    Eigen::VectorXd next = (target + step.x().cwiseQuotient(root)).cwiseMax(problem_.lower).cwiseMin(problem_.upper);
+    constexpr int kRefinements = 3;
+    for (int k = 0; k < kRefinements; ++k) balance(root, next);
     lambda_ = best.lambda * (0.5 * q * (q - 1.0) * std::pow(size, q - 2.0));
     const Eigen::VectorXd way = next - x_;
     const auto cost = [&](const Eigen::VectorXd& x) { return (x.cwiseAbs() / size).array().pow(q).sum(); };
@@ -210,6 +212,23 @@ class RisingExponent {
       return way.cwiseAbs().maxCoeff() > 1e-13 * size;
     }
     return false;
+  }
+
+  /// Removes the rest of the rows that rounding leaves: by the least change of the controls between their bounds, each
+  /// weighed by its root.
+  void balance(const Eigen::VectorXd& root, Eigen::VectorXd& x) const {
+    Eigen::VectorXd rest = scaled_.b() - scaled_.a() * x;
+    Eigen::MatrixXd rows = scaled_.a() * root.cwiseInverse().asDiagonal();
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      if (x[i] <= problem_.lower[i] || x[i] >= problem_.upper[i]) rows.col(i).setZero();
+    for (Eigen::Index k = 0; k < rest.size(); ++k) {
+      const double length = rows.row(k).norm();
+      if (!(length > 0.0)) continue;
+      rows.row(k) /= length;
+      rest[k] /= length;
+    }
+    const Eigen::VectorXd change = math::shortest_solution(rows, rest).cwiseQuotient(root);
+    x = (x + change).cwiseMax(problem_.lower).cwiseMin(problem_.upper);
   }
 
   const ActuatorProblem& problem_;
