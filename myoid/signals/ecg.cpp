@@ -11,14 +11,14 @@
 namespace myoid::signals {
 namespace {
 
-constexpr double kLowest_hz = 8.0, kHighest_hz = 40.0;
+constexpr double kLowestHeart_hz = 8.0, kHighestHeart_hz = 40.0;
 constexpr double kShortestBeat_s = 0.33, kLongestBeat_s = 1.6;
 constexpr double kHalfWave_s = 0.06;
 constexpr double kBefore_s = 0.2, kBehind_s = 0.4;
-constexpr std::size_t kFewest = 6;
-constexpr std::ptrdiff_t kAround = 15;
+constexpr std::size_t kFewestBeats = 6;
+constexpr std::ptrdiff_t kBeatsAround = 15;
 
-Eigen::Index samples_of(double seconds, double rate_hz) {
+Eigen::Index beat_samples(double seconds, double rate_hz) {
   return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(seconds * rate_hz)));
 }
 
@@ -27,14 +27,14 @@ Eigen::VectorXd band_of_the_heart(const Eigen::VectorXd& x, double rate_hz) {
   const TimeSeries one(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / rate_hz), {{"x", Unit::volt}},
                        Eigen::MatrixXd(x));
   const FilterOptions options{.order = 2, .ends = math::Ends::even};
-  const TimeSeries high = zero_phase_filter(one, math::FilterBand::high_pass, kLowest_hz, options);
-  return zero_phase_filter(high, math::FilterBand::low_pass, kHighest_hz, options).values().col(0);
+  const TimeSeries high = zero_phase_filter(one, math::FilterBand::high_pass, kLowestHeart_hz, options);
+  return zero_phase_filter(high, math::FilterBand::low_pass, kHighestHeart_hz, options).values().col(0);
 }
 
 /// Returns the greatest samples of |y|, none nearer to a greater one than the shortest beat, of at least half the
 /// median of the greatest of every 1.6 s: each stretch that long holds a beat.
-std::vector<Eigen::Index> peaks_of(const Eigen::VectorXd& y, double rate_hz) {
-  const Eigen::Index stretch = samples_of(kLongestBeat_s, rate_hz), apart = samples_of(kShortestBeat_s, rate_hz);
+std::vector<Eigen::Index> beat_peaks(const Eigen::VectorXd& y, double rate_hz) {
+  const Eigen::Index stretch = beat_samples(kLongestBeat_s, rate_hz), apart = beat_samples(kShortestBeat_s, rate_hz);
   std::vector<double> greatest;
   for (Eigen::Index i = 0; i + stretch <= y.size(); i += stretch)
     greatest.push_back(y.segment(i, stretch).cwiseAbs().maxCoeff());
@@ -72,10 +72,10 @@ std::vector<double> likeness(const Eigen::VectorXd& y, const std::vector<Eigen::
 }  // namespace
 
 std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
-  if (!(rate_hz >= 200.0) || static_cast<double>(x.size()) < rate_hz * kLongestBeat_s * kFewest) return std::nullopt;
+  if (!(rate_hz >= 200.0) || static_cast<double>(x.size()) < rate_hz * kLongestBeat_s * kFewestBeats) return std::nullopt;
   const Eigen::VectorXd y = band_of_the_heart(x, rate_hz);
-  EcgBeats beats{.at = peaks_of(y, rate_hz)};
-  if (beats.at.size() < kFewest) return std::nullopt;
+  EcgBeats beats{.at = beat_peaks(y, rate_hz)};
+  if (beats.at.size() < kFewestBeats) return std::nullopt;
   std::vector<double> steps;
   for (std::size_t i = 1; i < beats.at.size(); ++i)
     steps.push_back(static_cast<double>(beats.at[i] - beats.at[i - 1]) / rate_hz);
@@ -84,8 +84,8 @@ std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, dou
   std::vector<double> off;
   for (const double step : steps) off.push_back(std::abs(step - usual_s));
   if (math::median(std::move(off)) > kLimits.ecg_irregular * usual_s) return std::nullopt;
-  std::vector<double> alike = likeness(y, beats.at, samples_of(kHalfWave_s, rate_hz));
-  if (alike.size() < kFewest) return std::nullopt;
+  std::vector<double> alike = likeness(y, beats.at, beat_samples(kHalfWave_s, rate_hz));
+  if (alike.size() < kFewestBeats) return std::nullopt;
   beats.alike = math::median(std::move(alike));
   if (beats.alike < kLimits.ecg_alike) return std::nullopt;
   beats.rate_hz = 1.0 / usual_s;
@@ -96,7 +96,7 @@ std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, dou
 }
 
 Eigen::VectorXd without_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz, const EcgBeats& beats) {
-  const Eigen::Index before = samples_of(kBefore_s, rate_hz), length = before + samples_of(kBehind_s, rate_hz);
+  const Eigen::Index before = beat_samples(kBefore_s, rate_hz), length = before + beat_samples(kBehind_s, rate_hz);
   Eigen::VectorXd fade = Eigen::VectorXd::Ones(length);
   const Eigen::Index ramp = length / 6;
   for (Eigen::Index i = 0; i < ramp; ++i) {
@@ -109,7 +109,7 @@ Eigen::VectorXd without_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, double r
   for (std::ptrdiff_t b = 0; b < count; ++b) {
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(length);
     double used = 0.0;
-    for (std::ptrdiff_t o = std::max<std::ptrdiff_t>(0, b - kAround); o < std::min(count, b + kAround + 1); ++o) {
+    for (std::ptrdiff_t o = std::max<std::ptrdiff_t>(0, b - kBeatsAround); o < std::min(count, b + kBeatsAround + 1); ++o) {
       const Eigen::Index first = beats.at[static_cast<std::size_t>(o)] - before;
       if (o == b || first < 0 || first + length > x.size()) continue;
       mean += x.segment(first, length);

@@ -11,7 +11,7 @@
 namespace myoid::signals {
 namespace {
 
-constexpr double kRate_hz = 1000.0;
+constexpr double kEcgSampling_hz = 1000.0;
 
 /// A QRS complex of 80 ms: a small wave down, a large one up, one down [of height 1].
 double heart(double t_s) {
@@ -26,10 +26,10 @@ Eigen::VectorXd beating(Eigen::Index n, double height_v, unsigned seed, std::vec
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
-  for (double at = 0.4; at < static_cast<double>(n) / kRate_hz; at += (1.0 + 0.03 * normal(engine)) / 1.2) {
+  for (double at = 0.4; at < static_cast<double>(n) / kEcgSampling_hz; at += (1.0 + 0.03 * normal(engine)) / 1.2) {
     if (times != nullptr) times->push_back(at);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double t = static_cast<double>(i) / kRate_hz - at;
+      const double t = static_cast<double>(i) / kEcgSampling_hz - at;
       if (std::abs(t) < 0.5) x[i] += height_v * heart(t);
     }
   }
@@ -42,7 +42,7 @@ Eigen::VectorXd muscle_at_work(Eigen::Index n, double rms_v, double bursts_hz, u
   std::normal_distribution<double> normal;
   Eigen::VectorXd x(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double phase = std::sin(2.0 * M_PI * bursts_hz * static_cast<double>(i) / kRate_hz);
+    const double phase = std::sin(2.0 * M_PI * bursts_hz * static_cast<double>(i) / kEcgSampling_hz);
     x[i] = rms_v * (bursts_hz > 0.0 ? (phase > 0.5 ? 1.0 : 0.1) : 1.0) * normal(engine);
   }
   return x;
@@ -51,21 +51,21 @@ Eigen::VectorXd muscle_at_work(Eigen::Index n, double rms_v, double bursts_hz, u
 TEST(Ecg, TheHeartInAQuietTrunkMuscleIsFoundWithItsRate) {
   std::vector<double> times;
   const Eigen::VectorXd x = beating(30000, 3e-4, 1, &times) + muscle_at_work(30000, 2e-5, 0.0, 2);
-  const auto found = find_ecg(x, kRate_hz);
+  const auto found = find_ecg(x, kEcgSampling_hz);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->rate_hz, 1.2, 0.05);
   ASSERT_NEAR(static_cast<double>(found->at.size()), static_cast<double>(times.size()), 1.0);
   for (const Eigen::Index at : found->at) {
     double nearest = 1.0;
-    for (const double time : times) nearest = std::min(nearest, std::abs(time - static_cast<double>(at) / kRate_hz));
+    for (const double time : times) nearest = std::min(nearest, std::abs(time - static_cast<double>(at) / kEcgSampling_hz));
     EXPECT_LT(nearest, 0.03);
   }
 }
 
 TEST(Ecg, BurstsOfAMuscleAreNoHeart) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    EXPECT_FALSE(find_ecg(muscle_at_work(30000, 1e-4, 1.0, seed), kRate_hz)) << seed;
-    EXPECT_FALSE(find_ecg(muscle_at_work(30000, 1e-4, 0.0, seed), kRate_hz)) << seed;
+    EXPECT_FALSE(find_ecg(muscle_at_work(30000, 1e-4, 1.0, seed), kEcgSampling_hz)) << seed;
+    EXPECT_FALSE(find_ecg(muscle_at_work(30000, 1e-4, 0.0, seed), kEcgSampling_hz)) << seed;
   }
 }
 
@@ -73,9 +73,9 @@ TEST(Ecg, TakenOutItLeavesTheMuscle) {
   // The muscle is white noise of 20 uV; the heart has ten times that and a rms of about 60 uV.
   const Eigen::VectorXd muscle = muscle_at_work(60000, 2e-5, 0.0, 3);
   const Eigen::VectorXd x = beating(60000, 2e-4, 4) + muscle;
-  const auto beats = find_ecg(x, kRate_hz);
+  const auto beats = find_ecg(x, kEcgSampling_hz);
   ASSERT_TRUE(beats);
-  const Eigen::VectorXd clean = without_ecg(x, kRate_hz, *beats);
+  const Eigen::VectorXd clean = without_ecg(x, kEcgSampling_hz, *beats);
   const auto rms = [](const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); };
   const double heart_before = rms(x - muscle), heart_behind = rms(clean - muscle);
   EXPECT_LT(heart_behind, 0.35 * heart_before);

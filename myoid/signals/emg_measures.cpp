@@ -14,7 +14,7 @@ namespace myoid::signals {
 namespace {
 
 constexpr double kBurstLowpass_hz = 25.0;
-constexpr double kQuiet_s = 1.0;
+constexpr double kQuietSecond_s = 1.0;
 constexpr double kLowestEmg_hz = 20.0, kHighestEmg_hz = 400.0;
 
 /// Returns mean + `sd` standard deviations of the quietest second.
@@ -36,7 +36,7 @@ std::vector<EmgBurst> emg_bursts(const TimeSeries& filtered, Eigen::Index channe
                                                    {.order = 2, .ends = math::Ends::even})
                                      .values()
                                      .col(0);
-  const double least = burst_threshold(smooth, window_samples(filtered, kQuiet_s), options.threshold_sd);
+  const double least = burst_threshold(smooth, window_samples(filtered, kQuietSecond_s), options.threshold_sd);
   std::vector<EmgBurst> bursts;
   bool on = false;
   for (Eigen::Index i = 0; i < smooth.size(); ++i) {

@@ -10,7 +10,7 @@
 namespace myoid::signals {
 namespace {
 
-TimeSeries one_channel(const Eigen::VectorXd& x, double rate_hz) {
+TimeSeries burst_channel(const Eigen::VectorXd& x, double rate_hz) {
   return {Eigen::VectorXd::LinSpaced(x.size(), 0.0, static_cast<double>(x.size() - 1) / rate_hz),
           {{"TA", Unit::volt}},
           Eigen::MatrixXd(x)};
@@ -27,7 +27,7 @@ TEST(EmgMeasures, TheOnsetOfABurstIsFoundToSomeMilliseconds) {
     const bool works = (t >= 2.0 && t < 2.5) || (t >= 4.0 && t < 4.8);
     x[i] = (works ? 1e-4 : 3e-6) * normal(engine);
   }
-  const std::vector<EmgBurst> found = emg_bursts(one_channel(x, 1000.0), 0);
+  const std::vector<EmgBurst> found = emg_bursts(burst_channel(x, 1000.0), 0);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_NEAR(found[0].onset_s, 2.0, 0.025);
   EXPECT_NEAR(found[0].end_s, 2.5, 0.025);
@@ -42,7 +42,7 @@ TEST(EmgMeasures, OfSinesRmsAndMedianFrequencyAreKnown) {
     const double t = 0.001 * static_cast<double>(i);
     x[i] = t < 2.0 ? 2e-4 * std::sin(2.0 * M_PI * 80.0 * t) : 1e-4 * std::sin(2.0 * M_PI * 120.0 * t);
   }
-  const std::vector<EmgWindow> windows = emg_windows(one_channel(x, 1000.0), 0, 1.0);
+  const std::vector<EmgWindow> windows = emg_windows(burst_channel(x, 1000.0), 0, 1.0);
   ASSERT_EQ(windows.size(), 4U);
   EXPECT_NEAR(windows[0].rms, 2e-4 / std::sqrt(2.0), 1e-6);
   EXPECT_NEAR(windows[3].rms, 1e-4 / std::sqrt(2.0), 1e-6);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHalfSecond_s = 0.5;
 /// A recording cut to a cycle of a movement may begin and end with an effort.
-constexpr double kLongEnough_s = 3.0;
+constexpr double kLongRecording_s = 3.0;
 /// The low-pass spreads a peak by this much to each side.
 constexpr double kFlank_s = 0.2;
 constexpr std::size_t kMostPeaks = 20;
@@ -26,7 +26,7 @@ struct HalfSeconds {
   Eigen::VectorXd means;
 
   [[nodiscard]] bool at_end(Eigen::Index i) const {
-    if (length_s < kLongEnough_s) return false;
+    if (length_s < kLongRecording_s) return false;
     const double middle_s = interval_s * static_cast<double>(i + width / 2);
     return std::min(middle_s, length_s - middle_s) < kHalfSecond_s;
   }

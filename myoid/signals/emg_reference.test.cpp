@@ -12,7 +12,7 @@
 namespace myoid::signals {
 namespace {
 
-constexpr double kRate_hz = 1000.0;
+constexpr double kEnvelopeRate_hz = 1000.0;
 constexpr double kRest_v = 2e-6;
 
 /// A piece of an envelope: seconds and level [V].
@@ -21,11 +21,11 @@ using Piece = std::pair<double, double>;
 TimeSeries envelope_of(const std::vector<Piece>& pieces) {
   std::vector<double> x;
   for (const auto& [seconds, level_v] : pieces)
-    x.insert(x.end(), static_cast<std::size_t>(std::lround(seconds * kRate_hz)), level_v);
+    x.insert(x.end(), static_cast<std::size_t>(std::lround(seconds * kEnvelopeRate_hz)), level_v);
   const auto n = static_cast<Eigen::Index>(x.size());
   const Eigen::MatrixXd values = Eigen::Map<const Eigen::VectorXd>(x.data(), n);
   return {
-      Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kRate_hz), {{"BIC", Unit::volt}}, values};
+      Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kEnvelopeRate_hz), {{"BIC", Unit::volt}}, values};
 }
 
 /// Twenty seconds with two efforts of 1.5 s at this level.
