@@ -114,6 +114,7 @@ void run_inverse_kinematics(const ToolRun& run) {
   result.frames = static_cast<int>(solved.status.size());
   result.frames_failed = solved.frames_not_converged;
   note_unsolved(run, solved);
+  for (const Remark& remark : kinematics::remarks_on_ends(model, solved.q)) result.notes.push_back(sentence(remark));
   const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, markers, solved);
   if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
   result.wrong_unit = misfit.wrong_unit;

@@ -100,6 +100,10 @@ std::vector<TrialResult> joined(const Study& study,
                          [&](const Remark& remark) { return remark.where == trial.spec.name; });
     if (trial.emg.stages) add_notes(trial.emg.stages->findings, remarks);
     add_notes(trial.motion.notes, remarks);
+    for (Remark remark : trial.motion.remarks) {
+      remark.where = trial.spec.name;
+      remarks.push_back(std::move(remark));
+    }
     remarks.insert(remarks.end(), trial.forces.remarks.begin(), trial.forces.remarks.end());
   }
   require_one(trials);

@@ -95,6 +95,7 @@ TrialMotion trial_motion(const StudySource& source, const TrialSpec& spec, const
   if (input.markers) {
     solve_ik(source, *input.markers, store, motion);
     motion.notes = motion.ik->notes;
+    motion.remarks = kinematics::remarks_on_ends(*motion.model, motion.ik->q);
     add_joint_motion(source.study, motion.ik->q, motion);
   } else if (input.motion) {
     add_joint_motion(source.study, *input.motion, motion);

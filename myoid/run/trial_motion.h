@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/remark.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/model/body_model.h"
@@ -23,6 +24,7 @@ struct TrialMotion {
   kinematics::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
                                            ///< motion.
   std::vector<std::string> notes;
+  std::vector<Remark> remarks;  ///< Without a place.
   std::string failure;  ///< Reason why the motion is missing; empty: none.
 };
 
