@@ -67,6 +67,7 @@ IkResult ik(const IkOptions& o) {
   const kinematics::IkOptions options{.marker_weights = marker_weights(o.weights), .progress = o.call.progress};
   result.solved = kinematics::inverse_kinematics(result.model, markers, options);
   for (const std::string& note : result.solved.notes) remarks.warn(note);
+  for (Remark& remark : kinematics::remarks_on_ends(result.model, result.solved.q)) remarks.add(std::move(remark));
   result.misfit = kinematics::marker_misfit(result.model, markers, result.solved);
   if (!result.misfit.warning.empty()) remarks.warn(result.misfit.warning);
   result.not_converged = runs_not_converged(result.solved);

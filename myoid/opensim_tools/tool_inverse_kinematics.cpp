@@ -115,14 +115,14 @@ void run_inverse_kinematics(const ToolRun& run) {
   ik.progress = run.options.progress;
   const kinematics::IkResult solved = kinematics::inverse_kinematics(model, markers, ik);
   // Tasks name the markers that count: markers without counterpart are no news then.
-  for (const std::string& note : solved.notes)
-    if (!ik.only_named_markers || !note.starts_with("markers of the ")) result.notes.push_back(note);
+  if (!ik.only_named_markers) run.add_notes(solved.notes);
   run.add_remarks(model::implausible(model), setup.required_file(setup.tool(), "model_file").string());
   run.add_remarks(kinematics::implausible(solved.q), marker_path.string());
   write_files(files, model, solved);
   result.frames = static_cast<int>(solved.status.size());
   result.frames_failed = solved.frames_not_converged;
   note_unsolved(run, solved);
+  for (const Remark& remark : kinematics::remarks_on_ends(model, solved.q)) result.notes.push_back(sentence(remark));
   const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, markers, solved);
   if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
   result.wrong_unit = misfit.wrong_unit;

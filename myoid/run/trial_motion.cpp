@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -98,6 +99,7 @@ TrialMotion trial_motion(const StudySource& source, const TrialSpec& spec, const
     solve_ik(source, *input.markers, store, motion);
     motion.notes = motion.ik->notes;
     motion.remarks = kinematics::implausible(motion.ik->q);
+    std::ranges::move(kinematics::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(motion.remarks));
     for (Remark& remark : motion.remarks) remark.where = spec.name;
     add_joint_motion(source.study, motion.ik->q, motion);
   } else if (input.motion) {
