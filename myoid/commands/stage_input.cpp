@@ -9,6 +9,7 @@
 #include "myoid/checks/load_points.h"
 #include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
+#include "myoid/dynamics/ground_support.h"
 #include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/model/model_plausibility.h"
 #include "myoid/model/path_survey.h"
