@@ -12,9 +12,9 @@
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
-#include "myoid/files/text_file.h"
-#include "myoid/report/tables.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/files/result_record.h"
+#include "myoid/files/text_file.h"
 #include "myoid/tables/series_file.h"
 
 namespace myoid::commands {
@@ -195,7 +195,7 @@ void write_emg_measures(const EmgResult& result, const std::string& path) {
   const auto number = [](double value) { return std::isfinite(value) ? recording::format_number(value) : ""; };
   for (const EmgMeasures& one : result.measures) {
     const auto add = [&](const char* kind, const signals::EmgWindow& w) {
-      text += fmt::format("{},{},{},{},{},{},{}\n", report::csv_quoted(one.file), report::csv_quoted(one.channel), kind,
+      text += fmt::format("{},{},{},{},{},{},{}\n", recording::csv_quoted(one.file), recording::csv_quoted(one.channel), kind,
                           number(w.begin_s), number(w.end_s), number(w.rms), number(w.median_frequency_hz));
     };
     for (const signals::EmgWindow& burst : one.bursts) add("burst", burst);

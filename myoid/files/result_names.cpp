@@ -1,6 +1,7 @@
 #include "myoid/files/result_names.h"
 
 #include "myoid/files/folder_lock.h"
+#include "myoid/files/result_record.h"
 
 namespace myoid::recording {
 
@@ -12,7 +13,7 @@ const std::vector<std::string_view>& result_names() {
       // a person of a cohort
       "study.toml", "outcome.json",
       // beside the results
-      ".stages", FolderLock::kFile};
+      ".stages", FolderLock::kFile, kRecordFile, "kept-1", "kept-2", "kept-3"};
   return names;
 }
 
