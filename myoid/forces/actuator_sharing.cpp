@@ -173,7 +173,7 @@ class RisingExponent {
   RisingExponent(const ActuatorProblem& problem, const Dual& scaled, Eigen::VectorXd start)
       : problem_(problem), scaled_(scaled), x_(std::move(start)) {}
 
-  /// Leaves the controls in x() and the multipliers of the scaled rows in lambda().
+  /// Leaves the controls in x().
   void run() {
     constexpr double kRise = 1.5;
     constexpr int kMostSteps = 60;
@@ -183,7 +183,20 @@ class RisingExponent {
     }
   }
   [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
-  [[nodiscard]] const Eigen::VectorXd& lambda() const { return lambda_; }
+  /// Returns the multipliers of the scaled rows that agree best with the slopes of the free controls.
+  [[nodiscard]] Eigen::VectorXd lambda() const {
+    const double p = problem_.exponent, size = std::max(x_.cwiseAbs().maxCoeff(), 1e-300);
+    Eigen::MatrixXd rows = scaled_.a().transpose();
+    Eigen::VectorXd slope(x_.size());
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      slope[i] = std::copysign(std::pow(std::abs(x_[i]) / size, p - 1.0), x_[i]);
+      const bool is_free = x_[i] > problem_.lower[i] && x_[i] < problem_.upper[i];
+      const double weight = is_free ? 1.0 / std::max(std::abs(slope[i]), 1e-3) : 0.0;
+      slope[i] *= weight;
+      rows.row(i) *= weight;
+    }
+    return math::shortest_solution(rows, slope) * (p * std::pow(size, p - 1.0));
+  }
   [[nodiscard]] int steps() const { return steps_; }
 
  private:
@@ -194,13 +207,15 @@ class RisingExponent {
     const Eigen::VectorXd weight = (x_.cwiseAbs() / size).array().pow(q - 2.0).max(kLeastWeight);
     const Eigen::VectorXd target = x_ * ((q - 2.0) / (q - 1.0));
     const Eigen::VectorXd root = weight.cwiseSqrt();
-    Dual step(scaled_.a() * root.cwiseInverse().asDiagonal(), scaled_.b() - scaled_.a() * target,
-              root.cwiseProduct(problem_.lower - target), root.cwiseProduct(problem_.upper - target), 2.0);
-    const Maximum best = maximize(step, unbounded(step));
+    Eigen::MatrixXd rows = scaled_.a() * root.cwiseInverse().asDiagonal();
+    Eigen::VectorXd rest = scaled_.b() - scaled_.a() * target;
+    normalize(rows, rest);
+    Dual step(std::move(rows), std::move(rest), root.cwiseProduct(problem_.lower - target),
+              root.cwiseProduct(problem_.upper - target), 2.0);
+    (void)maximize(step, unbounded(step));
     Eigen::VectorXd next = (target + step.x().cwiseQuotient(root)).cwiseMax(problem_.lower).cwiseMin(problem_.upper);
     constexpr int kRefinements = 3;
     for (int k = 0; k < kRefinements; ++k) balance(root, next);
-    lambda_ = best.lambda * (0.5 * q * (q - 1.0) * std::pow(size, q - 2.0));
     const Eigen::VectorXd way = next - x_;
     const auto cost = [&](const Eigen::VectorXd& x) { return (x.cwiseAbs() / size).array().pow(q).sum(); };
     const double before = cost(x_);
@@ -221,19 +236,23 @@ class RisingExponent {
     Eigen::MatrixXd rows = scaled_.a() * root.cwiseInverse().asDiagonal();
     for (Eigen::Index i = 0; i < x.size(); ++i)
       if (x[i] <= problem_.lower[i] || x[i] >= problem_.upper[i]) rows.col(i).setZero();
-    for (Eigen::Index k = 0; k < rest.size(); ++k) {
-      const double length = rows.row(k).norm();
-      if (!(length > 0.0)) continue;
-      rows.row(k) /= length;
-      rest[k] /= length;
-    }
+    normalize(rows, rest);
     const Eigen::VectorXd change = math::shortest_solution(rows, rest).cwiseQuotient(root);
     x = (x + change).cwiseMax(problem_.lower).cwiseMin(problem_.upper);
   }
 
+  static void normalize(Eigen::MatrixXd& rows, Eigen::VectorXd& right) {
+    for (Eigen::Index k = 0; k < right.size(); ++k) {
+      const double length = rows.row(k).norm();
+      if (!(length > 0.0)) continue;
+      rows.row(k) /= length;
+      right[k] /= length;
+    }
+  }
+
   const ActuatorProblem& problem_;
   const Dual& scaled_;
-  Eigen::VectorXd x_, lambda_;
+  Eigen::VectorXd x_;
   int steps_ = 0;
 };
 
