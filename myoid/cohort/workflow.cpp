@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/error.h"
 #include "myoid/files/quoted_text.h"
 
 namespace myoid::cohort {
@@ -37,19 +38,17 @@ constexpr const char* kSnakefile =
     R"py(# One person is one job. Start: snakemake --snakefile FILE --cores N
 
 HERE = {0}
-# Files are named relative to the cohort: braces in its path would be wildcards.
-workdir: {1}
-
+COHORT = {1}
 with open(HERE + "/persons.txt") as file:
     PERSONS = file.read().split()
 
 rule all:
     input:
-        "cohort.csv"
+        COHORT + "/cohort.csv"
 
 rule person:
     output:
-        "persons/{{person}}/outcome.json"
+        COHORT + "/persons/{{person}}/outcome.json"
     retries: 2
     threads: 1
     shell:
@@ -57,9 +56,9 @@ rule person:
 
 rule group:
     input:
-        expand("persons/{{person}}/outcome.json", person=PERSONS)
+        expand(COHORT + "/persons/{{person}}/outcome.json", person=PERSONS)
     output:
-        "cohort.csv"
+        COHORT + "/cohort.csv"
     shell:
         "sh {{HERE:q}}/group.sh || [ $? -eq 5 ]"
 )py";
@@ -129,6 +128,11 @@ Workflow workflow(Engine engine, const Manifest& manifest, const fs::path& cohor
                   {"group.sh", fmt::format(kGroupScript, persons, shell_word(out), more)}};
   switch (engine) {
     case Engine::snakemake: {
+      // In names of outputs, and in that of its own folder, Snakemake has no quotes for braces.
+      if (out.find_first_of("{}") != std::string::npos)
+        throw InvalidInput(
+            "{}: Snakemake takes braces in a path for wildcards; give --out a folder without braces, or another engine",
+            out);
       const std::string file = shell_word(place + "/Snakefile");
       result.files.push_back({"Snakefile", fmt::format(kSnakefile, python_text(place), python_text(out))});
       result.start = fmt::format("snakemake --snakefile {} --cores all --keep-going", file);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 
@@ -34,6 +35,12 @@ TEST(Workflow, EveryEngineCallsOneScriptAPerson) {
     EXPECT_THAT(text_of(w, "group.sh"), HasSubstr("--estimator posterior --group"));
     EXPECT_THAT(w.start, HasSubstr("/out/c/workflow/"));
   }
+}
+
+TEST(Workflow, OfSnakemakeRefusesBracesWhichItHasNoQuotesFor) {
+  EXPECT_THROW((void)workflow(Engine::snakemake, kManifest, "/out/{c}", ""), InvalidInput);
+  EXPECT_NO_THROW((void)workflow(Engine::parallel, kManifest, "/out/{c}", ""));
+  EXPECT_NO_THROW((void)workflow(Engine::slurm, kManifest, "/out/{c}", ""));
 }
 
 TEST(Workflow, ThePersonsScriptSucceedsOnceTheOutcomeIsRecordedAndElseHasTheProgramsCode) {
