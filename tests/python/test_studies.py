@@ -28,6 +28,20 @@ def test_run_gives_the_numbers_of_the_program_to_the_last_bit(recording, result,
     assert len(myoid.Table.read(recording.parent / "truth.csv")) > 10
 
 
+def test_names_are_the_users(recording, tmp_path):
+    trial, muscle = "slow 2 kg / 李", "BIC, 'long' #1"
+    study = recording.parent / "odd names.toml"
+    text = recording.read_text(encoding="utf-8")
+    text = text.replace('name = "lift"', f'name = "{trial}"').replace('name = "BIC"', f'name = "{muscle}"')
+    study.write_text(text, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        result = myoid.run(study, out=tmp_path / "r")
+    assert result.trials[trial]["ik"]["elbow_flexion"].max() > 1.57
+    assert f"{muscle}_identified" in result.trials[trial]["identified_forces"].names
+    assert result.parameter(muscle, "max_isometric_force")["unit"] == "N"
+
+
 def test_a_temporary_folder_goes_with_its_result(recording):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", myoid.MyoidWarning)
