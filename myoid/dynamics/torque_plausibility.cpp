@@ -40,7 +40,9 @@ std::string too_much_torque(const std::string& coordinate,
       what_it_is, peak_nm, coordinate, greatest_nm, remedy);
 }
 
-std::vector<Remark> implausible(const model::BodyModel& model, const TimeSeries& generalized_forces, double body_mass_kg) {
+std::vector<Remark> implausible(const model::BodyModel& model,
+                                const TimeSeries& generalized_forces,
+                                double body_mass_kg) {
   // Masses in grams must not raise the limit.
   if (!(body_mass_kg > 0.0)) body_mass_kg = std::clamp(model::mass_kg(model), kLightBody_kg, kHeavyBody_kg);
   model::BodyModel without_muscles = model;

@@ -23,8 +23,7 @@ struct ReserveUse {
 };
 
 double share_of_frames(const Eigen::Ref<const Eigen::VectorXd>& reserve, double greatest) {
-  return reserve.size() == 0 ? 0.0
-                             : (reserve.array().abs() > 0.05 * std::max(greatest, 1e-9)).cast<double>().mean();
+  return reserve.size() == 0 ? 0.0 : (reserve.array().abs() > 0.05 * std::max(greatest, 1e-9)).cast<double>().mean();
 }
 
 std::optional<Remark> remark_of(std::vector<ReserveUse> uses, bool of_muscles) {
@@ -40,9 +39,9 @@ std::optional<Remark> remark_of(std::vector<ReserveUse> uses, bool of_muscles) {
                 .severity = of_muscles ? Severity::warning : Severity::note,
                 .about = uses.front().coordinate,
                 .value = uses.front().share,
-                .says = fmt::format("{} ({}{}): {}", reserve_words(uses.front().share), fmt::join(named, ", "), more,
-                                    of_muscles ? "the muscles cannot make the torque there"
-                                               : "no muscle moves these coordinates"),
+                .says = fmt::format(
+                    "{} ({}{}): {}", reserve_words(uses.front().share), fmt::join(named, ", "), more,
+                    of_muscles ? "the muscles cannot make the torque there" : "no muscle moves these coordinates"),
                 .remedy = of_muscles ? "correct the masses, the loads or the strength of the muscles; else the forces "
                                        "belong to another torque"
                                      : ""};
@@ -84,9 +83,10 @@ std::vector<Remark> reserves_act(const SharingInput& input, const MuscleForces& 
     const Eigen::MatrixXd& arms = input.moment_arms[i].values();
     std::string name = input.torques.channels()[i].name;
     name.resize(std::min(name.size(), name.rfind('_')));  // "_moment", "_force"
-    uses.push_back({std::move(name),
-                    share_of_frames(shared.reserve.values().col(k), input.torques.values().col(k).cwiseAbs().maxCoeff()),
-                    arms.size() > 0 && (arms.array().abs() > kLeastArm_m).any()});
+    uses.push_back(
+        {std::move(name),
+         share_of_frames(shared.reserve.values().col(k), input.torques.values().col(k).cwiseAbs().maxCoeff()),
+         arms.size() > 0 && (arms.array().abs() > kLeastArm_m).any()});
   }
   return remarks_of(uses);
 }

@@ -42,8 +42,8 @@ double usual_speed(const Eigen::VectorXd& t, const Eigen::Ref<const Eigen::Vecto
     if (std::isfinite(speed) && t[i] >= within.begin_s && t[i + 1] <= within.end_s) speeds.push_back(speed);
   }
   if (std::ssize(speeds) < kLeastSamples) return 0.0;
-  const auto at = speeds.begin() + static_cast<std::ptrdiff_t>((1.0 - kMotionLimits.share) *
-                                                               static_cast<double>(speeds.size() - 1));
+  const auto at = speeds.begin() +
+                  static_cast<std::ptrdiff_t>((1.0 - kMotionLimits.share) * static_cast<double>(speeds.size() - 1));
   std::nth_element(speeds.begin(), at, speeds.end());
   return *at;
 }
@@ -61,14 +61,15 @@ std::optional<Remark> too_fast(const TimeSeries& motion, const Stretch& within) 
     if (over > 1.0) ++count;
     if (over <= worst) continue;
     worst = over;
-    found = Remark{.code = RemarkCode::motion_impossible,
-                   .severity = Severity::error,
-                   .about = channel.name,
-                   .value = speed,
-                   .says = fmt::format("'{}' moves faster than {} in {:.0f} % of the time: nobody does", channel.name,
-                                       angle ? fmt::format("{:.4g} deg/s", speed / kDegree) : fmt::format("{:.4g} m/s", speed),
-                                       100.0 * kMotionLimits.share),
-                   .remedy = "correct the clock, which may be in another unit than s, or the unit of the values"};
+    found = Remark{
+        .code = RemarkCode::motion_impossible,
+        .severity = Severity::error,
+        .about = channel.name,
+        .value = speed,
+        .says = fmt::format("'{}' moves faster than {} in {:.0f} % of the time: nobody does", channel.name,
+                            angle ? fmt::format("{:.4g} deg/s", speed / kDegree) : fmt::format("{:.4g} m/s", speed),
+                            100.0 * kMotionLimits.share),
+        .remedy = "correct the clock, which may be in another unit than s, or the unit of the values"};
   }
   if (found && count > 1) found->says += fmt::format(" ({} columns are so fast)", count);
   return found;
@@ -107,7 +108,8 @@ std::vector<Remark> implausible(const TimeSeries& motion, const Stretch& within)
   // Where all is too fast, a jump is no news.
   if (!found.empty()) return found;
   for (const signals::MotionJump& jump : signals::find_motion_jumps(motion, within))
-    found.push_back({.code = RemarkCode::angle_jump, .about = jump.channel, .value = jump.speed, .says = jump.sentence()});
+    found.push_back(
+        {.code = RemarkCode::angle_jump, .about = jump.channel, .value = jump.speed, .says = jump.sentence()});
   return found;
 }
 

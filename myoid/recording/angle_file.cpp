@@ -20,7 +20,8 @@ bool may_hold_angles(const Storage& file) {
 }
 
 bool states_degrees(const Storage& file) {
-  return std::ranges::any_of(file.header, [](const auto& entry) { return equal_ignoring_case(entry.first, "inDegrees"); });
+  return std::ranges::any_of(file.header,
+                             [](const auto& entry) { return equal_ignoring_case(entry.first, "inDegrees"); });
 }
 
 bool is_translation_by_name(const std::string& column) {
