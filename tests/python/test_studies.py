@@ -38,7 +38,7 @@ def test_names_are_the_users(recording, tmp_path):
         warnings.simplefilter("ignore", myoid.MyoidWarning)
         result = myoid.run(study, out=tmp_path / "r")
     assert result.trials[trial]["ik"]["elbow_flexion"].max() > 1.57
-    assert f"{muscle}_identified" in result.trials[trial]["identified_forces"].names
+    assert f"{muscle}_identified" in result.trials[trial]["identified_forces"].channels
     assert result.parameter(muscle, "max_isometric_force")["unit"] == "N"
 
 
