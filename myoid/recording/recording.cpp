@@ -53,7 +53,7 @@ MarkerFile markers_of_bids(const std::filesystem::path& path) {
   BidsMotion motion = read_bids_motion(path);
   if (motion.markers.frame_count() == 0)
     throw ReadError(path, 0, "there are no positions (POS) among the channels, so no markers");
-  return {std::move(motion.markers), "m", std::move(motion.repairs), {}};
+  return {std::move(motion.markers), "m", std::move(motion.repairs)};
 }
 
 MarkerFile markers_of_c3d(const std::filesystem::path& path) {
