@@ -36,6 +36,14 @@ function test_myoid(work)
   assert(~forces.in_degrees && any(strcmp(forces.names, 'TRI_identified')));
   assert(strcmp(r.run.program, 'myoid'));
 
+  % Names are the user's.
+  text = strrep(fileread(fullfile(recording, 'study.toml')), 'name = "lift"', 'name = "slow 2 kg / [x]"');
+  handle = fopen(fullfile(recording, 'odd names.toml'), 'w');
+  fwrite(handle, text);
+  fclose(handle);
+  odd = myoid.run(fullfile(recording, 'odd names.toml'), fullfile(work, 'odd'));
+  assert(isfield(odd.trials(strcmp({odd.trials.name}, 'slow 2 kg / [x]')).series, 'ik'));
+
   % The same numbers again by read_results, and by the file itself.
   again = myoid.read_results(out);
   assert(isequaln(again.parameters, p));
