@@ -149,6 +149,9 @@ void LimbFit::add_constraints(const model::BodyModel& whole) {
           if constexpr (requires { law.body1; }) {
             renumber(law.body1, limb_body_);
             renumber(law.body2, limb_body_);
+          } else if constexpr (requires { law.coupler; }) {
+            renumber(law.coupler.dependent, limb_coordinate_);
+            renumber(law.coupler.independent, limb_coordinate_);
           } else {
             renumber(law.dependent, limb_coordinate_);
             for (int& c : law.independent) renumber(c, limb_coordinate_);
