@@ -22,8 +22,8 @@ function data = read_sto(file)
   rows = filled(2:end);
   numbers = numbers_of(lines, rows, numel(columns), file);
   if ~isnan(keys.rows) && keys.rows ~= size(numbers, 1)
-    error('myoid:badInput', '%s: the header says %d rows, there are %d; is the file cut off?', file, keys.rows, ...
-          size(numbers, 1));
+    warning('myoid:rowCount', '%s: the header says %d rows, there are %d; is the file cut off?', file, keys.rows, ...
+            size(numbers, 1));
   end
   back = find(diff(numbers(:, 1)) <= 0, 1);
   if ~isempty(back)
