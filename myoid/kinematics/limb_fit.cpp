@@ -244,6 +244,21 @@ std::vector<PoseFit::Search> LimbFit::first_steps(const Eigen::VectorXd& q) {
   return searches;
 }
 
+/// Brings angles into their ranges by whole turns and by the other angles of a joint; returns false if one strays still.
+bool LimbFit::bring_into_ranges(PoseFit::Pose& pose, const Eigen::VectorXd& here) {
+  fit_->unwind(pose);
+  if (!strays(model_, pose.q, here)) return true;
+  for (const model::Joint& joint : model_.joints) {
+    for (Eigen::VectorXd& twin : twin_angles(model_, joint, pose.q)) {
+      const bool same = std::abs(fit_->place(twin) - pose.cost) <= 1e-9 * pose.cost + kPerfect_m2;
+      if (!same || strays(model_, twin, here)) continue;
+      pose.q = std::move(twin);
+      return true;
+    }
+  }
+  return false;
+}
+
 std::optional<Eigen::VectorXd> LimbFit::other_posture(const Eigen::VectorXd& q, double share) {
   const Eigen::VectorXd here = q(whole_coordinate_);
   const double cost = fit_->place(here);
@@ -255,9 +270,10 @@ std::optional<Eigen::VectorXd> LimbFit::other_posture(const Eigen::VectorXd& q, 
   const PoseFit::Pose* best = nullptr;
   for (PoseFit::Search& search : searches) {
     fit_->advance(search, kLastSteps);
-    const PoseFit::Pose& pose = search.pose;
-    const bool elsewhere = (pose.q - here).cwiseAbs().maxCoeff() > kElsewhere_rad && !strays(model_, pose.q, here);
-    if (elsewhere && pose.cost < share * cost && (best == nullptr || pose.cost < best->cost)) best = &pose;
+    PoseFit::Pose& pose = search.pose;
+    const bool better = pose.cost < share * cost && (best == nullptr || pose.cost < best->cost);
+    const bool elsewhere = (pose.q - here).cwiseAbs().maxCoeff() > kElsewhere_rad;
+    if (better && elsewhere && bring_into_ranges(pose, here)) best = &pose;
   }
   if (best == nullptr) return std::nullopt;
   Eigen::VectorXd other = q;

@@ -49,6 +49,7 @@ class LimbFit {
   void choose_varied(const model::BodyModel& whole, std::size_t first_joint, const std::vector<bool>& carries);
   [[nodiscard]] Eigen::VectorXd bent(const Eigen::VectorXd& q);
   [[nodiscard]] std::vector<PoseFit::Search> first_steps(const Eigen::VectorXd& q);
+  [[nodiscard]] bool bring_into_ranges(PoseFit::Pose& pose, const Eigen::VectorXd& here);
   static void keep_best(std::vector<PoseFit::Search>& searches, std::size_t count);
 
   model::BodyModel model_;

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kWindow = 32;       // frames
 constexpr int kRounds = 4;                // searches of a limb in a window at most
 constexpr double kSearchShare = 0.25;     // of the work, for routine searches
+constexpr double kFilesOfFrame = 4.0;     // postures evaluated in the time in which a frame is read and written
 constexpr double kFarBetter = 0.5;        // share of the cost at which a fresh start replaces a converged posture
 constexpr double kAnyBetter = 1.0 - 1e-6;
 constexpr double kRoundOff_m2 = 1e-13;    // of 2 J
@@ -107,8 +108,11 @@ PoseFit::Pose PoseSequence::solve_from(const Eigen::VectorXd& start) {
   return options_.range_barrier > 0.0 ? fit_.solve_inside(start, options_.range_barrier) : fit_.solve(start);
 }
 
-/// Returns true while searches have taken no more than their share of the work.
-bool PoseSequence::may_search() const { return searched_ < kSearchShare * fit_.work(); }
+/// Returns true while searches have taken no more than their share of the work, to which reading and writing a frame adds.
+bool PoseSequence::may_search() const {
+  const double files = kFilesOfFrame * static_cast<double>(solved_ * (model_.bodies.size() + model_.coordinates.size()));
+  return searched_ < kSearchShare * (fit_.work() + files);
+}
 
 /// Returns the pose of a frame that has none before it: the best from all fresh starts, each with its limbs improved.
 PoseFit::Pose PoseSequence::first_pose() {
@@ -269,7 +273,9 @@ void PoseSequence::try_roots(std::size_t frame) {
 bool PoseSequence::try_start(std::size_t frame, const Eigen::VectorXd& start) {
   fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
   PoseFit::Pose pose = fit_.solve(start);
-  if (!replaces(pose, poses_[frame], kAnyBetter) || strays(model_, pose.q, poses_[frame].q)) return false;
+  if (!replaces(pose, poses_[frame], kAnyBetter)) return false;
+  fit_.unwind(pose);
+  if (strays(model_, pose.q, poses_[frame].q)) return false;
   fit_.unwind_towards(poses_[frame].q, pose);
   return adopt(frame, std::move(pose));
 }
