@@ -69,6 +69,15 @@ TEST(Ecg, BurstsOfAMuscleAreNoHeart) {
   }
 }
 
+TEST(Ecg, HumAndTonesAreNoHeart) {
+  for (const double hz : {12.0, 50.0, 60.0, 80.0}) {
+    Eigen::VectorXd x = muscle_at_work(30000, 1e-6, 0.0, 5);
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      x[i] += 1e-4 * std::sin(2.0 * M_PI * hz * static_cast<double>(i) / kEcgSampling_hz);
+    EXPECT_FALSE(find_ecg(x, kEcgSampling_hz)) << hz;
+  }
+}
+
 TEST(Ecg, TakenOutItLeavesTheMuscle) {
   // The muscle is white noise of 20 uV; the heart has ten times that and a rms of about 60 uV.
   const Eigen::VectorXd muscle = muscle_at_work(60000, 2e-5, 0.0, 3);
