@@ -74,7 +74,8 @@ std::vector<double> likeness(const Eigen::VectorXd& y, const std::vector<Eigen::
 }  // namespace
 
 std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
-  if (!(rate_hz >= 200.0) || static_cast<double>(x.size()) < rate_hz * kLongestBeat_s * kFewestBeats) return std::nullopt;
+  if (!(rate_hz >= 200.0) || static_cast<double>(x.size()) < rate_hz * kLongestBeat_s * kFewestBeats)
+    return std::nullopt;
   const Eigen::VectorXd y = band_of_the_heart(x, rate_hz);
   EcgBeats beats{.at = beat_peaks(y, rate_hz)};
   if (beats.at.size() < kFewestBeats) return std::nullopt;
@@ -112,7 +113,8 @@ Eigen::VectorXd without_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, double r
   for (std::ptrdiff_t b = 0; b < count; ++b) {
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(length);
     double used = 0.0;
-    for (std::ptrdiff_t o = std::max<std::ptrdiff_t>(0, b - kBeatsAround); o < std::min(count, b + kBeatsAround + 1); ++o) {
+    for (std::ptrdiff_t o = std::max<std::ptrdiff_t>(0, b - kBeatsAround); o < std::min(count, b + kBeatsAround + 1);
+         ++o) {
       const Eigen::Index first = beats.at[static_cast<std::size_t>(o)] - before;
       if (o == b || first < 0 || first + length > x.size()) continue;
       mean += x.segment(first, length);

@@ -57,7 +57,8 @@ TEST(Ecg, TheHeartInAQuietTrunkMuscleIsFoundWithItsRate) {
   ASSERT_NEAR(static_cast<double>(found->at.size()), static_cast<double>(times.size()), 1.0);
   for (const Eigen::Index at : found->at) {
     double nearest = 1.0;
-    for (const double time : times) nearest = std::min(nearest, std::abs(time - static_cast<double>(at) / kEcgSampling_hz));
+    for (const double time : times)
+      nearest = std::min(nearest, std::abs(time - static_cast<double>(at) / kEcgSampling_hz));
     EXPECT_LT(nearest, 0.03);
   }
 }
