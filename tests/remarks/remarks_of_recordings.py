@@ -56,7 +56,8 @@ def judgment_of(code, file, remark):
 
 
 def table(names, raised, count):
-    lines = ["| remark | warnings and errors | rightly | notes | rightly | recordings |", "| --- | --- | --- | --- | --- | --- |"]
+    lines = ["| remark | warnings and errors | rightly | notes | rightly | recordings |",
+             "| --- | --- | --- | --- | --- | --- |"]  # fmt: skip
     false_alarms = total = 0
     for name in names:
         grave = [right for _, level, right in raised.get(name, []) if level in ("error", "warning")]
@@ -93,7 +94,7 @@ def main(program, source):
                 continue
             right = judgment_of(code, file, remark)
             if right is None:
-                open_cases.append(f"{code} | {file} | {remark.get('channel', '')} | {remark['level']} | {remark['message']}")
+                open_cases.append(" | ".join([code, file, remark.get("channel", ""), remark["level"], remark["message"]]))
             raised.setdefault(code, []).append((file, remark["level"], bool(right)))
     if open_cases:
         sys.exit(f"{len(open_cases)} remarks are not judged in judgments.py:\n" + "\n".join(open_cases))
