@@ -41,8 +41,8 @@ JUDGED = [
     ("emg_hum", "c3d/*", ANY, True, "lines eight times above their neighbors, at the mains"),
     ("emg_artifact", "tecchio-ankle/*", "movement artifact", True, "the ankle is turned, the muscle at rest"),
     ("emg_drift", "tecchio-ankle/*", ANY, True, "the ankle is turned, the muscle at rest"),
-    ("emg_low_signal", "elderly-isometric/*", "^GL .*nothing but noise", True, "2 uV of white noise in every effort of every person,
-     "
+    ("emg_low_signal", "elderly-isometric/*", "^GL .*nothing but noise", True,
+     "2 uV of white noise in every effort of everybody, "
      "plantarflexion too: the electrode was not connected"),
     ("emg_low_signal", "elderly-isometric/*", "nothing but noise", False,
      "the muscle rests in this effort and works in others: only the "

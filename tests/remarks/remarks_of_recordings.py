@@ -50,7 +50,8 @@ def judgment_of(code, file, remark):
     """Whether the remark is right, by the first entry that fits; None: nobody judged it."""
     about = remark.get("channel", "")
     for wanted, pattern, channel, right, _ in JUDGED:
-        if wanted == code and fnmatch.fnmatchcase(file, pattern) and re.search(channel, about + " " + remark["message"]):
+        said = about + " " + remark["message"]
+        if wanted == code and fnmatch.fnmatchcase(file, pattern) and re.search(channel, said):
             return right
     return None
 
@@ -94,7 +95,8 @@ def main(program, source):
                 continue
             right = judgment_of(code, file, remark)
             if right is None:
-                open_cases.append(" | ".join([code, file, remark.get("channel", ""), remark["level"], remark["message"]]))
+                case = [code, file, remark.get("channel", ""), remark["level"], remark["message"]]
+                open_cases.append(" | ".join(case))
             raised.setdefault(code, []).append((file, remark["level"], bool(right)))
     if open_cases:
         sys.exit(f"{len(open_cases)} remarks are not judged in judgments.py:\n" + "\n".join(open_cases))
