@@ -58,7 +58,7 @@ ModelByMarkers model_of_markers(const std::vector<std::filesystem::path>& models
 }
 
 bool is_of_a_leg(const std::vector<FoundRecording>& found) {
-  constexpr std::array<std::string_view, 14> kWords{"asi", "psi",  "kne", "ank", "hee", "toe", "thi",
+  constexpr std::array<std::string_view, 14> kWords{"asi", "psi",  "kne", "ank", "hee", "toe",   "thi",
                                                     "tib", "heel", "mtp", "mal", "cal", "troch", "foot"};
   std::set<std::string> legs;
   for (const FoundRecording& f : found) {

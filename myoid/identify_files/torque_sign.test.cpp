@@ -38,8 +38,7 @@ TEST(SignsExplained, AReversedTorqueIsExplainedByTheOtherSignAlone) {
 
 TEST(SignsExplained, AgreesWithEveryPairOfStrengthsOnAGrid) {
   const Eigen::MatrixXd muscles = two_muscles();
-  const Eigen::VectorXd torque =
-      Eigen::VectorXd::LinSpaced(200, -1.0, 2.0) + muscles * Eigen::Vector2d(0.4, 1.3);
+  const Eigen::VectorXd torque = Eigen::VectorXd::LinSpaced(200, -1.0, 2.0) + muscles * Eigen::Vector2d(0.4, 1.3);
   double best = 0.0;
   for (double a = 0.0; a < 6.0; a += 0.01) {
     for (double b = 0.0; b < 6.0; b += 0.01)

@@ -188,8 +188,8 @@ std::vector<PlacedMarker> markers_by_place(const model::BodyModel& model, const 
 std::string place_question(const std::vector<PlacedMarker>& pairs) {
   std::vector<std::string> places;
   for (const PlacedMarker& pair : pairs)
-    places.push_back(fmt::format("'{}' where the model has '{}' ({:.0f} mm)", pair.recorded, pair.wanted,
-                                 1000.0 * pair.distance_m));
+    places.push_back(
+        fmt::format("'{}' where the model has '{}' ({:.0f} mm)", pair.recorded, pair.wanted, 1000.0 * pair.distance_m));
   return fmt::format("recorded markers stand at places of the model's under another name: {}; are they the same?",
                      fmt::join(places, ", "));
 }

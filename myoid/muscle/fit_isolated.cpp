@@ -39,8 +39,7 @@ double start_of(const IsolatedModel& model, const std::string& name) {
   const double value = *field_of(copy.parameters, name).value;
   if (name == "eccentric_plateau" && model.laws.velocity == VelocityLaw::millard)
     return model.millard.max_eccentric_multiplier;
-  if (name == "passive_strain" && model.laws.passive == PassiveLaw::millard)
-    return model.millard.passive_strain_at_one;
+  if (name == "passive_strain" && model.laws.passive == PassiveLaw::millard) return model.millard.passive_strain_at_one;
   return value;
 }
 

@@ -70,10 +70,8 @@ std::string changes_sentence(const RunComparison& comparison) {
     same += p->change == Change::no_change;
     untold += p->change == Change::cannot_tell;
   }
-  const std::string rest =
-      fmt::format("{} no change, and of {} a recording does not tell enough", same == 1 ? "1 number shows"
-                                                                              : fmt::format("{} numbers show", same),
-                  untold);
+  const std::string rest = fmt::format("{} no change, and of {} a recording does not tell enough",
+                                       same == 1 ? "1 number shows" : fmt::format("{} numbers show", same), untold);
   if (found.empty()) return fmt::format("No number changed by more than chance explains: {}.", rest);
   const std::size_t more = found.size() - std::min(found.size(), kNamed);
   found.resize(found.size() - more);

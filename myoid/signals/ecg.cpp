@@ -16,6 +16,8 @@ constexpr double kShortestBeat_s = 0.33, kLongestBeat_s = 1.6;
 constexpr double kHalfWave_s = 0.06;
 constexpr double kBefore_s = 0.2, kBehind_s = 0.4;
 constexpr std::size_t kFewestBeats = 6;
+/// Between beats the heart is silent: the median of the signal over the height of a beat. Noise has 0.25, hum 0.7.
+constexpr double kBetweenBeats = 0.2;
 constexpr std::ptrdiff_t kBeatsAround = 15;
 
 Eigen::Index beat_samples(double seconds, double rate_hz) {
@@ -72,7 +74,8 @@ std::vector<double> likeness(const Eigen::VectorXd& y, const std::vector<Eigen::
 }  // namespace
 
 std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
-  if (!(rate_hz >= 200.0) || static_cast<double>(x.size()) < rate_hz * kLongestBeat_s * kFewestBeats) return std::nullopt;
+  if (!(rate_hz >= 200.0) || static_cast<double>(x.size()) < rate_hz * kLongestBeat_s * kFewestBeats)
+    return std::nullopt;
   const Eigen::VectorXd y = band_of_the_heart(x, rate_hz);
   EcgBeats beats{.at = beat_peaks(y, rate_hz)};
   if (beats.at.size() < kFewestBeats) return std::nullopt;
@@ -80,7 +83,8 @@ std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, dou
   for (std::size_t i = 1; i < beats.at.size(); ++i)
     steps.push_back(static_cast<double>(beats.at[i] - beats.at[i - 1]) / rate_hz);
   const double usual_s = math::median(steps);
-  if (usual_s > kLongestBeat_s) return std::nullopt;
+  // Intervals as short as two peaks can be are those of a signal that goes on and on.
+  if (usual_s > kLongestBeat_s || usual_s < 1.1 * kShortestBeat_s) return std::nullopt;
   std::vector<double> off;
   for (const double step : steps) off.push_back(std::abs(step - usual_s));
   if (math::median(std::move(off)) > kLimits.ecg_irregular * usual_s) return std::nullopt;
@@ -89,9 +93,9 @@ std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, dou
   beats.alike = math::median(std::move(alike));
   if (beats.alike < kLimits.ecg_alike) return std::nullopt;
   beats.rate_hz = 1.0 / usual_s;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(1);
-  for (const Eigen::Index at : beats.at) mean[0] += std::abs(y[at]) / static_cast<double>(beats.at.size());
-  beats.amplitude = mean[0];
+  for (const Eigen::Index at : beats.at) beats.amplitude += std::abs(y[at]) / static_cast<double>(beats.at.size());
+  const Eigen::VectorXd size = y.cwiseAbs();
+  if (math::median({size.begin(), size.end()}) > kBetweenBeats * beats.amplitude) return std::nullopt;
   return beats;
 }
 
@@ -109,7 +113,8 @@ Eigen::VectorXd without_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, double r
   for (std::ptrdiff_t b = 0; b < count; ++b) {
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(length);
     double used = 0.0;
-    for (std::ptrdiff_t o = std::max<std::ptrdiff_t>(0, b - kBeatsAround); o < std::min(count, b + kBeatsAround + 1); ++o) {
+    for (std::ptrdiff_t o = std::max<std::ptrdiff_t>(0, b - kBeatsAround); o < std::min(count, b + kBeatsAround + 1);
+         ++o) {
       const Eigen::Index first = beats.at[static_cast<std::size_t>(o)] - before;
       if (o == b || first < 0 || first + length > x.size()) continue;
       mean += x.segment(first, length);

@@ -57,7 +57,8 @@ TEST(Ecg, TheHeartInAQuietTrunkMuscleIsFoundWithItsRate) {
   ASSERT_NEAR(static_cast<double>(found->at.size()), static_cast<double>(times.size()), 1.0);
   for (const Eigen::Index at : found->at) {
     double nearest = 1.0;
-    for (const double time : times) nearest = std::min(nearest, std::abs(time - static_cast<double>(at) / kEcgSampling_hz));
+    for (const double time : times)
+      nearest = std::min(nearest, std::abs(time - static_cast<double>(at) / kEcgSampling_hz));
     EXPECT_LT(nearest, 0.03);
   }
 }
@@ -66,6 +67,15 @@ TEST(Ecg, BurstsOfAMuscleAreNoHeart) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     EXPECT_FALSE(find_ecg(muscle_at_work(30000, 1e-4, 1.0, seed), kEcgSampling_hz)) << seed;
     EXPECT_FALSE(find_ecg(muscle_at_work(30000, 1e-4, 0.0, seed), kEcgSampling_hz)) << seed;
+  }
+}
+
+TEST(Ecg, HumAndTonesAreNoHeart) {
+  for (const double hz : {12.0, 50.0, 60.0, 80.0}) {
+    Eigen::VectorXd x = muscle_at_work(30000, 1e-6, 0.0, 5);
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      x[i] += 1e-4 * std::sin(2.0 * M_PI * hz * static_cast<double>(i) / kEcgSampling_hz);
+    EXPECT_FALSE(find_ecg(x, kEcgSampling_hz)) << hz;
   }
 }
 

@@ -32,10 +32,10 @@ std::vector<EmgBurst> emg_bursts(const TimeSeries& filtered, Eigen::Index channe
   const Eigen::VectorXd& t = filtered.time_s();
   const TimeSeries rectified(t, {filtered.channels()[static_cast<std::size_t>(channel)]},
                              Eigen::MatrixXd(filtered.values().col(channel).cwiseAbs()));
-  const Eigen::VectorXd smooth = zero_phase_filter(rectified, math::FilterBand::low_pass, kBurstLowpass_hz,
-                                                   {.order = 2, .ends = math::Ends::even})
-                                     .values()
-                                     .col(0);
+  const Eigen::VectorXd smooth =
+      zero_phase_filter(rectified, math::FilterBand::low_pass, kBurstLowpass_hz, {.order = 2, .ends = math::Ends::even})
+          .values()
+          .col(0);
   const double least = burst_threshold(smooth, window_samples(filtered, kQuietSecond_s), options.threshold_sd);
   std::vector<EmgBurst> bursts;
   bool on = false;

@@ -29,8 +29,8 @@ struct BurstOptions {
 /// Root mean square and median frequency over one stretch of a channel.
 struct EmgWindow {
   double begin_s = 0.0, end_s = 0.0;
-  double rms = 0.0;                   ///< In the unit of the EMG.
-  double median_frequency_hz = 0.0;   ///< From 20 to 400 Hz; NaN without power there, or below 8 samples.
+  double rms = 0.0;                  ///< In the unit of the EMG.
+  double median_frequency_hz = 0.0;  ///< From 20 to 400 Hz; NaN without power there, or below 8 samples.
 };
 
 /// Returns one stretch's numbers.

@@ -74,8 +74,8 @@ TEST(EmgReference, APulledCableAmidARecordingIsNoReference) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_FALSE(found[0].at_end);
   EXPECT_TRUE(found[0].replaced);
-  EXPECT_LE(found[0].begin_s, 7.5);
-  EXPECT_GE(found[0].end_s, 7.8);
+  EXPECT_LE(found[0].begin_s, 7.51);
+  EXPECT_GE(found[0].end_s, 7.79);
 }
 
 TEST(EmgReference, AnEffortThatLastsOrComesAgainIsConfirmed) {
