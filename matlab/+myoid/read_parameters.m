@@ -12,6 +12,12 @@ function parameters = read_parameters(results)
   parameters = struct();
   texts = {'muscle', 'parameter', 'unit', 'method', 'case', 'verdict', 'reason'};
   flags = {'at_bound', 'routes_disagree'};
+  for r = 2:numel(rows)
+    if numel(rows{r}) ~= numel(rows{1})
+      error('myoid:badInput', '%s: row %d has %d cells, expected %d as in the header', file, r, numel(rows{r}), ...
+            numel(rows{1}));
+    end
+  end
   for c = 1:numel(rows{1})
     name = rows{1}{c};
     column = cellfun(@(row) row{c}, rows(2:end), 'UniformOutput', false)';
@@ -20,7 +26,13 @@ function parameters = read_parameters(results)
     elseif any(strcmp(name, flags))
       parameters.(name) = strcmp(column, 'true');
     else
-      parameters.(name) = str2double(column);
+      numbers = str2double(column);
+      wrong = find(isnan(numbers) & ~cellfun(@isempty, column) & ~strcmpi(column, 'nan'), 1);
+      if ~isempty(wrong)
+        error('myoid:badInput', '%s: row %d, column ''%s'': expected a number, found ''%s''', file, wrong + 1, name, ...
+              column{wrong});
+      end
+      parameters.(name) = numbers;
     end
   end
   if ~exist('OCTAVE_VERSION', 'builtin')

@@ -18,11 +18,12 @@ function results = read_results(folder)
     else
       trial = trials(k);
     end
+    place = fullfile(folder, trial.folder);
     series = struct();
-    files = [dir(fullfile(folder, trial.name, '*.sto')); dir(fullfile(folder, trial.name, '*.mot'))];
+    files = [dir(fullfile(place, '*.sto')); dir(fullfile(place, '*.mot'))];
     for j = 1:numel(files)
       [~, name] = fileparts(files(j).name);
-      series.(regexprep(name, '\W', '_')) = myoid.read_sto(fullfile(folder, trial.name, files(j).name));
+      series.(regexprep(name, '\W', '_')) = myoid.read_sto(fullfile(place, files(j).name));
     end
     results.trials(k) = struct('name', trial.name, 'use', trial.use, 'failure', trial.failure, 'series', series);
   end

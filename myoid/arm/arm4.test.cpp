@@ -23,9 +23,9 @@ double polygon_m(const BodyModel& arm, const BodyState& state, const MusclePath&
     const PathPoint& point = path.points[k];
     Vec3 p_BP = point.p_BP;
     if (point.moving) {
-      const double q = state.q(point.moving->coordinate);
       for (int axis = 0; axis < 3; ++axis) {
-        p_BP(axis) = evaluate(point.moving->location[static_cast<std::size_t>(axis)], q).value;
+        const int c = point.moving->coordinates[static_cast<std::size_t>(axis)];
+        p_BP(axis) = evaluate(point.moving->location[static_cast<std::size_t>(axis)], c < 0 ? 0.0 : state.q(c)).value;
       }
     }
     const Vec3 p_GP = state.X_GB[static_cast<std::size_t>(point.body)] * p_BP;

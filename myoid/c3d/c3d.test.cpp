@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -228,6 +229,15 @@ TEST(C3d, AnyNumberOfEventsComesBack) {
   C3dFile file = small_file();
   file.events.assign(65536, {0.0, "E", "", ""});
   EXPECT_THROW((void)format_c3d(file), InvalidInput);
+}
+
+TEST(C3d, AScaleOfZeroIsNamedWithItsChannel) {
+  C3dFile file = small_file();
+  file.channels[1].scale = 0.0;
+  const C3dFile back = parse_c3d(format_c3d(file), "zero.c3d");
+  EXPECT_TRUE(std::ranges::any_of(back.repairs, [](const Repair& repair) {
+    return repair.message == "ANALOG:SCALE is 0 for 1 of 2 channels, which read 0 in every sample: Fz";
+  }));
 }
 
 TEST(C3d, UnsignedSamplesAndOffsetsAreRead) {

@@ -86,7 +86,14 @@ std::size_t used_events(const C3dGroup& group, std::size_t times) {
 void read_group(C3dFile& file, const C3dGroup& group, bool of_kinarm) {
   const auto times = numbers_of(group, "TIMES");
   const std::size_t count = used_events(group, times.size());
-  if (count == 0) return;
+  if (count == 0) {
+    const auto used = numbers_of(group, "USED");
+    const std::size_t named = !used.empty() ? static_cast<std::size_t>(std::max(0.0, used[0])) : 0;
+    const std::size_t labels = texts_of(group, "LABELS").size();
+    if (times.empty() && (named > 0 || (used.empty() && labels > 0)))
+      note(file.repairs, "{}: {} events have no TIMES; left out", group.name, std::max(named, labels));
+    return;
+  }
   const bool pairs = times.size() >= 2 * count;
   if (!pairs)
     note(file.repairs, "{}:TIMES has {} numbers for {} events instead of two for each; taken as seconds", group.name,

@@ -46,6 +46,19 @@ TEST(C3dEvents, EventsOfEveryPlaceAreReadOnce) {
   EXPECT_EQ(both.events[2].label, "GO");
 }
 
+TEST(C3dEvents, EventsWithoutTimesAreNamed) {
+  C3dFile file = one_point();
+  C3dGroup events{.id = 41, .name = "EVENTS"};
+  events.parameters = {{.name = "USED", .type = C3dType::integer, .numbers = {2}},
+                       test::c3d_texts("LABELS", 9, {"TARGET_ON", "GO"})};
+  file.groups.push_back(events);
+  const C3dFile back = parse_c3d(format_c3d(file), "timeless.c3d");
+  EXPECT_TRUE(back.events.empty());
+  EXPECT_TRUE(std::ranges::any_of(back.repairs, [](const Repair& repair) {
+    return repair.message == "EVENTS: 2 events have no TIMES; left out";
+  }));
+}
+
 TEST(C3dEvents, TheSectionBehindTheDataIsRead) {
   C3dFile file = one_point();
   auto bytes = format_c3d(file);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/byte_source.h"
 #include "myoid/files/file_words.h"
+#include "myoid/files/unique_names.h"
 
 namespace myoid::recording {
 namespace {
@@ -31,21 +31,14 @@ std::vector<std::string> unique_names(std::vector<std::string> names,
   names.resize(count);
   std::size_t empty = 0;
   std::vector<std::string> renamed;
-  std::set<std::string> seen(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(given));
-  std::set<std::string> used;
+  UniqueNames unique({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(given)});
   for (std::size_t i = 0; i < count; ++i) {
-    std::string name = names[i];
-    if (name.empty()) {
-      name = fmt::format("{}_{}", stem, i + 1);
+    if (names[i].empty()) {
+      names[i] = fmt::format("{}_{}", stem, i + 1);
       ++empty;
     }
-    if (used.contains(name)) {
-      const std::string base = name;
-      for (int k = 2; used.contains(name) || (seen.contains(name) && name != names[i]) || name == base; ++k)
-        name = fmt::format("{}_{}", base, k);
-      renamed.push_back(name);
-    }
-    used.insert(name);
+    std::string name = unique.take(names[i]);
+    if (name != names[i]) renamed.push_back(name);
     names[i] = std::move(name);
   }
   if (given < count) {
@@ -85,6 +78,7 @@ void read_channels(C3dFile& file, const C3dLayout& layout) {
   if (file.says_unsigned()) {
     for (double& offset : offsets) offset += offset < 0.0 ? 65536.0 : 0.0;
   }
+  std::vector<std::string> zero;
   for (std::size_t c = 0; c < count; ++c) {
     C3dChannel channel;
     channel.name = names[c];
@@ -96,8 +90,15 @@ void read_channels(C3dFile& file, const C3dLayout& layout) {
       channel.scale = std::nan("");
       channel.offset = 0.0;
     }
+    if (channel.scale == 0.0) zero.push_back(channel.name);
     file.channels.push_back(std::move(channel));
   }
+  if (zero.empty()) return;
+  const std::size_t shown = std::min<std::size_t>(zero.size(), 8);
+  note(file.repairs, "ANALOG:{} is 0 for {} of {} channels, which read 0 in every sample: {}{}",
+       *general == 0.0 ? "GEN_SCALE" : "SCALE", zero.size(), count,
+       fmt::join(zero.begin(), zero.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+       shown < zero.size() ? ", ..." : "");
 }
 
 /// Returns the usual distance between the points of a frame along an axis, in the file's unit: the
@@ -264,6 +265,7 @@ std::vector<C3dGroup> read_groups(const ParameterSection& section,
 }  // namespace
 
 C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
+  refuse_text_transfer(source, path);
   const std::vector<std::byte> head = read_head_block(source, path);
   const auto block = static_cast<std::size_t>(head[0]);
   C3dFile file;

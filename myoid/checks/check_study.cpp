@@ -10,31 +10,20 @@
 
 #include "myoid/checks/load_points.h"
 #include "myoid/checks/recording_findings.h"
+#include "myoid/checks/stated_loads.h"
 #include "myoid/checks/study_plausibility.h"
 #include "myoid/checks/unloaded_times.h"
 #include "myoid/core/error.h"
-#include "myoid/files/file_format.h"
-#include "myoid/files/label_match.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intake/norm.h"
 #include "myoid/intake/read_trial.h"
 #include "myoid/intake/study_activation.h"
 #include "myoid/intake/trial_markers.h"
 #include "myoid/kinematics/inverse_kinematics.h"
-#include "myoid/recording/channel_choice.h"
-#include "myoid/recording/emg_reader.h"
-#include "myoid/recording/plate_standing.h"
-#include "myoid/recording/recording.h"
-#include "myoid/signals/clock_offset.h"
 #include "myoid/signals/emg_envelope.h"
-#include "myoid/signals/emg_levels.h"
-#include "myoid/signals/emg_quality.h"
-#include "myoid/signals/marker_quality.h"
-#include "myoid/signals/plate_quality.h"
 #include "myoid/study/study_model.h"
 #include "myoid/study/trial_videos.h"
 #include "myoid/tables/csv_reader.h"
-#include "myoid/tables/storage_reader.h"
 
 namespace myoid {
 namespace {
@@ -78,6 +67,7 @@ class StudyCheck {
     if (together_) {
       add(together_->findings());
     }
+    if (auto silent = unstated_loads(study_.trials)) remarks_.push_back(std::move(*silent));
     if (!inputs_.empty()) attempt("EMG", [&] { check_recordings(); });
     sort_by_severity(remarks_);
     return grouped(remarks_);
@@ -160,7 +150,7 @@ class StudyCheck {
   }
 
   void check_trial(const TrialSpec& trial) {
-    if (trial.held_mass_kg > 0.0) attempt(trial.name, [&] { (void)held_mass_place(study_); });
+    if (trial.held_mass_kg.value_or(0.0) > 0.0) attempt(trial.name, [&] { (void)held_mass_place(study_); });
     for (TrialPart& part : read_trial_parts(study_, trial, *model_)) {
       check_part(part.spec, part.input);
       specs_.push_back(std::move(part.spec));
@@ -223,102 +213,6 @@ class StudyCheck {
 };
 
 }  // namespace
-
-namespace {
-
-/// Returns the channels that may be EMG, or only those named so if there are some, since others may be a load cell's. A
-/// storage file has no units of channels: all of them count if its title states a voltage.
-std::optional<TimeSeries> voltages(const std::filesystem::path& path,
-                                   const recording::AnalogChannels& analog,
-                                   const std::vector<recording::PlateSetup>& plates) {
-  const std::vector<std::string> names = recording::emg_channels(analog.channels(), plates);
-  std::vector<std::string> named_emg;
-  for (const std::string& name : names) {
-    if (recording::plain_label(name).find("emg") != std::string::npos) named_emg.push_back(name);
-  }
-  if (!named_emg.empty()) return analog.select(named_emg);
-  if (!names.empty()) return analog.select(names);
-  if (recording::format_of(path) != recording::FileFormat::storage) return std::nullopt;
-  if (!recording::stated_voltage(recording::read_storage(path))) return std::nullopt;
-  return recording::read_emg(path, "", false).data;
-}
-
-/// Reports channels of a recording whose EMG does not rise from rest.
-std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::string& where) {
-  constexpr double kSlowest_hz = 100.0;  // twice the rate that the high-pass needs
-  if (raw && emg.mean_rate_hz() < kSlowest_hz) return {};
-  signals::EnvelopeOptions options;
-  options.whitening = false;
-  const signals::EmgStages stages = raw ? signals::process_emg(emg, options) : signals::EmgStages{};
-  const std::vector<signals::TrialEnvelope> one{{where, false, raw ? &stages.envelope : &emg, {}, stages.flatness}};
-  std::vector<Remark> faults = signals::check_emg_levels(one);
-  // A muscle may rest or work throughout one recording. Noise alone is a fault.
-  for (Remark& fault : faults) {
-    const auto c = one.front().envelope->find(fault.about);
-    const bool noise = raw && c && stages.flatness[*c] > signals::kLimits.noise_flatness;
-    const bool resting = fault.code == RemarkCode::emg_low_signal && !noise;
-    fault.severity = std::max(fault.severity, resting ? Severity::note : Severity::warning);
-  }
-  return faults;
-}
-
-}  // namespace
-
-std::vector<Remark> check_recording(const std::filesystem::path& path, const std::optional<Vec3>& stated_up_L) {
-  recording::Recording file = recording::read_recording(path);
-  const std::string where = path.filename().string();
-  std::vector<Remark> findings;
-  bool standing = true;
-  try {
-    const recording::LaboratoryUp up = recording::stand_plates(file, stated_up_L);
-    if (up.up_L)
-      findings.push_back({.code = RemarkCode::reading,
-                          .severity = Severity::note,
-                          .where = where,
-                          .says = fmt::format("{} is up ({})", recording::axis_name(*up.up_L), up.because)});
-  } catch (const InvalidInput& error) {
-    findings.push_back(
-        {.code = RemarkCode::refused, .severity = Severity::error, .where = where, .says = error.what()});
-    standing = false;
-  }
-  for (const recording::Repair& repair : file.repairs)
-    findings.push_back({.code = RemarkCode::reading,
-                        .severity = Severity::note,
-                        .where = where,
-                        .says = recording::to_string(repair)});
-  const auto add = [&](std::vector<Remark> faults) {
-    for (Remark& fault : faults) {
-      fault.where = where;
-      findings.push_back(std::move(fault));
-    }
-  };
-  std::vector<Remark> of_markers = signals::check_markers(file.markers);
-  for (Remark& fault : of_markers) {
-    // A label of the laboratory's list that nobody used. A study warns of it where its model has that marker.
-    const Eigen::VectorXd& t = file.markers.time_s;
-    const bool never = fault.code == RemarkCode::marker_gap && fault.value >= t[t.size() - 1] - t[0];
-    if (never) fault.severity = std::max(fault.severity, Severity::note);
-  }
-  add(std::move(of_markers));
-  if (const auto emg = voltages(path, file.analog, file.plates)) {
-    require_finite(*emg, path.string());
-    constexpr Eigen::Index kFewest = 10;
-    if (emg->sample_count() < kFewest)
-      throw ReadError(path, 0,
-                      fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
-                                  emg->sample_count() == 1 ? "" : "s", kFewest));
-    std::vector<Remark> faults = signals::check_emg(*emg, {.remedies = signals::EmgRemedies::none});
-    const bool raw = std::ranges::none_of(faults, [](const Remark& f) { return f.code == RemarkCode::emg_envelope; });
-    add(std::move(faults));
-    add(levels_alone(*emg, raw, where));
-    if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});
-  }
-  for (const recording::PlateSetup& plate : file.plates) {
-    if (standing) add(signals::check_force_plate(file.force_plate(plate)));
-  }
-  sort_by_severity(findings);
-  return findings;
-}
 
 std::vector<Remark> check_study(const Study& study) { return StudyCheck(study).findings(); }
 

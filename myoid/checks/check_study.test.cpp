@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/arm/arm4.h"
+#include "myoid/checks/check_file.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"

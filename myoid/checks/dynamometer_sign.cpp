@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/trial_plausibility.h"
+#include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/intake/limits.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/path_survey.h"
@@ -74,7 +75,7 @@ std::optional<Products> compare(const Study& study,
   const TimeSeries a = signals::resample(trial.envelopes, t);
   const double from_s = trial.envelopes.time_s()[0];
   const double to_s = trial.envelopes.time_s()[trial.envelopes.sample_count() - 1];
-  const double enough = kLimits.dynamometer_torque * usual_peak(torque_nm);
+  const double enough = kLimits.dynamometer_torque * dynamics::usual_peak(torque_nm);
   Products sums;
   double most = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
@@ -119,7 +120,7 @@ std::vector<Remark> dynamometer_signs(const Study& study,
       const auto column = trial.external_torque->find(name + "_moment");
       if (!column) continue;
       const Eigen::VectorXd torque = trial.external_torque->values().col(*column);
-      if (usual_peak(torque) < least_nm) continue;
+      if (dynamics::usual_peak(torque) < least_nm) continue;
       const auto sums = compare(study, trial, largest, strength, torque);
       if (!sums) continue;
       ++told;

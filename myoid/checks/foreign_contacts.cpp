@@ -282,22 +282,23 @@ std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s
 /// Says the cause and the remedy of contacts that another body bears, or that no body of the model is near.
 std::string remedy_of(bool of_another, bool own_clock) {
   if (of_another)
-    return "; make two trials of it, with end_s before and start_s after such a time, or give these forces to the body "
-           "that bears them";
+    return "; leave these times out ([[trial]] exclude = [\"foreign_contacts\"]), or give these forces to the body "
+           "that "
+           "bears them";
   return fmt::format(
-      ", and no other body of the model is near: {}did somebody else step there? Else make two trials "
-      "of it, with end_s before and start_s after such a time",
+      ", and no other body of the model is near: {}did somebody else step there? Then leave these "
+      "times out ([[trial]] exclude = [\"foreign_contacts\"])",
       own_clock ? "are the forces on another clock than the motion ([sync] loads_offset_s), or " : "");
 }
 
 }  // namespace
 
-std::vector<Remark> foreign_contacts(const model::BodyModel& model,
-                                     const std::string& trial,
-                                     const dynamics::ExternalLoads& loads,
-                                     BodyPoints points,
-                                     bool own_clock) {
-  std::vector<Remark> findings;
+ForeignContacts foreign_contacts(const model::BodyModel& model,
+                                 const std::string& trial,
+                                 const dynamics::ExternalLoads& loads,
+                                 BodyPoints points,
+                                 bool own_clock) {
+  ForeignContacts findings;
   const GroundContacts contacts(model, loads, std::move(points));
   for (std::size_t k = 0; k < contacts.forces().size(); ++k) {
     if (!contacts.is_of_floor(k)) continue;
@@ -319,12 +320,13 @@ std::vector<Remark> foreign_contacts(const model::BodyModel& model,
         foreign += s.frames;
         of_another = of_another || is_of_another(s);
         said.push_back(stretch_words(model, s));
+        findings.times.push_back({s.begin_s, s.end_s});
       }
     }
     if (said.empty()) continue;
     const dynamics::ExternalForce& force = *contacts.forces()[k];
     const std::string& body = model.bodies[static_cast<std::size_t>(force.body)].name;
-    findings.push_back(
+    findings.remarks.push_back(
         {.code = RemarkCode::foreign_contact,
          .severity = Severity::warning,
          .where = trial,

@@ -5,10 +5,17 @@
 
 #include "myoid/checks/body_points.h"
 #include "myoid/core/remark.h"
+#include "myoid/core/stretch.h"
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/model/body_model.h"
 
 namespace myoid {
+
+/// What was found of contacts that belong to another body.
+struct ForeignContacts {
+  std::vector<Remark> remarks;
+  std::vector<Stretch> times;  ///< On the clock of the motion.
+};
 
 /// Tells whether each contact with the ground belongs to the body to which its force is applied. A contact is a time of
 /// 50 ms or more in which a force on a body exceeds a twentieth of its largest value. Only forces of floor plates are
@@ -25,10 +32,10 @@ namespace myoid {
 /// no other body is within 0.4 m at any of these times, it says so, and asks for the clock if the loads have their own.
 /// If a plate's force is given at the middle of its surface, the center of pressure follows from its moment, in the
 /// horizontal plane through that point.
-[[nodiscard]] std::vector<Remark> foreign_contacts(const model::BodyModel& model,
-                                                   const std::string& trial,
-                                                   const dynamics::ExternalLoads& loads,
-                                                   BodyPoints points,
-                                                   bool own_clock = false);
+[[nodiscard]] ForeignContacts foreign_contacts(const model::BodyModel& model,
+                                               const std::string& trial,
+                                               const dynamics::ExternalLoads& loads,
+                                               BodyPoints points,
+                                               bool own_clock = false);
 
 }  // namespace myoid

@@ -108,7 +108,7 @@ struct PlateTrial {
     loads.forces.push_back(e);
   }
   [[nodiscard]] std::vector<Remark> findings(bool own_clock = false) const {
-    return foreign_contacts(model, "walk", loads, {model, &markers, nullptr}, own_clock);
+    return foreign_contacts(model, "walk", loads, {model, &markers, nullptr}, own_clock).remarks;
   }
 };
 
@@ -135,6 +135,11 @@ TEST(ForeignContacts, OneContactOfSeveralIsSaidWithItsTimeShareAndDistances) {
     ASSERT_EQ(found.size(), 1U) << about_a_point;
     EXPECT_EQ(found[0].severity, Severity::warning);
     EXPECT_EQ(found[0].where, "walk");
+    const std::vector<Stretch> times =
+        foreign_contacts(trial.model, "walk", trial.loads, {trial.model, &trial.markers, nullptr}, false).times;
+    ASSERT_EQ(times.size(), 1U);
+    EXPECT_NEAR(times[0].begin_s, 4.2, 0.05);
+    EXPECT_NEAR(times[0].end_s, 4.9, 0.05);
     EXPECT_THAT(found[0].says,
                 AllOf(HasSubstr("'plate_1' is applied to calcn_r"), HasSubstr("in 1 of 3 contacts"),
                       HasSubstr("from 4.2"), HasSubstr("s another foot's"), HasSubstr("m from calcn_l")));

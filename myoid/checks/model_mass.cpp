@@ -4,6 +4,7 @@
 
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/intake/limits.h"
+#include "myoid/model/model_plausibility.h"
 
 namespace myoid {
 namespace {
@@ -13,10 +14,9 @@ const std::string kToScale = "scale the model to the person (myoid run-tool with
 }  // namespace
 
 std::vector<Remark> unlikely_mass(const Study& study, const model::BodyModel& model) {
-  double mass_kg = 0.0;
-  for (const model::Body& body : model.bodies) mass_kg += body.mass_kg;
+  const double mass_kg = model::mass_kg(model);
   const auto finding = [&](Severity severity, std::string says, std::string remedy) {
-    return std::vector<Remark>{{.code = RemarkCode::general,
+    return std::vector<Remark>{{.code = RemarkCode::mass_impossible,
                                 .severity = severity,
                                 .where = "study",
                                 .about = "mass",
@@ -25,15 +25,7 @@ std::vector<Remark> unlikely_mass(const Study& study, const model::BodyModel& mo
   };
   const std::string found = fmt::format("the bodies of the model weigh {:.4g} kg", mass_kg);
   const auto& person_kg = study.subject.mass_kg;
-  if (mass_kg > kLimits.heaviest_kg)
-    return finding(Severity::error,
-                   fmt::format("{}, more than any person{}: are its masses in grams?", found,
-                               person_kg ? fmt::format(" (this one weighs {:g} kg)", *person_kg) : ""),
-                   "write the masses and inertias in kg and kg m2, or " + kToScale);
-  if (mass_kg < kLimits.lightest_kg)
-    return finding(Severity::warning,
-                   fmt::format("{}: weight and inertia of the limb are missing from its torque", found),
-                   "give the bodies their masses [kg]");
+  if (mass_kg > model::kModelLimits.heaviest_kg || mass_kg < model::kModelLimits.lightest_kg) return {};
   if (person_kg && mass_kg > kLimits.heavier_than * *person_kg)
     return finding(Severity::warning,
                    fmt::format("{}, {:.3g} times the person's {:g} kg ([subject] mass_kg): every torque by weight and "

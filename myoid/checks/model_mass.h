@@ -8,8 +8,8 @@
 
 namespace myoid {
 
-/// Finds a total mass of the model's bodies that no person has, or that is larger than the person's of the study or, of
-/// a model that stands, smaller.
+/// Finds a total mass of the model's bodies that is larger than the person's of the study or, of a model that stands,
+/// smaller. Masses that no person has are those of model::implausible.
 [[nodiscard]] std::vector<Remark> unlikely_mass(const Study& study, const model::BodyModel& model);
 
 }  // namespace myoid

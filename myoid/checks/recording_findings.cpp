@@ -30,7 +30,7 @@ RecordingFindings recording_findings(const Study& study,
     }
   });
   if (study.emg.kind != EmgKind::activation)
-    found.levels = signals::check_emg_levels(envelopes_of(study, emg_of(inputs), activation, false));
+    found.levels = signals::check_emg_levels(envelopes_of(study, emg_of(inputs), activation, false).trials);
   std::vector<EffortTrial> efforts;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (activation.trials[i].activation.empty()) continue;

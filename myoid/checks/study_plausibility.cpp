@@ -6,14 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "myoid/checks/determined_joint.h"
+#include "myoid/checks/excluded_times.h"
 #include "myoid/checks/fiber_room.h"
 #include "myoid/checks/foreign_contacts.h"
 #include "myoid/checks/load_points.h"
 #include "myoid/checks/marker_sides.h"
 #include "myoid/checks/model_mass.h"
+#include "myoid/checks/stated_body.h"
 #include "myoid/checks/study_muscles.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/ground_support.h"
+#include "myoid/model/model_plausibility.h"
 
 namespace myoid {
 namespace {
@@ -95,10 +99,21 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
     found = misplaced_loads(*model_, *input.loads, markers, motion, loads_of(trial));
     for (Remark& remark : found) remark.where = trial.name;
   }
-  if (found.empty() && !places_differ && input.loads && (markers != nullptr || motion != nullptr))
-    found = foreign_contacts(*model_, trial.name, *input.loads, {*model_, markers, motion},
-                             trial.external_loads.has_value());
+  foreign_times_.clear();
+  if (found.empty() && !places_differ && input.loads && (markers != nullptr || motion != nullptr)) {
+    ForeignContacts foreign = foreign_contacts(*model_, trial.name, *input.loads, {*model_, markers, motion},
+                                               trial.external_loads.has_value());
+    foreign_times_ = std::move(foreign.times);
+    found = std::move(foreign.remarks);
+    if (trial.exclude.foreign_contacts) {
+      for (Remark& remark : found) remark.severity = Severity::note;
+    }
+  }
   std::ranges::move(found, std::back_inserter(of_trials_));
+  std::ranges::move(excluded_times(trial, input, foreign_times_), std::back_inserter(of_trials_));
+  if (!sides && input.markers && trial.use != Use::mvc) {
+    if (auto open = open_joint(*study_, *model_, trial, *input.markers)) of_trials_.push_back(std::move(*open));
+  }
   if (auto support = check_support(*study_, *model_, trial, input)) of_trials_.push_back(std::move(*support));
 }
 
@@ -119,14 +134,17 @@ std::vector<Remark> StudyPlausibility::findings() const {
     }
   }
   if (auto sizes = unlike_sizes(sizes_)) found.push_back(std::move(*sizes));
+  std::vector<Remark> of_model = model::implausible(*model_);
+  for (Remark& remark : of_model) remark.where = "study";
   for (std::vector<Remark> more :
        {shared_muscles(*study_), idle_muscles(*study_, *model_), tendons_too_long(*study_, *model_),
-        unlikely_mass(*study_, *model_), same, grouped(unlike_lengths(lengths_))})
+        unlikely_mass(*study_, *model_), unlike_stated_bodies(*study_), of_model, same,
+        grouped(unlike_lengths(lengths_))})
     std::ranges::move(more, std::back_inserter(found));
   return found;
 }
 
-void require_plausible(const Study& study, const model::BodyModel& model, std::vector<TrialInput>& inputs) {
+void require_plausible(Study& study, const model::BodyModel& model, std::vector<TrialInput>& inputs) {
   StudyPlausibility plausibility(study, model);
   const auto take = [&](std::vector<Remark> findings) {
     for (Remark& f : findings) {
@@ -138,7 +156,12 @@ void require_plausible(const Study& study, const model::BodyModel& model, std::v
       inputs[at < inputs.size() ? at : 0].remarks.push_back(std::move(f));
     }
   };
-  for (std::size_t i = 0; i < inputs.size(); ++i) plausibility.look_at(study.trials[i], inputs[i]);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    plausibility.look_at(study.trials[i], inputs[i]);
+    ExcludeSpec& exclude = study.trials[i].exclude;
+    if (exclude.foreign_contacts)
+      std::ranges::copy(margined(plausibility.foreign_times()), std::back_inserter(exclude.windows));
+  }
   take(plausibility.findings());
 }
 

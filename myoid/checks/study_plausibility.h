@@ -24,19 +24,23 @@ class StudyPlausibility {
   /// Returns the findings on the trials so far, one by one and together. A finding about several
   /// trials stands with the first, and names the others.
   [[nodiscard]] std::vector<Remark> findings() const;
+  /// Returns the times of foreign contacts in the last trial that was looked at.
+  [[nodiscard]] const std::vector<Stretch>& foreign_times() const { return foreign_times_; }
 
  private:
   const Study* study_;
   const model::BodyModel* model_;
   Capacities capacities_;
   std::vector<Remark> of_trials_;
+  std::vector<Stretch> foreign_times_;
   std::vector<TrialPrint> prints_;
   std::vector<TrialLengths> lengths_;
   std::vector<TrialSize> sizes_;
   double largest_emg_ = 0.0;  ///< Over all trials.
 };
 
-/// Runs all these checks: throws InvalidInput for the first error and adds the warnings to the trials'.
-void require_plausible(const Study& study, const model::BodyModel& model, std::vector<TrialInput>& inputs);
+/// Runs all these checks: throws InvalidInput for the first error and adds the warnings to the trials'. Where a trial
+/// excludes foreign contacts, their times become windows of its `exclude`.
+void require_plausible(Study& study, const model::BodyModel& model, std::vector<TrialInput>& inputs);
 
 }  // namespace myoid

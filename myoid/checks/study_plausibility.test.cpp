@@ -35,6 +35,8 @@ struct TwoTrials {
 
   TwoTrials() {
     study.model.builtin = "arm4";
+    // The motions of these tests have the elbow's angle alone.
+    for (model::Coordinate& c : model.coordinates) c.locked = c.name != "elbow_flexion";
     study.trials.resize(2);
     for (std::size_t i = 0; i < 2; ++i) {
       study.trials[i].name = i == 0 ? "first" : "second";

@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/intake/limits.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/signals/motion_jumps.h"
 #include "myoid/study/trial_up.h"
 
 namespace myoid {
@@ -58,15 +59,16 @@ void check_held_mass(const Study& study,
                      const Capacities& capacities,
                      const TrialSpec& trial,
                      std::vector<Remark>& findings) {
-  if (!(trial.held_mass_kg > 0.0)) return;
-  if (study.subject.mass_kg && trial.held_mass_kg > *study.subject.mass_kg) {
+  const double held_kg = trial.held_mass_kg.value_or(0.0);
+  if (!(held_kg > 0.0)) return;
+  if (study.subject.mass_kg && held_kg > *study.subject.mass_kg) {
     findings.push_back({.code = RemarkCode::held_mass_impossible,
                         .severity = Severity::error,
                         .where = trial.name,
                         .about = "held mass",
                         .says = fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it in grams "
                                             "or pounds, or is a decimal point missing?",
-                                            trial.held_mass_kg, *study.subject.mass_kg)});
+                                            held_kg, *study.subject.mass_kg)});
     return;
   }
   if (!study.model.held_mass && study.model.file) return;  // reported as an error elsewhere
@@ -83,7 +85,7 @@ void check_held_mass(const Study& study,
       const Vec3 center = state.X_GB[static_cast<std::size_t>(model.joints[joint].child)] * model.joints[joint].X_BM.p;
       lever_m = (state.X_GB[b] * study.model.held_mass->p_BP_m - center).norm();
     }
-    const double moment_nm = trial.held_mass_kg * kStandardGravity * lever_m;
+    const double moment_nm = held_kg * kStandardGravity * lever_m;
     const bool still = trial.use == Use::isometric || trial.use == Use::static_pose || trial.use == Use::mvc;
     const double most_nm = (still ? 1.0 : kLimits.lift_share) * capacity.isometric_nm();
     if (!(most_nm > 0.0) || moment_nm <= most_nm) continue;
@@ -95,7 +97,7 @@ void check_held_mass(const Study& study,
          .says = fmt::format(
              "held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and with literature's strength all muscles "
              "of the model can {} {:.0f} N m there: is it in other units, or is a decimal point missing?",
-             trial.held_mass_kg, lever_m, moment_nm, name, still ? "hold" : "lift again and again", most_nm)});
+             held_kg, lever_m, moment_nm, name, still ? "hold" : "lift again and again", most_nm)});
   }
 }
 
@@ -171,34 +173,6 @@ Capacities joint_capacities(const Study& study, const model::BodyModel& model) {
   return capacities;
 }
 
-double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  std::vector<double> sizes;
-  for (const double v : values) {
-    if (std::isfinite(v)) sizes.push_back(std::abs(v));
-  }
-  if (sizes.empty()) return 0.0;
-  const auto at = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
-  std::nth_element(sizes.begin(), sizes.begin() + at, sizes.end());
-  return sizes[static_cast<std::size_t>(at)];
-}
-
-std::string too_much_torque(const std::string& coordinate,
-                            double peak_nm,
-                            double greatest_nm,
-                            const std::string& what_it_is,
-                            TorqueSource source) {
-  if (!(peak_nm > greatest_nm)) return {};
-  const char* remedy =
-      source == TorqueSource::computed
-          ? ""
-          : (peak_nm < 1000.0 * greatest_nm ? "; is it in N mm? Divide by 1000 (Myoid's torques are in N m)"
-                                            : "; correct its unit (N m)");
-  return fmt::format(
-      "{} reaches {:.4g} N m at {}, beyond what the strongest person's muscles and weight do there "
-      "in this model, {:.3g} N m{}",
-      what_it_is, peak_nm, coordinate, greatest_nm, remedy);
-}
-
 std::vector<Remark> implausible(const Study& study,
                                 const model::BodyModel& model,
                                 const Capacities& capacities,
@@ -209,8 +183,9 @@ std::vector<Remark> implausible(const Study& study,
     for (const auto& [name, capacity] : capacities) {
       const auto column = input.external_torque->find(name + "_moment");
       if (!column) continue;
-      const std::string text = too_much_torque(name, usual_peak(input.external_torque->values().col(*column)),
-                                               capacity.greatest_nm(), trial.external_torque->filename().string());
+      const std::string text =
+          dynamics::too_much_torque(name, dynamics::usual_peak(input.external_torque->values().col(*column)),
+                                    capacity.greatest_nm(), trial.external_torque->filename().string());
       if (!text.empty())
         findings.push_back({.code = RemarkCode::torque_impossible,
                             .severity = Severity::error,
@@ -221,11 +196,10 @@ std::vector<Remark> implausible(const Study& study,
   }
   if (input.motion) check_angles(study, model, *input.motion, trial.name, findings);
   if (input.motion) {
-    for (const signals::MotionJump& jump : signals::find_motion_jumps(*input.motion))
-      findings.push_back({.code = RemarkCode::angle_jump,
-                          .severity = Severity::warning,
-                          .where = trial.name,
-                          .says = jump.sentence()});
+    for (Remark& remark : kinematics::implausible(model, *input.motion)) {
+      remark.where = trial.name;
+      findings.push_back(std::move(remark));
+    }
   }
   if (trial.use == Use::passive && !trial.external_torque && !trial.load_cell)
     findings.push_back({.code = RemarkCode::resting_torque,

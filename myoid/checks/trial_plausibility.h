@@ -30,17 +30,4 @@ using Capacities = std::map<std::string, dynamics::JointCapacity>;
 /// Activation that a trial with active muscles exceeds at some time.
 inline constexpr double kFlatActivation = kLimits.flat_activation;
 
-/// Returns the size that one sample in a hundred exceeds, so that a single spike does not decide.
-[[nodiscard]] double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values);
-
-/// The origin of a torque: a file, whose unit may be wrong, or inverse dynamics.
-enum class TorqueSource { file, computed };
-
-/// Returns "16194 N m at elbow_flexion is more than ...; N mm?" for too large a torque, else an empty text.
-[[nodiscard]] std::string too_much_torque(const std::string& coordinate,
-                                          double peak_nm,
-                                          double greatest_nm,
-                                          const std::string& what_it_is,
-                                          TorqueSource source = TorqueSource::file);
-
 }  // namespace myoid

@@ -7,6 +7,7 @@
 #include "myoid/arm/arm4.h"
 #include "myoid/core/units.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/recording/laboratory_up.h"
 
 namespace myoid {
 namespace {
@@ -20,6 +21,8 @@ struct Elbow {
   Elbow() {
     study.model.builtin = "arm4";
     trial.name = "t";
+    // The motions of these tests have the elbow's angle alone.
+    for (model::Coordinate& c : model.coordinates) c.locked = c.name != "elbow_flexion";
   }
   [[nodiscard]] std::vector<Remark> findings() const {
     return implausible(study, model, joint_capacities(study, model), trial, input);
@@ -52,12 +55,16 @@ TEST(Implausible, TorqueInNewtonMillimetersIsAnErrorWithTheRemedy) {
   }
 }
 
-TEST(Implausible, ASpikeOfTheTorqueIsNotItsSize) {
-  Eigen::VectorXd torque = Eigen::VectorXd::LinSpaced(1000, -20.0, 20.0);
-  torque[500] = 1e5;
-  EXPECT_LT(usual_peak(torque), 20.1);
-  torque.segment(0, 20).setConstant(1e5);
-  EXPECT_EQ(usual_peak(torque), 1e5);
+TEST(Implausible, CoordinatesThatTheMotionLacksAreNamed) {
+  Elbow elbow;
+  elbow.input.motion = angle(10.0, 100.0);
+  EXPECT_TRUE(elbow.findings().empty());
+  for (model::Coordinate& c : elbow.model.coordinates) c.locked = false;
+  const std::vector<Remark> found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, RemarkCode::coordinate_absent);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_EQ(found[0].where, "t");
 }
 
 TEST(Implausible, ANegatedAngleIsAnErrorThatAsksForTheSign) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/counted.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/file_format.h"
@@ -36,13 +37,13 @@ void print_findings(const commands::CheckResult& result, const std::string& inpu
   std::set<std::string> said;
   for (const Remark& f : result.findings) {
     const bool again = !f.remedy.empty() && !said.insert(f.remedy).second;
-    fmt::print("{:<8} {}: {}\n", name(f.severity), f.where, again ? f.says : sentence(f));
+    say("{:<8} {}: {}\n", name(f.severity), f.where, again ? f.says : sentence(f));
   }
   const std::string subject =
       result.of_study ? fmt::format("{}, {}", counted(result.trials, "trial"), counted(result.muscles, "muscle"))
                       : input;
-  fmt::print("{}: {}, {}\n", subject, counted(result.errors, "error"),
-             counted(result.findings.size() - result.errors, "remark"));
+  say("{}: {}, {}\n", subject, counted(result.errors, "error"),
+      counted(result.findings.size() - result.errors, "remark"));
 }
 
 }  // namespace
@@ -50,12 +51,16 @@ void print_findings(const commands::CheckResult& result, const std::string& inpu
 void add_check(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand(
       "check",
-      "Reads every input of a study, or a single recording, and lists its faults, worst first; computes nothing.\n"
+      "Reads every input of a study, a single recording or motion, or a model, and lists its faults, worst first; "
+      "computes nothing.\n"
       "Example: myoid check study.toml");
   const auto o = std::make_shared<commands::CheckOptions>();
   const std::string recordings = recording::endings_text(
       [](const recording::FormatEntry& entry) { return recording::is_recording(entry.format); });
-  command.add_option("study", o->input, "study.toml, or a single recording: " + recordings)->required();
+  command.add_option("study", o->input, "study.toml, a model (.osim), or a single recording: " + recordings)
+      ->required();
+  command.add_option("--model", o->model,
+                     "Model of a motion (.mot, .sto), whose columns are its coordinates: a file (.osim), or arm4");
   command
       .add_option("--up", o->up,
                   "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y or -z (default: "
@@ -66,7 +71,7 @@ void add_check(CLI::App& app, Context& context) {
     o->call = context.call();
     const commands::CheckResult result = commands::check(*o);
     if (context.json) {
-      fmt::print("{}\n", json_text(findings_json(result.findings)));
+      say_whole(json_text(findings_json(result.findings)) + "\n");
     } else {
       print_findings(result, o->input);
     }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 
 namespace myoid::cli {
@@ -21,10 +22,10 @@ std::string word_of(const PersonOutcome& each) {
 
 void print_outcomes(const std::vector<PersonOutcome>& outcomes) {
   std::size_t width = 6;
-  for (const PersonOutcome& each : outcomes) width = std::max(width, each.person.size());
+  for (const PersonOutcome& each : outcomes) width = std::max(width, in_column(each.person).size());
   for (const PersonOutcome& each : outcomes) {
-    fmt::print("{:<{}}  {:<13}  {}{}\n", each.person, width, word_of(each),
-               each.reused ? "(as before: same input) " : "", each.outcome ? each.outcome->message : "");
+    say("{:<{}}  {:<13}  {}{}\n", in_column(each.person), width, word_of(each),
+        each.reused ? "(as before: same input) " : "", each.outcome ? each.outcome->message : "");
   }
 }
 
@@ -36,7 +37,7 @@ void print_json(const std::vector<PersonOutcome>& outcomes) {
                     {"message", each.outcome ? each.outcome->message : ""},
                     {"reused", each.reused}});
   }
-  fmt::print("{}\n", json_text(list));
+  say_whole(json_text(list) + "\n");
 }
 
 /// Returns the code of `run` for one person; for several, failures count before gates.
@@ -67,7 +68,8 @@ void run_cohort(Context& context,
     context.end_progress();
     context.warn(fmt::format("{} failed: {}", each.person, each.outcome->message));
   };
-  commands::prepare_cohort_folder(options, folder, context.overwrite);
+  options.overwrite = context.overwrite;
+  commands::prepare_cohort_folder(options, folder);
   std::vector<PersonOutcome> outcomes;
   if (steps.persons) outcomes = commands::write_cohort_persons(options, folder);
   context.end_progress();
@@ -81,7 +83,7 @@ void run_cohort(Context& context,
   }
   if (context.exit_code == kDone) context.exit_code = code_of(outcomes);
   context.json ? print_json(outcomes) : print_outcomes(outcomes);
-  if (steps.group && !context.json) fmt::print("\nreport: {}/report.html\n", folder.string());
+  if (steps.group && !context.json) say("\nreport: {}/report.html\n", folder.string());
 }
 
 /// Adds --estimator and --jobs to a command.
@@ -125,8 +127,10 @@ void add_cohort(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options, out, group, engine] {
     if (*engine) {
-      commands::prepare_cohort_folder(*options, *out, context.overwrite);
-      fmt::print("{}\n", commands::write_cohort_workflow(*options, **engine, *out));
+      options->call = context.call();
+      options->overwrite = context.overwrite;
+      commands::prepare_cohort_folder(*options, *out);
+      say("{}\n", commands::write_cohort_workflow(*options, **engine, *out));
       return;
     }
     run_cohort(context, *options, *out, {.persons = !*group, .group = *group || options->persons.empty()});

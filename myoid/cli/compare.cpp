@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 #include "myoid/results/change_sentences.h"
 
@@ -45,18 +46,18 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
 }
 
 void print(const RunComparison& comparison) {
-  fmt::print("{}\n\n", changes_sentence(comparison));
-  fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second",
+  say("{}\n\n", changes_sentence(comparison));
+  say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second",
              "difference", "%", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
     if (!rests_on_measurement(p.first.method)) continue;  // in the report
-    fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", p.muscle,
+    say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", p.muscle,
                fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
                report::format_value(p.second.estimate), report::format_value(p.difference),
                p.base == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.base)),
                p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }
-  for (const std::string& remark : comparison.remarks) fmt::print("{}\n", remark);
+  for (const std::string& remark : comparison.remarks) say("{}\n", remark);
 }
 
 }  // namespace
@@ -78,11 +79,11 @@ void add_compare(CLI::App& app, Context& context) {
     const commands::CompareResult result = commands::compare(*options);
     if (!out->empty()) commands::write_compare(result, *out);
     if (context.json) {
-      fmt::print("{}\n", json_text(to_json(result.comparison)));
+      say_whole(json_text(to_json(result.comparison)) + "\n");
       return;
     }
     print(result.comparison);
-    if (!out->empty()) fmt::print("{}/report.html\n", *out);
+    if (!out->empty()) say("{}/report.html\n", *out);
   });
 }
 

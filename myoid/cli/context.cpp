@@ -13,6 +13,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
@@ -39,8 +40,8 @@ struct ProgressBar {
     const std::string left =
         share > 0.02 && share < 1.0 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share) : "";
     const int filled = static_cast<int>(share * 24.0);
-    fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share, left,
-               what);
+    std::fputs("\r\033[K", stderr);
+    say_error("[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share, left, what);
     std::fflush(stderr);
   }
 };
@@ -118,22 +119,23 @@ const CLI::Validator& zero_or_more() {
 
 void Context::log(std::string_view line) const {
   std::fflush(stdout);  // keeps the order of the two streams in one file
-  if (!quiet) fmt::print(stderr, "{}\n", line);
+  if (!quiet) say_error("{}\n", line);
 }
 
 void Context::warn(std::string_view line) const {
   if (quiet) return;
-  fmt::print(stderr, "{}warning:{} {}\n", color_wanted() ? "\033[33m" : "", color_wanted() ? "\033[0m" : "", line);
+  std::fputs(color_wanted() ? "\033[33mwarning:\033[0m " : "warning: ", stderr);
+  say_error("{}\n", line);
 }
 
 void Context::tell(const Remark& remark) const {
   if (remark.severity == Severity::detail && !verbose) return;
   end_progress();
-  remark.severity == Severity::warning ? warn(sentence(remark)) : log(sentence(remark));
+  remark.severity <= Severity::warning ? warn(sentence(remark)) : log(sentence(remark));
 }
 
 void Context::print(const nlohmann::ordered_json& object, const std::string& text) const {
-  fmt::print("{}\n", json ? json_text(object) : text);
+  json ? say_whole(json_text(object) + "\n") : say("{}\n", text);
 }
 
 commands::Call Context::call() const {
@@ -155,7 +157,7 @@ Progress Context::progress() const {
 }
 
 void Context::end_progress() const {
-  if (!quiet && isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
+  if (!quiet && isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
 }
 
 void Context::prepare_file(const std::filesystem::path& path, const std::vector<std::string>& inputs) const {
@@ -183,8 +185,20 @@ void Context::prepare_folder(const std::filesystem::path& folder, std::string_vi
   if (const std::string& note = held_folders.back()->note(); !note.empty()) log(note);
 }
 
+void Context::prepare_run_folder(const std::filesystem::path& folder) const {
+  const std::string author = recording::author_of(folder / "run.json");
+  held_folders.push_back(
+      std::make_unique<recording::ResultFolder>(folder, command_line, author.empty() ? "run" : author, true));
+}
+
 void Context::finish_folders() const {
   for (const auto& held : held_folders) held->finish();
+}
+
+void Context::release_folders() const {
+  for (const auto& held : held_folders)
+    for (const std::string& note : held->take_notes()) log(note);
+  held_folders.clear();
 }
 
 std::string Context::contents_of_folders() const {

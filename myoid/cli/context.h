@@ -94,10 +94,14 @@ struct Context {
   void tell_new_folders() const;
   /// Takes the folder for results until the program ends (`recording::ResultFolder`).
   void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
+  /// Takes the folder of finished results of a run, whose report is made anew.
+  void prepare_run_folder(const std::filesystem::path& folder) const;
 
   /// Marks the results in all held folders as whole. Without this call a folder that was empty
   /// belongs to the unfinished command, which takes the folder over when the user repeats it.
   void finish_folders() const;
+  /// Gives the folders back, and names files in them that were kept or moved aside.
+  void release_folders() const;
 
   /// Returns a clause on the held folders: "every file in out is whole, and ..." for a folder with
   /// results, else "nothing was written into out"; empty if no folder is held.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/file_format.h"
 
@@ -67,9 +68,9 @@ void add_convert(CLI::App& app, Context& context) {
     o->call = context.call();
     const commands::ConvertResult result = commands::convert(*o);
     if (context.json) {
-      fmt::print("{}\n", json_text({{"files", result.files}}));
+      say_whole(json_text({{"files", result.files}}) + "\n");
     } else {
-      for (const std::string& file : result.files) fmt::print("{}\n", file);
+      for (const std::string& file : result.files) say("{}\n", file);
     }
   });
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 
 namespace myoid::cli {
@@ -12,26 +13,25 @@ namespace {
 using identification::ParameterEstimate;
 
 void print_plan(const DesignStudyResult& result) {
-  fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest", "median 95 %", "identified");
-  fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
-             fmt::format("of {}", result.beforehand.size()));
-  fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
-             median_half_width(result.beforehand), identified_count(result.beforehand));
+  say("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest", "median 95 %", "identified");
+  say("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
+      fmt::format("of {}", result.beforehand.size()));
+  say("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
+      median_half_width(result.beforehand), identified_count(result.beforehand));
   for (std::size_t i = 0; i < result.plan.size(); ++i) {
     const PlannedMovement& m = result.plan[i];
-    fmt::print("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1, m.movement.description(),
-               m.movement.duration_s, m.rest_before_s, median_half_width(m.expected), identified_count(m.expected));
+    say("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1, m.movement.description(), m.movement.duration_s,
+        m.rest_before_s, median_half_width(m.expected), identified_count(m.expected));
   }
   if (result.plan.empty()) return;
-  fmt::print("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}", "target",
-             "beforehand");
-  for (std::size_t i = 0; i < result.plan.size(); ++i) fmt::print(" {:>7}", i + 1);
-  fmt::print("  verdict\n");
+  say("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}", "target", "beforehand");
+  for (std::size_t i = 0; i < result.plan.size(); ++i) say(" {:>7}", i + 1);
+  say("  verdict\n");
   for (std::size_t t = 0; t < result.beforehand.size(); ++t) {
     const ParameterEstimate& before = result.beforehand[t];
-    fmt::print("{:<38} {:>11.1f}", before.muscle + "." + before.parameter, relative_half_width(before));
-    for (const PlannedMovement& m : result.plan) fmt::print(" {:>7.1f}", relative_half_width(m.expected[t]));
-    fmt::print("  {}\n", identification::name(result.plan.back().expected[t].verdict));
+    say("{:<38} {:>11.1f}", before.muscle + "." + before.parameter, relative_half_width(before));
+    for (const PlannedMovement& m : result.plan) say(" {:>7.1f}", relative_half_width(m.expected[t]));
+    say("  {}\n", identification::name(result.plan.back().expected[t].verdict));
   }
 }
 
@@ -61,7 +61,7 @@ void print_json(const DesignStudyResult& result) {
                             {"fatigued_share", m.fatigued_share},
                             {"expected", estimates_json(m.expected)}});
   }
-  fmt::print("{}\n", json_text(json));
+  say_whole(json_text(json) + "\n");
 }
 
 /// Adds the movements to choose from, and their number.

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/file_format.h"
@@ -60,14 +61,13 @@ nlohmann::ordered_json emg_json(const std::vector<std::string>& out, const comma
 
 void print_emg(const std::vector<std::string>& out, const commands::EmgResult& result) {
   for (const auto& n : result.normalisation) {
-    fmt::print("{:<24} rest {:>8} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel,
-               n.rests ? fmt::format("{:.2f}", 1e6 * n.resting_level_v) : std::string("unknown"), 1e6 * n.reference_v,
-               n.source_trial, n.source_time_s,
-               n.from_mvc ? "" : "; no MVC: relative to the largest effort of these files");
+    say("{:<24} rest {:>8} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel,
+        n.rests ? fmt::format("{:.2f}", 1e6 * n.resting_level_v) : std::string("unknown"), 1e6 * n.reference_v,
+        n.source_trial, n.source_time_s, n.from_mvc ? "" : "; no MVC: relative to the largest effort of these files");
   }
-  fmt::print("{}: {}\n", result.whitening.applied ? "whitened, all channels" : "not whitened", result.whitening.reason);
-  fmt::print("For a methods section: {}\n", fmt::join(result.chain.methods, " "));
-  for (const std::string& file : out) fmt::print("{}\n", file);
+  say("{}: {}\n", result.whitening.applied ? "whitened, all channels" : "not whitened", result.whitening.reason);
+  say("For a methods section: {}\n", fmt::join(result.chain.methods, " "));
+  for (const std::string& file : out) say("{}\n", file);
 }
 
 /// Checks the file of the measures as the other results.
@@ -99,7 +99,7 @@ void run_emg(commands::EmgOptions o, const EmgFlags& asked, const Context& conte
   commands::write_emg(result, activations, envelopes);
   if (!asked.measures.empty()) commands::write_emg_measures(result, asked.measures);
   if (context.json) {
-    fmt::print("{}\n", json_text(emg_json(activations, result)));
+    say_whole(json_text(emg_json(activations, result)) + "\n");
   } else {
     print_emg(activations, result);
   }

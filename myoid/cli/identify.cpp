@@ -7,6 +7,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
+#include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/score.h"
@@ -20,31 +21,30 @@ using identification::StudyData;
 using identification::TrialData;
 
 void print_result(const identification::IdentificationResult& result, bool freed_speeds) {
-  fmt::print("{:<10} {:<36} {:<12} {:>14} {:>26}  {}\n", "muscle", "parameter", "branch", "estimate", "95 % interval",
-             "verdict");
+  say("{:<10} {:<36} {:<12} {:>14} {:>26}  {}\n", "muscle", "parameter", "branch", "estimate", "95 % interval",
+      "verdict");
   for (const auto& e : result.estimates) {
     const std::string parameter = fmt::format("{} [{}]", e.parameter, symbol(e.unit));
-    fmt::print("{:<10} {:<36} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, parameter, e.fit_case,
-               std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
-               e.ci_low && e.ci_high
-                   ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4), report::format_value(*e.ci_high, 4))
-                   : "-",
-               identification::name(e.verdict), e.reason);
+    say("{:<10} {:<36} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, parameter, e.fit_case,
+        std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
+        e.ci_low && e.ci_high
+            ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4), report::format_value(*e.ci_high, 4))
+            : "-",
+        identification::name(e.verdict), e.reason);
   }
   if (result.method == "paper")
-    fmt::print("Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other number.\n");
+    say("Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other number.\n");
   if (freed_speeds)
-    fmt::print(
-        "max_shortening_speed is not stated as known: it is free, and its uncertainty widens the interval of "
+    say("max_shortening_speed is not stated as known: it is free, and its uncertainty widens the interval of "
         "concentric_curvature. Where it is known: max_shortening_speed_fixed = true.\n");
   const std::string lag = identification::lag_remark(result);
-  if (!lag.empty()) fmt::print("{}\n", lag);
-  if (result.exact) fmt::print("The data are free of noise: fitted as they are, without priors.\n");
-  for (const std::string& text : result.diagnoses) fmt::print("signature: {}\n", text);
-  for (const std::string& text : result.undetermined) fmt::print("left open by the data: {}\n", text);
+  if (!lag.empty()) say("{}\n", lag);
+  if (result.exact) say("The data are free of noise: fitted as they are, without priors.\n");
+  for (const std::string& text : result.diagnoses) say("signature: {}\n", text);
+  for (const std::string& text : result.undetermined) say("left open by the data: {}\n", text);
   for (const identification::BranchTest& test : result.branch_tests) {
-    fmt::print("{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = {:.3f})\n",
-               test.muscle, test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
+    say("{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = {:.3f})\n", test.muscle,
+        test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
   }
 }
 
@@ -57,15 +57,14 @@ void print_samples(const identification::IdentificationResult& result,
   for (const TrialData& trial : data.trials) all += trial.time_s.size();
   all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size() : joint_count(data.trials.front()));
   if (o.method == "torque" && o.estimator == "posterior") {
-    fmt::print(
-        "{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as {:.0f} independent "
+    say("{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as {:.0f} independent "
         "ones.\n",
         result.samples_used, all, result.effective_samples);
     return;
   }
   const double rate_hz = result.exact ? std::max(o.max_rate_hz, identification::kNoiseFreeRate_hz) : o.max_rate_hz;
-  fmt::print("{} of {} samples are fitted: at most {:g} a second, without the ends of trials{}.\n", result.samples_used,
-             all, rate_hz, result.exact ? "" : " (--max-rate)");
+  say("{} of {} samples are fitted: at most {:g} a second, without the ends of trials{}.\n", result.samples_used, all,
+      rate_hz, result.exact ? "" : " (--max-rate)");
 }
 
 bool any_held_back(const StudyData& data) {
@@ -79,9 +78,9 @@ void print_errors(const identification::IdentificationResult& result,
                   bool torque,
                   bool fitted,
                   const char* heading) {
-  fmt::print("\n{:<34}{:>12}{:>10}\n", heading, torque ? "RMSE [N m]" : "RMSE [N]", "R2");
+  say("\n{:<34}{:>12}{:>10}\n", heading, torque ? "RMSE [N m]" : "RMSE [N]", "R2");
   const auto row = [](const std::string& name, double rmse, double r2) {
-    fmt::print("{:<34}{:>12.4g}{:>10}\n", name, rmse, identification::r2_text(r2));
+    say("{:<34}{:>12.4g}{:>10}\n", name, rmse, identification::r2_text(r2));
   };
   for (const identification::TrialFit& t : result.trials) {
     if (t.calibration != fitted) continue;
@@ -102,9 +101,8 @@ void print_errors(const identification::IdentificationResult& result,
 
 void print_fit(const identification::IdentificationResult& result, const StudyData& data, bool torque) {
   print_errors(result, data, torque, true, "fitted");
-  fmt::print("{:<34}{:>12}{:>10}\n",
-             result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least", "",
-             identification::r2_text(result.r2));
+  say("{:<34}{:>12}{:>10}\n", result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least", "",
+      identification::r2_text(result.r2));
   if (any_held_back(data)) print_errors(result, data, torque, false, "held back, then predicted");
 }
 
@@ -113,52 +111,49 @@ void print_folds(const std::vector<identification::Fold>& folds,
                  bool held_back,
                  const commands::IdentifyOptions& o) {
   if (!why_not.empty())
-    fmt::print("\n{} was left out of the fit to be predicted: {}.\n", held_back ? "No other trial" : "Nothing",
-               why_not);
+    say("\n{} was left out of the fit to be predicted: {}.\n", held_back ? "No other trial" : "Nothing", why_not);
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
-  fmt::print("\n{:<34}{:>12}{:>14}{:>10}{:>10}   {}\n", "left out of the fit, then predicted",
-             o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2", "smoothed",
-             "starting values, one gain: R2");
+  say("\n{:<34}{:>12}{:>14}{:>10}{:>10}   {}\n", "left out of the fit, then predicted",
+      o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2", "smoothed",
+      "starting values, one gain: R2");
   for (const identification::Fold& fold : folds) {
-    fmt::print("{:<34}{:>12.4g}{:>14.1f}{:>10}{:>10}   {}\n",
-               several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial, fold.identified.rmse_nm(),
-               100.0 * fold.identified.nrmse_range(), identification::r2_text(fold.identified.r2()),
-               identification::r2_text(fold.smooth.r2()), identification::r2_text(fold.literature.r2()));
+    say("{:<34}{:>12.4g}{:>14.1f}{:>10}{:>10}   {}\n",
+        several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial, fold.identified.rmse_nm(),
+        100.0 * fold.identified.nrmse_range(), identification::r2_text(fold.identified.r2()),
+        identification::r2_text(fold.smooth.r2()), identification::r2_text(fold.literature.r2()));
   }
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
-    fmt::print("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);
+    say("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);
 }
 
 /// Prints the minima that the searches of several starts reached.
 void print_basins(const identification::BasinTable& table) {
   constexpr std::size_t kMost = 8;
-  fmt::print("{:<22}{:>12}{:>16}{:>12}\n", fmt::format("  basin of {} starts", table.starts), "starts", "cost",
-             "distance");
+  say("{:<22}{:>12}{:>16}{:>12}\n", fmt::format("  basin of {} starts", table.starts), "starts", "cost", "distance");
   for (std::size_t i = 0; i < table.basins.size() && i < kMost; ++i) {
     const identification::BasinRow& basin = table.basins[i];
-    fmt::print(
-        "  {:<20}{:>12}{:>16.6g}{:>12.2g}{}{}\n", i + 1, basin.starts, basin.cost, basin.distance,
+    say("  {:<20}{:>12}{:>16.6g}{:>12.2g}{}{}\n", i + 1, basin.starts, basin.cost, basin.distance,
         basin.converged < basin.starts ? fmt::format("  {} did not converge", basin.starts - basin.converged) : "",
         basin.rival && i > 0 ? "  as good as the best: both are answers" : "");
   }
-  if (table.basins.size() > kMost) fmt::print("  and {} more\n", table.basins.size() - kMost);
-  if (table.failed > 0) fmt::print("  {:<20}{:>12}\n", "no minimum", table.failed);
+  if (table.basins.size() > kMost) say("  and {} more\n", table.basins.size() - kMost);
+  if (table.failed > 0) say("  {:<20}{:>12}\n", "no minimum", table.failed);
 }
 
 void print_contest(const identification::NamedContest& named) {
   const identification::SolverContest& c = named.contest;
   if (c.runs.empty()) {
-    fmt::print("\nSolvers, {}: nothing to fit\n", named.fit);
+    say("\nSolvers, {}: nothing to fit\n", named.fit);
     return;
   }
-  fmt::print("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", named.fit, "solver", "start", "cost",
-             "distance", "evaluations", "seconds", "ended");
+  say("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", named.fit, "solver", "start", "cost", "distance",
+      "evaluations", "seconds", "ended");
   for (const identification::SolverRun& run : c.runs) {
-    fmt::print("{:<22}{:>6}{:>16.6g}{:>12.2g}{:>13}{:>10.3f}  {}\n", run.solver, run.start, run.cost, run.distance,
-               run.evaluations, run.seconds, math::name(run.termination));
+    say("{:<22}{:>6}{:>16.6g}{:>12.2g}{:>13}{:>10.3f}  {}\n", run.solver, run.start, run.cost, run.distance,
+        run.evaluations, run.seconds, math::name(run.termination));
   }
-  fmt::print("Levenberg-Marquardt:\n");
+  say("Levenberg-Marquardt:\n");
   print_basins(c.basins);
 }
 
@@ -168,7 +163,7 @@ void print_identify(const commands::IdentifyResult& result, const commands::Iden
   print_fit(result.fit, result.data, o.method == "torque");
   print_folds(result.folds, result.why_no_folds, any_held_back(result.data), o);
   for (const identification::BasinTable& searches : result.fit.basins) {
-    fmt::print("\nSearches, {}:\n", searches.fit);
+    say("\nSearches, {}:\n", searches.fit);
     print_basins(searches);
   }
   for (const identification::NamedContest& contest : result.contests) print_contest(contest);
@@ -205,17 +200,17 @@ void add_identify(CLI::App& app, Context& context) {
     visit(o, reader);
     mat.prepare(context, {o.muscles.string()});
     context.prepare_folder(*out);
-    commands::protect_inputs(*out, commands::kIdentifyFiles, {o.muscles.string()});
+    commands::protect_files(*out, commands::kIdentifyFiles, {o.muscles.string()});
     o.call = context.call();
     const commands::IdentifyResult result = commands::identify(o);
     context.end_progress();
     commands::write_identify(result, *out);
     mat.write(*out);
     if (context.json) {
-      fmt::print("{}", identify_json(result));
+      say_whole(identify_json(result));
     } else {
       print_identify(result, o);
-      fmt::print("{}/parameters.csv\n", *out);
+      say("{}/parameters.csv\n", *out);
     }
     if (failed(result.fit, o.method, context.strict)) context.exit_code = kQualityGateFailed;
   });

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/commands/output_file.h"
 
 namespace myoid::cli {
 namespace {
@@ -49,7 +50,8 @@ void add_ik(CLI::App& app, Context& context) {
   add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o, out] {
     context.prepare_file(*out, {o->model, o->markers});
-    context.prepare_file(commands::marker_errors_path(*out), {o->model, o->markers});
+    commands::check_companion(commands::marker_errors_path(*out), {o->model, o->markers}, context.overwrite,
+                              commands::kMarkerErrorsBegin);
     o->call = context.call();
     o->compat = context.compat;
     const commands::IkResult result = commands::ik(*o);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/commands/model_page.h"
 #include "myoid/contents/contents_text.h"
 #include "myoid/core/error.h"
@@ -30,8 +31,10 @@ void add_model_page_options(CLI::App& command, commands::ModelPageOptions& optio
                   "Folder with the model's meshes (.vtp, .stl, .obj), repeated; the model's folder and its subfolder "
                   "Geometry are looked through without it")
       ->needs(html);
-  command.add_option("--up", options.up, "Vertical axis of --markers: x, y or z (default y)")
-      ->check(CLI::IsMember({"x", "y", "z"}))
+  command
+      .add_option("--up", options.up,
+                  "Vertical axis of --markers: x, y, z, -x, -y or -z (default: as a .c3d file says, else as the model)")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
       ->needs(html);
 }
 
@@ -88,11 +91,11 @@ void add_info(CLI::App& app, Context& context) {
       o->file = file;
       nlohmann::ordered_json contents = commands::info(*o);
       if (!context.json) {
-        fmt::print("{}{}", contents_text(contents), files->size() > 1 ? "\n" : "");
+        say("{}{}", contents_text(contents), files->size() > 1 ? "\n" : "");
       }
       all.push_back(std::move(contents));
     }
-    if (context.json) fmt::print("{}\n", json_text(all));
+    if (context.json) say_whole(json_text(all) + "\n");
   });
 }
 

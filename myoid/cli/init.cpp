@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 
 namespace myoid::cli {
@@ -25,15 +26,15 @@ void add_init(CLI::App& app, Context& context) {
     context.prepare_file(file, {});
     o->call = context.call();
     const commands::InitResult result = commands::init(*o);
-    commands::write_init(result, file);
+    commands::write_init(result, file, o->call);
     const std::vector<std::string>& todos = result.draft.todo;
     if (context.json) {
-      fmt::print("{}\n", json_text(nlohmann::ordered_json{{"file", file.string()}, {"todo", todos}}));
+      say_whole(json_text(nlohmann::ordered_json{{"file", file.string()}, {"todo", todos}}) + "\n");
       return;
     }
-    fmt::print("{}\n", file.string());
-    for (const std::string& todo : todos) fmt::print("TODO {}\n", todo);
-    fmt::print("next: myoid check {}\n", file.string());
+    say("{}\n", file.string());
+    for (const std::string& todo : todos) say("TODO {}\n", todo);
+    say("next: myoid check {}\n", file.string());
   });
 }
 

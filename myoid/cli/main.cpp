@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -20,8 +21,10 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/help_files.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
+#include "myoid/files/input_log.h"
 #include "myoid/files/toml_table.h"
 
 namespace {
@@ -59,16 +62,16 @@ void stop_on_signals(std::stop_source stop) {
     } catch (...) {
     }
   }
-  fmt::print(stderr,
-             "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, or raise the "
-             "limits on processes and memory (ulimit -u, ulimit -v).\n",
-             what);
+  myoid::cli::say_error(
+      "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, or raise the "
+      "limits on processes and memory (ulimit -u, ulimit -v).\n",
+      what);
   _exit(myoid::cli::kInternalError);
 }
 
 /// Reports a result that standard output did not take.
 int stdout_lost(const char* cause) {
-  fmt::print(stderr, "error: the result could not be written to standard output: {}\n", cause);
+  myoid::cli::say_error("error: the result could not be written to standard output: {}\n", cause);
   return myoid::cli::kBadInput;
 }
 
@@ -115,8 +118,8 @@ int unknown_command(std::string_view word) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.emplace_back(command.name);
   const auto near = myoid::recording::nearest_word(word, names);
-  fmt::print(stderr, "error: there is no command '{}'{}; there are {}\n", word,
-             near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", "));
+  myoid::cli::say_error("error: there is no command '{}'{}; there are {}\n", word,
+                        near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", "));
   return myoid::cli::kWrongCommandLine;
 }
 
@@ -152,6 +155,24 @@ std::string repeated_option(CLI::App& app) {
   return "";
 }
 
+/// Stands behind a word that ends in ']': CLI11 takes "[a,b]" for a list of two words, and names may look so.
+constexpr char kMark = '\x1f';
+
+/// Returns the words of the command line in the reverse order, as CLI11 takes them.
+std::vector<std::string> marked(int argc, char** argv) {
+  std::vector<std::string> words;
+  for (int i = argc - 1; i > 0; --i) {
+    words.emplace_back(argv[i]);
+    if (words.back().ends_with(']')) words.back() += kMark;
+  }
+  return words;
+}
+
+std::string take_mark(std::string& word) {
+  if (word.ends_with(kMark)) word.pop_back();
+  return {};
+}
+
 int run(int argc, char** argv, myoid::cli::Context& context) {
   CLI::App app{
       "Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
@@ -179,17 +200,27 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
     if (called == nullptr || called == &command) command.add(app, context);
   }
   try {
-    app.parse(argc, argv);
+    for (CLI::App* command : app.get_subcommands({})) {
+      for (CLI::Option* option : command->get_options()) option->transform(CLI::Validator(take_mark, "", "mark"));
+    }
+    app.parse(marked(argc, argv));
   } catch (const CLI::ParseError& error) {
-    if (const std::string repeated = repeated_option(app); !repeated.empty()) {
-      fmt::print(stderr, "error: {}\n", repeated);
+    if (std::string repeated = repeated_option(app); !repeated.empty()) {
+      std::erase(repeated, kMark);
+      myoid::cli::say_error("error: {}\n", repeated);
       return myoid::cli::kWrongCommandLine;
     }
-    const int code = app.exit(error);
+    std::ostringstream out, wrong;
+    const int code = app.exit(error, out, wrong);
+    std::string said = out.str();
+    myoid::cli::say("{}", said);
+    said = wrong.str();
+    std::erase(said, kMark);
+    myoid::cli::say_error("{}", said);
     return code == 0 ? myoid::cli::kDone : myoid::cli::kWrongCommandLine;
   }
   context.tell_new_folders();
-  if (app.get_subcommands().empty()) fmt::print("{}", app.help());
+  if (app.get_subcommands().empty()) myoid::cli::say("{}", app.help());
   return context.exit_code;
 }
 
@@ -201,35 +232,37 @@ int main(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
   std::set_terminate(end_with_a_message);
   stop_on_signals(context.stop);
+  const recording::InputLog inputs;
   try {
     const int code = run(argc, argv, context);
     context.finish_folders();
+    context.release_folders();
     if (std::fflush(stdout) != 0) return stdout_lost(std::strerror(errno));
     return code;
   } catch (const Interrupted&) {
     context.end_progress();
     const std::string contents = context.contents_of_folders();
-    context.held_folders.clear();
-    fmt::print(stderr, "interrupted; {}\n", contents.empty() ? "no file is half-written" : contents);
+    context.release_folders();
+    myoid::cli::say_error("interrupted; {}\n", contents.empty() ? "no file is half-written" : contents);
     return cli::kInterrupted;
   } catch (const InvalidInput& error) {
     context.end_progress();
-    context.held_folders.clear();
-    fmt::print(stderr, "error: {}\n", error.what());
+    context.release_folders();
+    myoid::cli::say_error("error: {}\n", error.what());
     return cli::kBadInput;
   } catch (const std::bad_alloc&) {
     context.end_progress();
-    context.held_folders.clear();
-    fmt::print(stderr,
-               "error: these files need more memory than this program may use; close other programs, raise the limit "
-               "(ulimit -v), or cut the recordings into parts\n");
+    context.release_folders();
+    cli::say_error(
+        "error: these files need more memory than this program may use; close other programs, raise the limit "
+        "(ulimit -v), or cut the recordings into parts\n");
     return cli::kBadInput;
   } catch (const std::exception& error) {
     context.end_progress();
-    context.held_folders.clear();
+    context.release_folders();
     if (std::ferror(stdout) != 0) return stdout_lost(error.what());
-    fmt::print(stderr, "internal error: {}\nPlease report this with the command line and, if you can, the files.\n",
-               error.what());
+    myoid::cli::say_error("internal error: {}\nPlease report this with the command line and, if you can, the files.\n",
+                          error.what());
     return cli::kInternalError;
   }
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 
 namespace myoid::cli {
@@ -39,22 +40,21 @@ nlohmann::json fit_json(const MuscleResult& result) {
 
 void print_fit(const MuscleResult& result) {
   const commands::MuscleFit& fit = *result.fit;
-  fmt::print("{}: {} ({} simulated experiments)\n\n", result.name, fit.all.message, fit.all.evaluations);
-  fmt::print("{:<28}{:>14}{:>14}{:>14}\n", "parameter", "start", "estimate", "std error");
+  say("{}: {} ({} simulated experiments)\n\n", result.name, fit.all.message, fit.all.evaluations);
+  say("{:<28}{:>14}{:>14}{:>14}\n", "parameter", "start", "estimate", "std error");
   for (const muscle::IsolatedEstimate& e : fit.all.estimates)
-    fmt::print("{:<28}{:>14.6g}{:>14.6g}{:>14} {}{}{}\n", e.parameter, e.start, e.value,
+    say("{:<28}{:>14.6g}{:>14.6g}{:>14} {}{}{}\n", e.parameter, e.start, e.value,
                e.told ? fmt::format("{:.2g}", e.std_error) : "-", symbol(e.unit), e.at_bound ? ", at its bound" : "",
                e.told ? "" : ", not told by the recordings");
   if (std::ranges::any_of(fit.all.estimates, &muscle::IsolatedEstimate::at_bound))
-    fmt::print(
-        "the standard errors of the others hold only if the value at the bound is true: the recordings pull beyond "
+    say("the standard errors of the others hold only if the value at the bound is true: the recordings pull beyond "
         "it\n");
-  fmt::print("\n{:<34}{:>12}{:>12}{:>12}\n", fmt::format("mean absolute error [% of {:.4g} N]", fit.relative_to_n),
-             "start", "fitted", "predicted");
+  say("\n{:<34}{:>12}{:>12}{:>12}\n", fmt::format("mean absolute error [% of {:.4g} N]", fit.relative_to_n), "start",
+      "fitted", "predicted");
   for (const commands::RecordingErrors& error : fit.errors)
-    fmt::print("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", error.recording, 100.0 * error.starting_values,
-               100.0 * error.fitted, 100.0 * error.predicted);
-  if (fit.errors.size() > 1) fmt::print("predicted: with the parameters that the other recordings give\n");
+    say("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", error.recording, 100.0 * error.starting_values, 100.0 * error.fitted,
+        100.0 * error.predicted);
+  if (fit.errors.size() > 1) say("predicted: with the parameters that the other recordings give\n");
 }
 
 nlohmann::json simulation_json(const MuscleResult& result) {
@@ -72,11 +72,10 @@ nlohmann::json simulation_json(const MuscleResult& result) {
 
 void print_simulation(const MuscleResult& result) {
   const Eigen::VectorXd force = result.simulated->simulated.series.column("tendon_force");
-  fmt::print("{}: {} samples, force {:.4g} to {:.4g} N\n", result.name, force.size(), force.minCoeff(),
-             force.maxCoeff());
+  say("{}: {} samples, force {:.4g} to {:.4g} N\n", result.name, force.size(), force.minCoeff(), force.maxCoeff());
   if (const auto& comparison = result.simulated->comparison) {
-    fmt::print("mean absolute error {:.4g} N, {:.2f} % of {:.4g} N, over {} samples\n", comparison->error_n,
-               100.0 * comparison->share, comparison->error_n / comparison->share, comparison->samples);
+    say("mean absolute error {:.4g} N, {:.2f} % of {:.4g} N, over {} samples\n", comparison->error_n,
+        100.0 * comparison->share, comparison->error_n / comparison->share, comparison->samples);
   }
 }
 
@@ -131,11 +130,11 @@ void add_muscle(CLI::App& app, Context& context) {
     if (failed(result)) context.exit_code = kQualityGateFailed;
     if (result.simulated && result.simulated->simulated.status != math::OdeStatus::done) return;
     if (context.json) {
-      fmt::print("{}\n", json_text(result.fit ? fit_json(result) : simulation_json(result)));
+      say_whole(json_text(result.fit ? fit_json(result) : simulation_json(result)) + "\n");
       return;
     }
     result.fit ? print_fit(result) : print_simulation(result);
-    if (!out->empty()) fmt::print("{}\n", *out);
+    if (!out->empty()) say("{}\n", *out);
   });
 }
 

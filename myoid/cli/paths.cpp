@@ -50,7 +50,7 @@ void add_paths(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o, out] {
     context.prepare_folder(*out);
-    commands::protect_inputs(*out, commands::kPathsFiles, {o->model, o->motion, o->surrogates});
+    commands::protect_files(*out, commands::kPathsFiles, {o->model, o->motion, o->surrogates});
     o->call = context.call();
     o->compat = context.compat;
     o->compare_with_opensim = !context.quiet;

@@ -3,18 +3,19 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/methods/prediction.h"
 
 namespace myoid::cli {
 namespace {
 
 void print_predict(const commands::PredictResult& result) {
-  fmt::print("{:<20} {:<16} {:>10} {:>8} {:>13} {:>16}\n", "trial", "joint", "RMSE [N m]", "R2", "R2 < 1.5 Hz",
-             "in the 95 % band");
+  say("{:<20} {:<16} {:>10} {:>8} {:>13} {:>16}\n", "trial", "joint", "RMSE [N m]", "R2", "R2 < 1.5 Hz",
+      "in the 95 % band");
   for (const identification::TrialFit& t : result.trials) {
     const double covered = identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm);
-    fmt::print("{:<20} {:<16} {:>10.2f} {:>8.3f} {:>13.3f} {:>14.0f} %{}\n", t.trial, t.joint, t.score.rmse_nm(),
-               t.score.r2(), t.band.r2(), 100.0 * covered, t.calibration ? "  (took part in the fit)" : "");
+    say("{:<20} {:<16} {:>10.2f} {:>8.3f} {:>13.3f} {:>14.0f} %{}\n", in_column(t.trial), in_column(t.joint),
+        t.score.rmse_nm(), t.score.r2(), t.band.r2(), 100.0 * covered, t.calibration ? "  (took part in the fit)" : "");
   }
 }
 
@@ -40,10 +41,10 @@ void add_predict(CLI::App& app, Context& context) {
     context.end_progress();
     commands::write_predict(result, *out);
     if (context.json) {
-      fmt::print("{}", commands::predict_json(result));
+      say_whole(commands::predict_json(result));
     } else {
       print_predict(result);
-      fmt::print("{}\n", *out);
+      say("{}\n", *out);
     }
   });
 }

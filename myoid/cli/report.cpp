@@ -27,7 +27,7 @@ void report_run(Context& context, commands::ReportOptions& run, const MatOption&
   mat.prepare(context, {});
   run.call = context.call();
   const commands::ReportResult result = commands::report(run);
-  context.held_folders.push_back(std::make_unique<recording::ResultFolder>(run.folder, context.command_line));
+  context.prepare_run_folder(run.folder);
   commands::write_report(result, run.folder);
   mat.write(run.folder);
   context.end_progress();

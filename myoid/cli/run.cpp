@@ -9,6 +9,8 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
+#include "myoid/cli/say.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
@@ -26,18 +28,18 @@ void print_method(const identification::IdentificationResult& method, std::size_
     return e.unit == Unit::dimensionless ? e.parameter : fmt::format("{} [{}]", e.parameter, symbol(e.unit));
   };
   for (const EstimateLine& line : lines) {
-    owner = std::max(owner, line.owners.size());
+    owner = std::max(owner, in_column(line.owners).size());
     parameter = std::max(parameter, labelled(*line.estimate).size());
   }
-  fmt::print("\nmethod {}: {}\n", method.method, method.message);
-  fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter", parameter, "case",
-             "initial", "estimate", "95 % interval", "verdict");
+  say("\nmethod {}: {}\n", method.method, method.message);
+  say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter", parameter, "case", "initial",
+      "estimate", "95 % interval", "verdict");
   bool nuisances = false;
   for (const EstimateLine& line : lines) {
     const ParameterEstimate& e = *line.estimate;
     if (identification::is_nuisance(e) && !nuisances) {
       nuisances = true;
-      fmt::print("of the electrodes and the joint, free so that the intervals hold their uncertainty:\n");
+      say("of the electrodes and the joint, free so that the intervals hold their uncertainty:\n");
     }
     const bool interval = e.ci_low && e.ci_high && !is_undetermined(e);
     const std::string estimate = !std::isfinite(e.estimate) ? "-"
@@ -46,21 +48,20 @@ void print_method(const identification::IdentificationResult& method, std::size_
     const std::string ends = interval ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", "))
                              : is_undetermined(e) ? "not determined"
                                                   : "-";
-    fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", line.owners, owner, labelled(e), parameter,
-               e.fit_case, report::format_value(e.initial), estimate, ends, identification::name(e.verdict));
+    say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", in_column(line.owners), owner, labelled(e), parameter,
+        e.fit_case, report::format_value(e.initial), estimate, ends, identification::name(e.verdict));
   }
 }
 
 void print_predictions(const StudyResult& result) {
   if (!result.folds.empty()) {
     const std::string_view left_out = choice_name(result.source.study.identify.folds);
-    fmt::print(
-        "\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about that {0}'s own mean)\n",
+    say("\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about that {0}'s own mean)\n",
         left_out);
-    fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2", "literature x gain: RMSE", "R2");
+    say("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2", "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {
-      fmt::print("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", f.trial, f.identified.rmse_nm(), f.identified.r2(),
-                 f.literature.rmse_nm(), f.literature.r2());
+      say("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", in_column(f.trial), f.identified.rmse_nm(),
+          f.identified.r2(), f.literature.rmse_nm(), f.literature.r2());
     }
   }
   for (const identification::IdentificationResult& method : result.fit.methods) {
@@ -68,36 +69,35 @@ void print_predictions(const StudyResult& result) {
     bool first = true;
     for (const identification::TrialFit& t : method.trials) {
       if (t.calibration) continue;
-      if (first) fmt::print("\nvalidation trials\n{:<20} {:>10} {:>8}\n", "trial", "RMSE [N m]", "R2");
+      if (first) say("\nvalidation trials\n{:<20} {:>10} {:>8}\n", "trial", "RMSE [N m]", "R2");
       first = false;
-      fmt::print("{:<20} {:>10.2f} {:>8.3f}\n", t.trial, t.score.rmse_nm(), t.score.r2());
+      say("{:<20} {:>10.2f} {:>8.3f}\n", in_column(t.trial), t.score.rmse_nm(), t.score.r2());
     }
   }
 }
 
 void print_next(const StudyResult& result) {
   if (!result.next || result.next->plan.empty()) return;
-  fmt::print(
-      "\nnext recording: {} of the {} parameters that it is planned for are identified now, median 95 % interval "
+  say("\nnext recording: {} of the {} parameters that it is planned for are identified now, median 95 % interval "
       "+-{:.0f} %\n",
       identified_count(result.next->beforehand), result.next->beforehand.size(),
       median_half_width(result.next->beforehand));
   for (std::size_t i = 0; i < result.next->plan.size(); ++i) {
     const PlannedMovement& m = result.next->plan[i];
-    fmt::print("{}. {:<58} {:>3} identified, +-{:.0f} %\n", i + 1, m.movement.description(),
-               identified_count(m.expected), median_half_width(m.expected));
+    say("{}. {:<58} {:>3} identified, +-{:.0f} %\n", i + 1, m.movement.description(), identified_count(m.expected),
+        median_half_width(m.expected));
   }
 }
 
 void print_gates(const std::vector<report::Gate>& gates) {
-  fmt::print("\nquality gates\n");
+  say("\nquality gates\n");
   for (const report::Gate& gate : gates) {
     const char* status = gate.status == report::GateStatus::pass   ? "ok"
                          : gate.status == report::GateStatus::warn ? "caution"
                          : gate.status == report::GateStatus::fail ? "FAILED"
                                                                    : "-";
-    fmt::print("{:<8} {}: {}\n", status, gate.name, gate.value);
-    if (gate.status == report::GateStatus::fail) fmt::print("{:<8} expected: {}. {}\n", "", gate.threshold, gate.why);
+    say("{:<8} {}: {}\n", status, gate.name, gate.value);
+    if (gate.status == report::GateStatus::fail) say("{:<8} expected: {}. {}\n", "", gate.threshold, gate.why);
   }
 }
 
@@ -142,6 +142,7 @@ void add_run(CLI::App& app, Context& context) {
     const auto begin = std::chrono::steady_clock::now();
     mat.prepare(context, {options->study});
     context.prepare_folder(*out, commands::kStageFolder);
+    commands::protect_files(*out, commands::kRunFiles, {options->study});
     options->call = context.call();
     options->store = std::filesystem::path(*out) / commands::kStageFolder;
     const commands::RunResult result = commands::run(*options);
@@ -154,12 +155,12 @@ void add_run(CLI::App& app, Context& context) {
                               result.reading_remarks));
     const StudyResult& study = result.study;
     if (context.json) {
-      fmt::print("{}", parameters_json(study.fit.methods, study.folds, result.provenance, parameter_context(study)));
+      say_whole(parameters_json(study.fit.methods, study.folds, result.provenance, parameter_context(study)));
     } else {
       print_results(study, result.gates);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       context.log(fmt::format("\n{:.1f} s", seconds));
-      fmt::print("\nreport: {}/report.html\n", *out);
+      say("\nreport: {}/report.html\n", *out);
     }
     if (result.failed(context.strict)) context.exit_code = kQualityGateFailed;
     if (failed_trials(study.trials) > 0) context.exit_code = kSomeTrialsFailed;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 
 namespace myoid::cli {
 
@@ -19,6 +20,8 @@ void add_run_tool(CLI::App& app, Context& context) {
       "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers (.trc), instead of the set-up's");
   command.add_option("--external-loads", o->files.external_loads, "External loads (.xml), instead of the set-up's");
   command.add_option("--out", o->files.out, "Folder of the results, instead of the set-up's");
+  command.add_flag("--anywhere", o->anywhere,
+                   "Write outside the folder of the set-up too, where the set-up says so (default: refused)");
   command
       .add_option(
           "--compat", o->compat,
@@ -30,11 +33,11 @@ void add_run_tool(CLI::App& app, Context& context) {
     const commands::RunToolResult result = commands::run_tool(*o);
     context.end_progress();
     if (context.json) {
-      fmt::print("{}", run_tool_json(result));
+      say_whole(run_tool_json(result));
     } else {
       const std::string& summary = result.tool.summary;
-      fmt::print("{}{}{}\n", result.tool.tool, summary.empty() ? "" : ": ", summary);
-      for (const auto& file : result.tool.files) fmt::print("{}\n", file.string());
+      say("{}{}{}\n", result.tool.tool, summary.empty() ? "" : ": ", summary);
+      for (const auto& file : result.tool.files) say("{}\n", file.string());
     }
     if (!result.good()) context.exit_code = kQualityGateFailed;
   });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 
 namespace myoid::cli {
 
@@ -17,7 +18,7 @@ void add_settings(CLI::App& app, Context& context) {
   command.callback([&context, options] {
     options->call = context.call();
     const commands::SettingsResult result = commands::settings(*options);
-    fmt::print("{}", context.json ? commands::settings_json(result) : commands::settings_text(result));
+    say_whole(context.json ? commands::settings_json(result) : commands::settings_text(result));
   });
 }
 

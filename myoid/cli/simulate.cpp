@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/simulation_files.h"
@@ -14,7 +15,7 @@ void draw_paper_figures(const std::string& out, const Context& context) {
   context.prepare_folder(out);
   for (const report::Figure& figure : paper_figures()) {
     write_figure(figure, out);
-    fmt::print("{}/figures/{}.svg\n", out, figure.id);
+    say("{}/figures/{}.svg\n", out, figure.id);
   }
 }
 
@@ -82,16 +83,16 @@ void add_simulate(CLI::App& app, Context& context) {
   command.callback([&context, o, out, paper_figures_only] {
     if (*paper_figures_only) return draw_paper_figures(*out, context);
     context.prepare_folder(*out);
-    commands::protect_inputs(*out, commands::kSimulateFiles, {o->model, o->excitations});
+    commands::protect_files(*out, commands::kSimulateFiles, {o->model, o->excitations});
     o->call = context.call();
     const commands::SimulateResult result = commands::simulate(*o);
     context.end_progress();
     commands::write_simulate(result, *out);
     if (!result.finished()) context.exit_code = kQualityGateFailed;
     if (context.json) {
-      fmt::print("{}", simulation_json(result.simulation, result.provenance));
+      say_whole(simulation_json(result.simulation, result.provenance));
     } else {
-      fmt::print("{}\n", *out);
+      say("{}\n", *out);
     }
   });
 }

@@ -55,7 +55,7 @@ void add_so(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o, out] {
     context.prepare_folder(*out);
-    commands::protect_inputs(*out, commands::kSoFiles, {o->model, o->motion, o->emg, o->loads});
+    commands::protect_files(*out, commands::kSoFiles, {o->model, o->motion, o->emg, o->loads});
     o->call = context.call();
     o->compat = context.compat;
     o->compare_with_opensim = !context.quiet;

@@ -7,6 +7,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
 
 namespace myoid::cli {
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 
 void make_many(commands::TwinPersonsOptions options, const std::string& out, Context& context) {
   context.prepare_folder(out);
+  commands::protect_files(out, commands::kTwinFiles, {options.twin.protocol});
   options.twin.call = context.call();
   const commands::TwinPersonsResult result = commands::write_twin_persons(options, out);
   context.end_progress();
@@ -29,6 +31,7 @@ void make_many(commands::TwinPersonsOptions options, const std::string& out, Con
 
 void make_one(commands::TwinOptions options, const std::string& out, Context& context) {
   context.prepare_folder(out);
+  commands::protect_files(out, commands::kTwinFiles, {options.protocol});
   options.call = context.call();
   const commands::TwinResult result = commands::twin(options);
   commands::write_twin(result, out);

@@ -7,6 +7,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
+#include "myoid/cli/say.h"
 #include "myoid/core/error.h"
 #include "myoid/math/statistics.h"
 
@@ -17,8 +18,8 @@ std::string percent(double share) { return std::isfinite(share) ? fmt::format("{
 
 void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_muscle) {
   const auto print = [](auto... cells) {
-    fmt::print("{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>9} {:>9}\n",
-               cells...);
+    say("{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>9} {:>9}\n",
+        cells...);
   };
   print("method", "case", "muscle", "parameter", "n", "bias", "error", "rmse", "<5 %", "<10 %", "<20 %", "prior",
         "cover", "half w.", "identif.", "of these");
@@ -36,9 +37,9 @@ void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_mu
 /// Medians over all trials, then trial by trial.
 void print_predictions(const twin::TwinStudyResult& result) {
   if (result.predictions.empty()) return;
-  fmt::print("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
-  fmt::print("{:<28} {:>5} {:>10} {:>7} {:>16} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2",
-             "smoothed: NRMSE", "R2", "below 1.5 Hz: NRMSE", "R2");
+  say("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
+  say("{:<28} {:>5} {:>10} {:>7} {:>16} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2", "smoothed: NRMSE", "R2",
+      "below 1.5 Hz: NRMSE", "R2");
   std::vector<std::string> trials{"all"};
   for (const twin::TwinPrediction& p : result.predictions) {
     if (std::ranges::find(trials, p.trial) == trials.end()) trials.push_back(p.trial);
@@ -57,8 +58,8 @@ void print_predictions(const twin::TwinStudyResult& result) {
     };
     const auto law = medians(&twin::TwinPrediction::law), smooth = medians(&twin::TwinPrediction::smooth),
                band = medians(&twin::TwinPrediction::band);
-    fmt::print("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>16.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial, count, law.first,
-               law.second, smooth.first, smooth.second, band.first, band.second);
+    say("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>16.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial, count, law.first, law.second,
+        smooth.first, smooth.second, band.first, band.second);
   }
 }
 
@@ -78,11 +79,10 @@ void print_verdicts(const twin::TwinStudyResult& result, const std::vector<twin:
       outside += s.outside_physical;
     }
     if (good + bad + other_good + other_bad == 0) continue;
-    fmt::print("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", method, "", "error < 10 %",
-               "error >= 10 %");
-    fmt::print("{:<24} {:>14} {:>14}\n{:<24} {:>14} {:>14}\n", "identified", good, bad, "not identified", other_good,
-               other_bad);
-    fmt::print("{} values outside the physical bounds without the verdict non_physical\n", outside);
+    say("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", method, "", "error < 10 %", "error >= 10 %");
+    say("{:<24} {:>14} {:>14}\n{:<24} {:>14} {:>14}\n", "identified", good, bad, "not identified", other_good,
+        other_bad);
+    say("{} values outside the physical bounds without the verdict non_physical\n", outside);
   }
   print_predictions(result);
 }
@@ -125,8 +125,8 @@ void add_twin_study(CLI::App& app, Context& context) {
     const std::string persons = study.interrupted
                                     ? fmt::format("INTERRUPTED: only {} of {}", study.finished, study.subjects)
                                     : fmt::format("{}", study.finished);
-    fmt::print("protocol {}, level {}, {} persons, {} failures\n\n", study.protocol, study.level, persons,
-               study.failures.size());
+    say("protocol {}, level {}, {} persons, {} failures\n\n", study.protocol, study.level, persons,
+        study.failures.size());
     print_summary(result.summaries, *each_muscle);
     print_verdicts(study, result.summaries);
     if (study.interrupted) throw Interrupted();

@@ -9,6 +9,7 @@
 #include "myoid/cohort/group_person.h"
 #include "myoid/core/counted.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/result_record.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/write_report.h"
@@ -47,12 +48,13 @@ std::vector<std::string> own_cells(const Person& person) {
 report::Table persons_table(const Manifest& manifest, const std::vector<PersonOutcome>& outcomes) {
   report::Table table{.id = "persons", .title = "Persons", .caption = {}, .columns = {"person"}, .rows = {}};
   for (const std::string& name : manifest.fact_names()) table.columns.push_back(name);
-  for (const char* name : {"study", "outcome", "message"}) table.columns.emplace_back(name);
+  for (const char* name : {"study", "folder", "outcome", "message"}) table.columns.emplace_back(name);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Person& person = manifest.persons[i];
     const std::optional<Outcome>& outcome = outcomes[i].outcome;
     std::vector<std::string> texts = own_cells(person);
     texts.push_back(person.study.string());
+    texts.push_back(person_folder("", person).generic_string());
     texts.push_back(outcome ? std::string(choice_name(outcome->kind)) : "not computed");
     texts.push_back(outcome ? outcome->message : "");
     table.rows.push_back(report::text_row(std::move(texts)));
@@ -128,14 +130,13 @@ Group read_group(const Manifest& manifest, const fs::path& folder) {
 }
 
 void write_group(const Group& group, const Manifest& manifest, const fs::path& folder) {
+  recording::remove_earlier_results(folder);
   recording::write_file(folder / "persons.csv", report::table_csv(group.persons));
   report::write_report(group.page, folder);
-  recording::write_file(folder / "participants.tsv", participants_tsv(manifest));
-  recording::write_file(folder / ".bidsignore", "persons/\nworkflow/\nfigures/\ntables/\n*.csv\nreport.*\n");
+  recording::write_unless_foreign(folder / "participants.tsv", participants_tsv(manifest));
+  recording::write_unless_foreign(folder / ".bidsignore", "persons/\nworkflow/\nfigures/\ntables/\n*.csv\nreport.*\n");
   for (std::size_t i = 0; i < manifest.persons.size(); ++i) {
     const Person& person = manifest.persons[i];
-    std::error_code ignored;
-    fs::remove_all(folder / ("sub-" + person.label), ignored);
     if (has_results(group.outcomes[i]))
       recording::write_bids_derivative(person_folder(folder, person), folder, person.label);
   }

@@ -25,7 +25,8 @@ struct Group {
 
 /// Writes persons.csv, cohort.csv, the page with its figures and tables, and a BIDS derivative:
 /// dataset_description.json, participants.tsv, sub-LABEL of every person with results, and a
-/// .bidsignore for the other files. The derivative of a person without results is removed.
+/// .bidsignore for the other files. Removes its earlier results first, so that a person without results has no
+/// derivative; files of other programs stay as they are.
 void write_group(const Group& group, const Manifest& manifest, const std::filesystem::path& folder);
 
 }  // namespace myoid::cohort

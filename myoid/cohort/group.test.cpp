@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/result_folder.h"
 #include "myoid/files/text_file.h"
 
 #include "tests/support/temporary_folder.h"
@@ -20,7 +21,8 @@ constexpr const char* kHeader = "muscle,parameter,unit,method,case,estimate,ci_l
 Manifest three(const fs::path& folder) {
   Manifest manifest{.file = "m.csv", .persons = {}};
   const auto add = [&](const std::string& name, OutcomeKind kind, const std::string& rows) {
-    manifest.persons.push_back({.name = name, .label = name, .study = "s.toml", .facts = {{"group", "young, fit"}}});
+    manifest.persons.push_back(
+        {.name = name, .id = name, .label = name, .study = "s.toml", .facts = {{"group", "young, fit"}}});
     const fs::path place = person_folder(folder, manifest.persons.back());
     write_outcome({.kind = kind, .message = kind == OutcomeKind::failed ? "no EMG" : ""}, place);
     if (!rows.empty()) recording::write_file(place / "parameters.csv", kHeader + rows);
@@ -66,7 +68,14 @@ TEST(Group, ThePageHasMeanSpreadAndWidthOfTheNumbersThatAreTold) {
 TEST(Group, WritesTablesPageAndDerivativeAndNoDerivativeOfAPersonWithoutResults) {
   const test::TemporaryFolder folder;
   const Manifest manifest = three(folder.path());
-  fs::create_directories(folder / "sub-C");  // of an earlier, better day
+  recording::write_file(folder / "sub-C/other_pipeline.tsv", "precious");
+  {
+    recording::ResultFolder earlier(folder.path(), "myoid cohort", "cohort", true);
+    recording::write_file(folder / "sub-B/motion/old.tsv", "of an earlier day");
+    recording::write_file(folder / "sub-C/motion/old.tsv", "of an earlier, better day");
+    earlier.finish();
+  }
+  recording::ResultFolder held(folder.path(), "myoid cohort", "cohort", false);
   write_group(read_group(manifest, folder.path()), manifest, folder.path());
   EXPECT_THAT(recording::read_text_file(folder / "cohort.csv"),
               HasSubstr("A,\"young, fit\",BIC,max_isometric_force,N,torque,both,100,90,110"));
@@ -76,7 +85,9 @@ TEST(Group, WritesTablesPageAndDerivativeAndNoDerivativeOfAPersonWithoutResults)
   EXPECT_TRUE(fs::exists(folder / "report.html"));
   EXPECT_TRUE(fs::exists(folder / "dataset_description.json"));
   EXPECT_TRUE(fs::exists(folder / "sub-A/sub-A_desc-identified_parameters.tsv"));
-  EXPECT_FALSE(fs::exists(folder / "sub-C"));
+  EXPECT_FALSE(fs::exists(folder / "sub-B/motion"));
+  EXPECT_FALSE(fs::exists(folder / "sub-C/motion"));
+  EXPECT_EQ(recording::read_text_file(folder / "sub-C/other_pipeline.tsv"), "precious");
 }
 
 }  // namespace

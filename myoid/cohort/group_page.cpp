@@ -1,7 +1,6 @@
 #include "myoid/cohort/group_page.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -95,12 +94,6 @@ void judge(StripGrid& grid, std::size_t column, std::string_view name, std::vect
   }
 }
 
-std::string id_of(std::string_view name) {
-  std::string id = "group_";
-  for (const char c : name) id += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return id;
-}
-
 /// Returns a grid whose cells are still empty.
 StripGrid empty_grid(const std::vector<GroupPerson>& persons, std::string id, std::string title) {
   StripGrid grid{.id = std::move(id), .title = std::move(title), .caption = {}, .columns = {}, .rows = {}};
@@ -141,7 +134,7 @@ std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons, std
   std::vector<StripGrid> grids;
   for (std::size_t i = 0; i < persons.size(); ++i) {
     for (const GroupNumber& number : persons[i].numbers) {
-      const std::string id = id_of(number.parameter);
+      const std::string id = "group_" + number.parameter;
       auto grid = std::ranges::find_if(grids, [&](const StripGrid& g) { return g.id == id; });
       if (grid == grids.end())
         grid = grids.insert(grids.end(), empty_grid(persons, id, report::spelled(number.parameter)));

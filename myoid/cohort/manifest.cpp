@@ -1,13 +1,14 @@
 #include "myoid/cohort/manifest.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/name_ids.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/tables/csv_reader.h"
 
@@ -19,45 +20,40 @@ using recording::CsvTable;
 
 constexpr std::string_view kSub = "sub-";
 
-bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
-
-std::string label_of(std::string_view name) {
-  if (name.starts_with(kSub)) name.remove_prefix(kSub.size());
-  std::string label;
-  std::ranges::copy_if(name, std::back_inserter(label), is_letter_or_digit);
-  return label;
-}
-
-void check_name(const fs::path& file, std::size_t line, const std::string& name) {
-  const bool known =
-      std::ranges::all_of(name, [](char c) { return is_letter_or_digit(c) || c == '-' || c == '_' || c == '.'; });
-  if (known && !name.starts_with('.') && !name.starts_with('-') && !label_of(name).empty()) return;
-  throw ReadError(file, line,
-                  fmt::format("found the name '{}', expected letters, digits, '-', '_' and '.', the first a letter or "
-                              "digit; it names a folder of results",
-                              name));
-}
-
-/// Adds a person whose name and label are free.
+/// Adds persons whose names are free.
 class Roll {
  public:
   explicit Roll(Manifest& manifest) : manifest_(&manifest) {}
 
   void add(Person person, std::size_t line) {
-    check_name(manifest_->file, line, person.name);
-    person.label = label_of(person.name);
-    const auto [other, is_new] = by_label_.emplace(person.label, person.name);
+    if (const std::string reason = recording::name_refusal(person.name); !reason.empty())
+      throw ReadError(manifest_->file, line, fmt::format("the name of a person: {}", reason));
+    const auto [other, is_new] = lines_.emplace(person.name, line);
     if (!is_new)
-      throw ReadError(manifest_->file, line,
-                      fmt::format("the persons '{}' and '{}' have one BIDS label, '{}' (the letters and digits of the "
-                                  "name); rename one of them",
-                                  other->second, person.name, person.label));
+      throw ReadError(
+          manifest_->file, line,
+          fmt::format("the person '{}' stands in line {} too; give each person one name", person.name, other->second));
     manifest_->persons.push_back(std::move(person));
+  }
+
+  /// Gives every person an id and a BIDS label.
+  void finish() {
+    std::vector<std::string> names, bare;
+    for (const Person& person : manifest_->persons) {
+      names.push_back(person.name);
+      bare.push_back(person.name.starts_with(kSub) ? person.name.substr(kSub.size()) : person.name);
+    }
+    const std::vector<std::string> ids = recording::ids_of(names);
+    const std::vector<std::string> labels = recording::ids_of(bare, recording::IdFor::label);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      manifest_->persons[i].id = ids[i];
+      manifest_->persons[i].label = labels[i];
+    }
   }
 
  private:
   Manifest* manifest_;
-  std::map<std::string, std::string> by_label_;
+  std::map<std::string, std::size_t> lines_;
 };
 
 std::size_t column(const CsvTable& table, const fs::path& file, std::string_view name) {
@@ -92,6 +88,7 @@ Manifest read_table(const fs::path& file) {
       throw ReadError(file, table.lines[i],
                       fmt::format("the person '{}' has no study; name the study file", row[name]));
     roll.add({.name = row[name],
+              .id = {},
               .label = {},
               .study = file.parent_path() / row[study],
               .facts = facts_of(table, row, {name, study})},
@@ -99,6 +96,7 @@ Manifest read_table(const fs::path& file) {
   }
   if (manifest.persons.empty())
     throw ReadError(file, table.header_line, "the table has no person; add one row a person");
+  roll.finish();
   return manifest;
 }
 
@@ -141,8 +139,9 @@ Manifest read_bids(const fs::path& folder, const fs::path& study) {
   Manifest manifest{.file = folder, .persons = {}};
   Roll roll(manifest);
   for (const std::string& name : names)
-    roll.add({.name = name, .label = {}, .study = file, .facts = participants.of(name)}, 0);
+    roll.add({.name = name, .id = {}, .label = {}, .study = file, .facts = participants.of(name)}, 0);
   if (names.empty()) throw ReadError(folder, 0, "the folder has no folder sub-…; a BIDS data set has one a person");
+  roll.finish();
   return manifest;
 }
 
@@ -164,11 +163,22 @@ Manifest read_manifest(const fs::path& file, const fs::path& study) {
 }
 
 std::vector<const Person*> chosen_persons(const Manifest& manifest, const std::vector<std::string>& names) {
-  const auto answers = [](const Person& person, const std::string& name) {
-    return name == person.name || name == person.label || name == "sub-" + person.label;
+  // A name goes before an id and a label: another person may be called so.
+  const auto fitting = [&](const std::string& name) -> const Person* {
+    const std::string label = name.starts_with(kSub) ? name.substr(kSub.size()) : name;
+    for (const auto& [member, text] :
+         {std::pair{&Person::name, name}, std::pair{&Person::id, name}, std::pair{&Person::label, label}}) {
+      const auto found = std::ranges::find(manifest.persons, text, member);
+      if (found != manifest.persons.end()) return &*found;
+    }
+    return nullptr;
   };
+  std::set<const Person*> wanted;
   for (const std::string& name : names) {
-    if (std::ranges::any_of(manifest.persons, [&](const Person& person) { return answers(person, name); })) continue;
+    if (const Person* found = fitting(name)) {
+      wanted.insert(found);
+      continue;
+    }
     std::vector<std::string> known;
     for (const Person& person : manifest.persons) known.push_back(person.name);
     const auto near = recording::nearest_word(name, known);
@@ -177,12 +187,11 @@ std::vector<const Person*> chosen_persons(const Manifest& manifest, const std::v
   }
   std::vector<const Person*> chosen;
   for (const Person& person : manifest.persons) {
-    if (names.empty() || std::ranges::any_of(names, [&](const std::string& name) { return answers(person, name); }))
-      chosen.push_back(&person);
+    if (names.empty() || wanted.contains(&person)) chosen.push_back(&person);
   }
   return chosen;
 }
 
-fs::path person_folder(const fs::path& cohort, const Person& person) { return cohort / kPersonsFolder / person.name; }
+fs::path person_folder(const fs::path& cohort, const Person& person) { return cohort / kPersonsFolder / person.id; }
 
 }  // namespace myoid::cohort

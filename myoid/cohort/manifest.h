@@ -10,8 +10,9 @@ namespace myoid::cohort {
 
 /// One person of a cohort: one row of the manifest, one job.
 struct Person {
-  std::string name;             ///< Also the name of the folder of results.
-  std::string label;            ///< BIDS label: the letters and digits of the name, without "sub-".
+  std::string name;             ///< Any text.
+  std::string id;               ///< Made from the name: the folder of results, and the person's word in workflows.
+  std::string label;            ///< BIDS label: made from the name without "sub-".
   std::filesystem::path study;  ///< Study file, or template of one (`person_study`).
   /// The manifest's further columns in their order: name and cell; a cell "n/a" is empty.
   std::vector<std::pair<std::string, std::string>> facts;
@@ -32,11 +33,11 @@ struct Manifest {
 /// alphabetical order, their further columns are those of participants.tsv if that file exists, and
 /// the study of every person is `study`, or `code/study.toml` of the data set if `study` is empty.
 ///
-/// Throws ReadError with the line: no person, no column `name` or `study`, an empty cell there, a name with other
-/// characters than letters, digits, '-', '_' and '.', two persons with one name or one BIDS label.
+/// Throws ReadError with the line: no person, no column `name` or `study`, an empty cell there, a text that cannot be a
+/// name (`recording::name_refusal`), two persons with one name.
 [[nodiscard]] Manifest read_manifest(const std::filesystem::path& file, const std::filesystem::path& study = {});
 
-/// Returns the persons with these names or BIDS labels ("01", "sub-01"), in the order of the
+/// Returns the persons with these names, ids or BIDS labels ("01", "sub-01"), in the order of the
 /// manifest; all persons if there are no names. Throws InvalidInput for a name that no person has.
 [[nodiscard]] std::vector<const Person*> chosen_persons(const Manifest& manifest,
                                                         const std::vector<std::string>& names);

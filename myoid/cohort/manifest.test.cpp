@@ -1,5 +1,9 @@
 #include "myoid/cohort/manifest.h"
 
+#include <algorithm>
+#include <cctype>
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,17 +34,40 @@ TEST(Manifest, ATableNamesPersonsStudiesAndFurtherColumns) {
   EXPECT_EQ(person_folder("out", manifest.persons[1]), fs::path("out/persons/P-2"));
 }
 
-TEST(Manifest, RefusesPersonsWhoseResultsWouldMeet) {
+TEST(Manifest, RefusesOnlyWhatIsNoNameOrStandsTwice) {
   const TemporaryFolder folder;
   const auto complaint = [&](const std::string& text) {
     recording::write_file(folder / "m.csv", text);
     return message_of([&] { (void)read_manifest(folder / "m.csv"); });
   };
-  EXPECT_THAT(complaint("name,study\nP1,a\nP-1,b\n"), HasSubstr("m.csv:3: the persons 'P1' and"));
-  EXPECT_THAT(complaint("name,study\n../x,a\n"), HasSubstr("found the name '../x'"));
-  EXPECT_THAT(complaint("name,study\n.stages,a\n"), HasSubstr("found the name '.stages'"));
+  EXPECT_THAT(complaint("name,study\nP1,a\nP1,b\n"), HasSubstr("m.csv:3: the person 'P1' stands in line 2 too"));
+  EXPECT_THAT(complaint("name,study\n,a\n"), HasSubstr("m.csv:2: the name of a person: found nothing"));
+  EXPECT_THAT(complaint("name,study\na\u202eb,a\n"), HasSubstr("U+202E at byte 2"));
   EXPECT_THAT(complaint("name,study\nP1,\n"), HasSubstr("has no study"));
   EXPECT_THAT(complaint("name,file\nP1,a\n"), HasSubstr("no column 'study'"));
+}
+
+TEST(Manifest, FoldersAndLabelsAreMadeFromNames) {
+  const TemporaryFolder folder;
+  recording::write_file(folder / "m.csv", "name,study\nP1,a\nP-1,a\np1,a\n../x,a\n.stages,a\n\"a, b\",a\n李,a\n--,a\n");
+  const Manifest manifest = read_manifest(folder / "m.csv");
+  std::set<std::string> ids, labels;
+  for (const Person& person : manifest.persons) {
+    EXPECT_EQ(person_folder("", person).parent_path(), kPersonsFolder) << person.name;
+    EXPECT_EQ(person.id.find_first_of("/\\ "), std::string::npos) << person.id;
+    EXPECT_FALSE(person.id.starts_with('.') || person.id.starts_with('-')) << person.id;
+    EXPECT_TRUE(std::ranges::all_of(person.label, [](unsigned char c) { return std::isalnum(c) != 0; }))
+        << person.label;
+    ids.insert(person.id);
+    labels.insert(person.label);
+  }
+  EXPECT_EQ(ids.size(), 8U);
+  EXPECT_EQ(labels.size(), 8U);
+  // A workflow names persons by their ids, a user by their names.
+  for (const Person& person : manifest.persons) {
+    EXPECT_EQ(chosen_persons(manifest, {person.id}), std::vector<const Person*>{&person});
+    EXPECT_EQ(chosen_persons(manifest, {person.name}), std::vector<const Person*>{&person});
+  }
 }
 
 TEST(Manifest, ABidsDataSetHasItsFoldersAsPersonsAndItsTableAsColumns) {

@@ -10,6 +10,7 @@
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/byte_source.h"
+#include "myoid/files/result_record.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid::cohort {
@@ -30,9 +31,11 @@ bool is_unchanged(const InputFile& input) {
 
 }  // namespace
 
-std::optional<Outcome> read_outcome(const fs::path& folder) {
+namespace {
+
+std::optional<Outcome> parse_outcome(const std::string& text) {
   try {
-    const auto json = parse_ordered_json(recording::read_text_file(folder / kFile));
+    const auto json = parse_ordered_json(text);
     const auto kind = choice_named<OutcomeKind>(json.at("outcome").get<std::string>());
     if (!kind) return std::nullopt;
     Outcome outcome{.kind = *kind,
@@ -43,11 +46,24 @@ std::optional<Outcome> read_outcome(const fs::path& folder) {
     for (const ordered_json& input : json.at("inputs"))
       outcome.inputs.push_back({input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
     return outcome;
-  } catch (const InvalidInput&) {
-    return std::nullopt;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+std::optional<Outcome> read_outcome(const fs::path& folder) {
+  try {
+    return parse_outcome(recording::read_text_file(folder / kFile));
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<Outcome> recorded_outcome(const fs::path& folder) {
+  const std::optional<std::string> text = recording::recorded_content(folder / kFile);
+  return text ? parse_outcome(*text) : std::nullopt;
 }
 
 void write_outcome(const Outcome& outcome, const fs::path& folder) {
@@ -61,10 +77,7 @@ void write_outcome(const Outcome& outcome, const fs::path& folder) {
   recording::write_file(folder / kFile, json_text(json) + "\n");
 }
 
-void remove_outcome(const fs::path& folder) {
-  std::error_code ignored;
-  fs::remove(folder / kFile, ignored);
-}
+void remove_outcome(const fs::path& folder) { recording::remove_result(folder / kFile); }
 
 bool is_current(const Outcome& outcome, const fs::path& study, std::string_view settings) {
   const auto& inputs = outcome.inputs;

@@ -32,6 +32,8 @@ struct Outcome {
 
 /// Returns the content of outcome.json in a person's folder; empty if the file is absent or damaged.
 [[nodiscard]] std::optional<Outcome> read_outcome(const std::filesystem::path& folder);
+/// Returns the same from a folder that the command holds (files/result_record.h), if nothing changed the file.
+[[nodiscard]] std::optional<Outcome> recorded_outcome(const std::filesystem::path& folder);
 void write_outcome(const Outcome& outcome, const std::filesystem::path& folder);
 void remove_outcome(const std::filesystem::path& folder);
 

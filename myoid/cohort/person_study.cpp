@@ -1,5 +1,6 @@
 #include "myoid/cohort/person_study.h"
 
+#include <algorithm>
 #include <cctype>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
@@ -29,7 +31,8 @@ std::size_t word_in_braces(std::string_view text) {
 std::string value_of(std::string_view word, const Person& person, const fs::path& file, std::size_t line) {
   if (word == "name") return person.name;
   if (word == "label") return person.label;
-  std::vector<std::string> known{"name", "label"};
+  if (word == "id") return person.id;
+  std::vector<std::string> known{"name", "label", "id"};
   for (const auto& [name, cell] : person.facts) {
     known.push_back(name);
     if (name != word) continue;
@@ -40,20 +43,68 @@ std::string value_of(std::string_view word, const Person& person, const fs::path
                   fmt::format("found {{{}}}, expected a column of the manifest: {}", word, fmt::join(known, ", ")));
 }
 
+/// A stretch of a TOML text: a string with its quotes, a remark to the end of its line, or what is between them.
+struct TomlPart {
+  enum class Kind { bare, remark, basic, literal };
+  Kind kind = Kind::bare;
+  std::size_t length = 0;
+  std::size_t quotes = 0;  ///< At each end of a string: 1 or 3.
+};
+
+/// Returns the first stretch of a text that is not empty. A string without an end goes to the end of the text: TOML's
+/// reader refuses it.
+TomlPart first_part(std::string_view text) {
+  using Kind = TomlPart::Kind;
+  const char first = text[0];
+  if (first == '#') return {Kind::remark, std::min(text.find('\n'), text.size()), 0};
+  if (first != '"' && first != '\'') return {Kind::bare, std::min(text.find_first_of("#\"'"), text.size()), 0};
+  const Kind kind = first == '"' ? Kind::basic : Kind::literal;
+  const std::size_t quotes = text.starts_with(std::string(3, first)) ? 3 : 1;
+  const std::string end(quotes, first);
+  for (std::size_t i = quotes; i < text.size(); ++i) {
+    if (kind == Kind::basic && text[i] == '\\') {
+      ++i;
+    } else if (text.substr(i).starts_with(end)) {
+      return {kind, i + quotes, quotes};
+    }
+  }
+  return {kind, text.size(), 0};
+}
+
+/// Returns a value as it stands in a basic string.
+std::string inside_quotes(const std::string& value) {
+  const std::string quoted = recording::toml_text(value);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 }  // namespace
 
 std::string filled_study(std::string_view text, const fs::path& file, const Person& person) {
   std::string filled;
   std::size_t line = 1;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\n') ++line;
-    const std::size_t length = text[i] == '{' ? word_in_braces(text.substr(i + 1)) : 0;
-    if (length == 0) {
-      filled += text[i];
-      continue;
+  while (!text.empty()) {
+    const TomlPart part = first_part(text);
+    const std::string_view content = text.substr(0, part.length);
+    text.remove_prefix(part.length);
+    std::string result;
+    bool any = false;
+    for (std::size_t i = 0; i < content.size(); ++i) {
+      const std::size_t length = content[i] == '{' ? word_in_braces(content.substr(i + 1)) : 0;
+      if (length == 0) {
+        result += content[i];
+        continue;
+      }
+      const auto above = static_cast<std::size_t>(std::ranges::count(content.substr(0, i), '\n'));
+      const std::string value = value_of(content.substr(i + 1, length - 1), person, file, line + above);
+      result += part.kind == TomlPart::Kind::basic ? inside_quotes(value) : value;
+      i += length;
+      any = true;
     }
-    filled += value_of(text.substr(i + 1, length - 1), person, file, line);
-    i += length;
+    // A literal string knows no escapes: with a value in it, it becomes a basic one.
+    if (any && part.kind == TomlPart::Kind::literal)
+      result = recording::toml_text(std::string_view(result).substr(part.quotes, result.size() - 2 * part.quotes));
+    filled += result;
+    line += static_cast<std::size_t>(std::ranges::count(content, '\n'));
   }
   return filled;
 }
@@ -67,8 +118,7 @@ fs::path person_study(const Person& person, const fs::path& folder) {
   study.file = fs::absolute(folder / "study.toml").lexically_normal();
   const std::string own = study_toml(study);
   const fs::path place = folder / "study.toml";
-  std::error_code ignored;
-  if (!fs::exists(place, ignored) || recording::read_text_file(place) != own) recording::write_file(place, own);
+  recording::write_file(place, own);
   return place;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/toml_table.h"
 #include "myoid/study/read_study.h"
 
 #include "tests/support/message_of.h"
@@ -15,11 +16,28 @@ namespace {
 using test::message_of;
 using testing::HasSubstr;
 
-const Person kPerson{.name = "sub-07", .label = "07", .study = {}, .facts = {{"weight", "61.5"}, {"sex", ""}}};
+const Person kPerson{
+    .name = "sub-07", .id = "sub-07", .label = "07", .study = {}, .facts = {{"weight", "61.5"}, {"sex", ""}}};
 
 TEST(PersonStudy, WordsInBracesBecomeThePersonsAndTomlsOwnBracesStay) {
   EXPECT_EQ(filled_study("mass = {weight} # {name}, {label}\nemg = { same_as = \"BIC\" }\n", "t", kPerson),
             "mass = 61.5 # sub-07, 07\nemg = { same_as = \"BIC\" }\n");
+}
+
+TEST(PersonStudy, ANameStaysItselfInEveryKindOfString) {
+  Person person = kPerson;
+  for (const char* name : {"O'Neil \"the\" \\ {label} # 1", "a''' \"\"\" b", "李\u00e4", "{name}", "\\u0041"}) {
+    person.name = name;
+    const std::string text = filled_study(
+        "a = \"x {name} \\\" y\" # it's {weight}\nb = 'x {name} y'\nc = \"\"\"{name}\"\"\"\nd = '''{name}'''\n", "t",
+        person);
+    const toml::table root = recording::parse_toml(text, "t.toml");
+    recording::TomlTable table(root, "t.toml", "t");
+    EXPECT_EQ(table.text("a"), "x " + person.name + " \" y") << text;
+    EXPECT_EQ(table.text("b"), "x " + person.name + " y") << text;
+    EXPECT_EQ(table.text("c"), person.name) << text;
+    EXPECT_EQ(table.text("d"), person.name) << text;
+  }
 }
 
 TEST(PersonStudy, SaysWhichColumnIsMissingAndInWhichLine) {

@@ -2,17 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/error.h"
+#include "myoid/files/quoted_text.h"
+
 namespace myoid::cohort {
 namespace {
 
 namespace fs = std::filesystem;
+using recording::parallel_word;
+using recording::python_text;
+using recording::shell_word;
 
 /// The largest array that Slurm takes unless its administrator allows more (MaxArraySize 1001).
 constexpr int kSlurmArray = 1000;
 
 constexpr const char* kPersonScript = R"sh(#!/bin/sh
-# usage: person.sh NAME   One person of the cohort. Environment: MYOID, the program (default: myoid).
-# Returns 0 once the outcome is recorded in persons/NAME/outcome.json.
+# usage: person.sh ID   One person of the cohort. Environment: MYOID, the program (default: myoid).
+# Returns 0 once the outcome is recorded in persons/ID/outcome.json.
 here={0}
 mkdir -p "$here/logs"
 "${{MYOID:-myoid}}" cohort {1} --out {2} {3}--person "$1" --threads 1 >"$here/logs/$1.log" 2>&1
@@ -29,10 +35,10 @@ exec "${{MYOID:-myoid}}" cohort {0} --out {1} {2}--group
 )sh";
 
 constexpr const char* kSnakefile =
-    R"py(# One person is one job. Start: snakemake --snakefile {0} --cores N
+    R"py(# One person is one job. Start: snakemake --snakefile FILE --cores N
 
-HERE = {1}
-COHORT = {2}
+HERE = {0}
+COHORT = {1}
 with open(HERE + "/persons.txt") as file:
     PERSONS = file.read().split()
 
@@ -102,32 +108,11 @@ constexpr const char* kParallel = R"sh(#!/bin/sh
 # usage: sh run.sh [OPTIONS OF GNU PARALLEL...]   All persons, as many at a time as there are cores, then the group.
 here={0}
 mkdir -p "$here/logs"
-parallel --retries 3 --joblog "$here/joblog.tsv" "$@" sh "$here/person.sh" :::: "$here/persons.txt"
+parallel --retries 3 --joblog "$here/joblog.tsv" "$@" sh {1} :::: "$here/persons.txt"
 exec sh "$here/group.sh"
 )sh";
 
-std::string python_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 }  // namespace
-
-std::string shell_word(std::string_view word) {
-  std::string quoted = "'";
-  for (const char c : word) {
-    if (c == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "'";
-}
 
 Workflow workflow(Engine engine, const Manifest& manifest, const fs::path& cohort, const std::string& options) {
   const std::string out = fs::absolute(cohort).lexically_normal().string();
@@ -137,14 +122,19 @@ Workflow workflow(Engine engine, const Manifest& manifest, const fs::path& cohor
   const std::string more = options.empty() ? "" : options + " ";
   Workflow result;
   std::string names;
-  for (const Person& person : manifest.persons) names += person.name + "\n";
+  for (const Person& person : manifest.persons) names += person.id + "\n";
   result.files = {{"persons.txt", names},
                   {"person.sh", fmt::format(kPersonScript, here, persons, shell_word(out), more)},
                   {"group.sh", fmt::format(kGroupScript, persons, shell_word(out), more)}};
   switch (engine) {
     case Engine::snakemake: {
+      // In names of outputs, and in that of its own folder, Snakemake has no quotes for braces.
+      if (out.find_first_of("{}") != std::string::npos)
+        throw InvalidInput(
+            "{}: Snakemake takes braces in a path for wildcards; give --out a folder without braces, or another engine",
+            out);
       const std::string file = shell_word(place + "/Snakefile");
-      result.files.push_back({"Snakefile", fmt::format(kSnakefile, file, python_text(place), python_text(out))});
+      result.files.push_back({"Snakefile", fmt::format(kSnakefile, python_text(place), python_text(out))});
       result.start = fmt::format("snakemake --snakefile {} --cores all --keep-going", file);
       break;
     }
@@ -155,7 +145,7 @@ Workflow workflow(Engine engine, const Manifest& manifest, const fs::path& cohor
       result.start = fmt::format("sh {}", shell_word(place + "/submit.sh"));
       break;
     case Engine::parallel:
-      result.files.push_back({"run.sh", fmt::format(kParallel, here)});
+      result.files.push_back({"run.sh", fmt::format(kParallel, here, parallel_word(place + "/person.sh"))});
       result.start = fmt::format("sh {}", shell_word(place + "/run.sh"));
       break;
   }

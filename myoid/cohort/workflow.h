@@ -26,15 +26,13 @@ struct Workflow {
 };
 
 /// Returns the files by which an engine computes each person as one job and the group after them. All paths in them are
-/// absolute. `options`: further words of `myoid cohort`, as a shell reads them. Every engine calls person.sh NAME,
-/// which writes logs/NAME.log and returns 0 once the person's outcome is recorded, failed or not, so a person's bad
-/// data do not stop the others. A killed job is started again up to two times.
+/// absolute. `options`: further words of `myoid cohort`, as a shell reads them. Every engine calls person.sh ID,
+/// which writes logs/ID.log and returns 0 once the person's outcome is recorded, failed or not, so a person's bad
+/// data do not stop the others. A killed job is started again up to two times. Throws InvalidInput for Snakemake
+/// where the path of the cohort has braces.
 [[nodiscard]] Workflow workflow(Engine engine,
                                 const Manifest& manifest,
                                 const std::filesystem::path& cohort,
                                 const std::string& options);
-
-/// Quotes a word for a POSIX shell.
-[[nodiscard]] std::string shell_word(std::string_view word);
 
 }  // namespace myoid::cohort

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 
@@ -16,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 const Manifest kManifest{.file = "/data/my lab/m.csv",
-                         .persons = {{.name = "A", .label = "A"}, {.name = "B", .label = "B"}}};
+                         .persons = {{.name = "A a", .id = "A", .label = "A"}, {.name = "B", .id = "B", .label = "B"}}};
 
 std::string text_of(const Workflow& workflow, const std::string& name) {
   for (const WorkflowFile& file : workflow.files) {
@@ -36,14 +37,10 @@ TEST(Workflow, EveryEngineCallsOneScriptAPerson) {
   }
 }
 
-TEST(Workflow, AShellReadsAQuotedWordAsItIs) {
-  const test::TemporaryFolder folder;
-  for (const std::string word : {"a b", "it's", "$HOME `x` \"y\" \\", "--z"}) {
-    const auto file = folder / "word";
-    const std::string command = "printf %s " + shell_word(word) + " > " + file.string();
-    ASSERT_EQ(std::system(command.c_str()), 0);
-    EXPECT_EQ(recording::read_text_file(file), word);
-  }
+TEST(Workflow, OfSnakemakeRefusesBracesWhichItHasNoQuotesFor) {
+  EXPECT_THROW((void)workflow(Engine::snakemake, kManifest, "/out/{c}", ""), InvalidInput);
+  EXPECT_NO_THROW((void)workflow(Engine::parallel, kManifest, "/out/{c}", ""));
+  EXPECT_NO_THROW((void)workflow(Engine::slurm, kManifest, "/out/{c}", ""));
 }
 
 TEST(Workflow, ThePersonsScriptSucceedsOnceTheOutcomeIsRecordedAndElseHasTheProgramsCode) {

@@ -42,6 +42,14 @@ class Remarks {
   void warn(std::string text) { add({.severity = Severity::warning, .says = std::move(text)}); }
   void note(std::string text) { add({.severity = Severity::note, .says = std::move(text)}); }
   void detail(std::string text) { add({.severity = Severity::detail, .says = std::move(text)}); }
+  /// Adds the findings of a check on a file or a result; its name goes before each.
+  void add(std::vector<Remark> found, const std::string& where) {
+    for (Remark& remark : found) {
+      remark.where = where;
+      remark.says = where + ": " + remark.says;
+      add(std::move(remark));
+    }
+  }
   void add(Remark remark) {
     if (listener_) listener_(remark);
     list_.push_back(std::move(remark));

@@ -9,10 +9,11 @@
 
 namespace myoid::commands {
 
-/// Checks the inputs of a study, or one recording, without computing a result.
+/// Checks the inputs of a study, one recording or motion, or a model, without computing a result.
 struct CheckOptions {
   Call call;
-  std::string input;  ///< study.toml, or a recording.
+  std::string input;  ///< study.toml, a recording, or a model (.osim).
+  std::string model;  ///< Model of a motion (.mot, .sto), .osim or "arm4"; empty: unknown.
   std::string up;     ///< Vertical of a recording's laboratory: x, -y, ...; empty: as the file states.
 };
 

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -13,11 +12,14 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "myoid/cohort/person_study.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/commands/run.h"
 #include "myoid/core/build_identity.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/folder_lock.h"
+#include "myoid/files/quoted_text.h"
+#include "myoid/files/result_folder.h"
 
 namespace myoid::commands {
 namespace {
@@ -29,18 +31,13 @@ using cohort::Person;
 
 /// Folder of a person's stages, from which an interrupted job continues.
 constexpr const char* kStageFolder = ".stages";
+/// The command that signs the folder of a cohort and the persons' folders; `bids` is the same command.
+constexpr const char* kCohortWord = "cohort";
+/// Names of the group's results, which a folder of other content must not have.
+const std::vector<std::string_view> kGroupFiles{"persons.csv", "cohort.csv", "report."};
 
 std::string settings_of(const CohortOptions& o) {
   return o.estimator ? fmt::format("estimator {}", choice_name(*o.estimator)) : "";
-}
-
-/// Removes the results of an earlier job from a person's folder.
-void remove_earlier(const fs::path& folder) {
-  const std::set<std::string> kept{kStageFolder, "study.toml", std::string(recording::FolderLock::kFile)};
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (!kept.contains(entry.path().filename().string())) fs::remove_all(entry.path(), ignored);
-  }
 }
 
 void judge(const RunResult& result, Outcome& outcome) {
@@ -90,19 +87,19 @@ cohort::PersonOutcome job_in(const CohortOptions& o, const Person& person, const
   Outcome outcome;
   try {
     const fs::path study = cohort::person_study(person, folder);
-    const std::optional<Outcome> earlier = cohort::read_outcome(folder);
+    const std::optional<Outcome> earlier = cohort::recorded_outcome(folder);
     if (earlier && cohort::is_current(*earlier, study, settings))
       return {.person = person.name, .outcome = earlier, .reused = true};
     cohort::remove_outcome(folder);
-    remove_earlier(folder);
+    recording::remove_earlier_results(folder);
     outcome = computed(o, study, folder);
   } catch (const Interrupted&) {
     throw;
   } catch (const InvalidInput& error) {
-    remove_earlier(folder);
+    recording::remove_results(folder, {"study.toml"});
     outcome = failure(error.what());
   } catch (const std::exception& error) {
-    remove_earlier(folder);
+    recording::remove_results(folder, {"study.toml"});
     outcome = failure(fmt::format("internal error: {}", error.what()));
   }
   outcome.settings = settings;
@@ -111,20 +108,25 @@ cohort::PersonOutcome job_in(const CohortOptions& o, const Person& person, const
   return {.person = person.name, .outcome = std::move(outcome)};
 }
 
+/// A person's outcome, and sentences on files of the person's folder that were kept.
+struct PersonJob {
+  cohort::PersonOutcome outcome;
+  std::vector<std::string> notes{};
+};
+
 /// Runs one person's job in a folder that no other process may hold.
-cohort::PersonOutcome job(const CohortOptions& o, const Person& person, const fs::path& out) {
-  const fs::path folder = cohort::person_folder(out, person);
+PersonJob job(const CohortOptions& o, const Person& person, const fs::path& out) {
+  const fs::path place = cohort::person_folder(out, person);
   try {
-    fs::create_directories(folder);
-    recording::FolderLock lock(folder);
-    lock.sign(o.call.command, true);
-    cohort::PersonOutcome outcome = job_in(o, person, folder);
-    lock.finish();
-    return outcome;
+    recording::ResultFolder folder(place, o.call.command, kCohortWord, o.overwrite);
+    PersonJob done{job_in(o, person, place)};
+    folder.finish();
+    done.notes = folder.take_notes();
+    return done;
   } catch (const InvalidInput& error) {  // the folder is held, or the disk is full
-    return {.person = person.name, .outcome = failure(error.what())};
+    return {{.person = person.name, .outcome = failure(error.what())}};
   } catch (const fs::filesystem_error& error) {
-    return {.person = person.name, .outcome = failure(error.what())};
+    return {{.person = person.name, .outcome = failure(error.what())}};
   }
 }
 
@@ -164,10 +166,13 @@ std::vector<cohort::PersonOutcome> write_cohort_persons(const CohortOptions& o, 
   std::vector<cohort::PersonOutcome> outcomes(persons.size());
   std::mutex mutex;
   std::size_t done = 0;
+  Remarks remarks(o.call);
   in_jobs(persons.size(), o.jobs, [&](std::size_t i) {
     o.call.progress.check();
-    outcomes[i] = job(o, *persons[i], folder);
+    PersonJob done_job = job(o, *persons[i], folder);
     const std::scoped_lock lock(mutex);
+    outcomes[i] = std::move(done_job.outcome);
+    for (std::string& note : done_job.notes) remarks.note(std::move(note));
     o.call.progress.tell(static_cast<double>(++done) / static_cast<double>(persons.size()),
                          fmt::format("{} of {} persons", done, persons.size()));
     if (o.heard) o.heard(outcomes[i]);
@@ -178,32 +183,69 @@ std::vector<cohort::PersonOutcome> write_cohort_persons(const CohortOptions& o, 
 cohort::Group write_cohort_group(const CohortOptions& o, const fs::path& folder) {
   const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
   cohort::Group group = cohort::read_group(manifest, folder);
+  recording::ResultFolder held(folder, o.call.command, kCohortWord, o.overwrite);
   cohort::write_group(group, manifest, folder);
+  held.finish();
+  Remarks remarks(o.call);
+  for (std::string& note : held.take_notes()) remarks.note(std::move(note));
   return group;
 }
 
 std::string write_cohort_workflow(const CohortOptions& o, cohort::Engine engine, const fs::path& folder) {
   const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
   std::string options;
-  if (!o.study.empty()) options += "--study " + cohort::shell_word(fs::absolute(o.study).lexically_normal().string());
+  if (!o.study.empty())
+    options += "--study " + recording::shell_word(fs::absolute(o.study).lexically_normal().string());
   if (o.estimator) options += fmt::format("{}--estimator {}", options.empty() ? "" : " ", choice_name(*o.estimator));
   const cohort::Workflow workflow = cohort::workflow(engine, manifest, folder, options);
+  recording::RecordedFolder held(folder / "workflow", "workflow");
   for (const cohort::WorkflowFile& file : workflow.files)
     recording::write_file(folder / "workflow" / file.name, file.text);
+  held.finish();
+  Remarks remarks(o.call);
+  for (std::string& note : held.take_notes()) remarks.note(std::move(note));
   return workflow.start;
 }
 
-void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder, bool overwrite) {
-  (void)cohort::chosen_persons(cohort::read_manifest(o.manifest, o.study), o.persons);
+namespace {
+
+/// Throws InvalidInput if the results would stand in, or above, the data set that they come from.
+void refuse_data_set(const fs::path& data, const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(data, error)) return;
+  const fs::path out = fs::weakly_canonical(folder, error);
+  for (fs::path above = fs::canonical(data, error); !above.empty(); above = above.parent_path()) {
+    if (fs::equivalent(above, out, error))
+      throw InvalidInput("{} {} the data set {}; give another folder for the results, such as {}", folder.string(),
+                         fs::equivalent(data, out, error) ? "is" : "holds", data.string(),
+                         (data / "derivatives/myoid").string());
+    if (above == above.root_path()) return;
+  }
+}
+
+}  // namespace
+
+void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder) {
+  const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
+  (void)cohort::chosen_persons(manifest, o.persons);
+  refuse_data_set(o.manifest, folder);
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw InvalidInput(fmt::format("{} is a file; name a folder", folder.string()));
-  const fs::path persons = folder / cohort::kPersonsFolder;
-  if (!fs::exists(persons, error) && recording::holds_content(folder) && !overwrite)
-    throw InvalidInput(fmt::format(
-        "the folder {} holds other files than a cohort's; give an empty folder, or add --overwrite", folder.string()));
-  fs::create_directories(persons, error);
-  if (error) throw InvalidInput(fmt::format("cannot create the folder {}: {}", persons.string(), error.message()));
+  {
+    const bool earlier = std::ranges::any_of(manifest.persons, [&](const Person& person) {
+      return recording::is_of_earlier_version(cohort::person_folder(folder, person));
+    });
+    recording::RecordedFolder record(folder, kCohortWord, {.earlier_version = earlier});
+    if (!record.is_signed_by(kCohortWord) && recording::holds_content(folder) && !o.overwrite)
+      throw InvalidInput(fmt::format(
+          "the folder {} holds other files than a cohort's; give an empty folder, or add --overwrite",
+          folder.string()));
+    protect_files(folder, kGroupFiles, {o.manifest});
+    fs::create_directories(folder / cohort::kPersonsFolder, error);
+    if (!error) record.sign();
+  }
+  if (error) throw InvalidInput(fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
 }
 
 }  // namespace myoid::commands

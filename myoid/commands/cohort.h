@@ -22,7 +22,8 @@ struct CohortOptions {
   std::string study;                                       ///< BIDS: the study of every person; empty: code/study.toml.
   std::vector<std::string> persons;                        ///< Names or labels; empty: all persons.
   std::optional<identification::EstimatorKind> estimator;  ///< In place of the studies'.
-  std::size_t jobs = 0;  ///< Persons computed at the same time; 0: as many as threads.
+  bool overwrite = false;  ///< Also into folders with other content than a cohort's results.
+  std::size_t jobs = 0;    ///< Persons computed at the same time; 0: as many as threads.
   /// Receives the end of each person at once; may be empty. Called by one thread at a time.
   std::function<void(const cohort::PersonOutcome&)> heard;
 };
@@ -43,9 +44,9 @@ std::string write_cohort_workflow(const CohortOptions& options,
                                   cohort::Engine engine,
                                   const std::filesystem::path& folder);
 
-/// Makes the folder of a cohort with a readable manifest. Throws InvalidInput for a file, for a
-/// folder with other content than a cohort's unless `overwrite`, and for the manifest as
-/// `write_cohort_persons` does; then no folder is made.
-void prepare_cohort_folder(const CohortOptions& options, const std::filesystem::path& folder, bool overwrite);
+/// Makes and signs the folder of a cohort with a readable manifest. Throws InvalidInput for a file, for a folder with
+/// other content than a cohort's unless `overwrite`, for one that is or holds the BIDS data set, for a file that the
+/// group's results would replace, and for the manifest as `write_cohort_persons` does; then no folder is made.
+void prepare_cohort_folder(const CohortOptions& options, const std::filesystem::path& folder);
 
 }  // namespace myoid::commands

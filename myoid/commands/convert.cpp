@@ -14,12 +14,14 @@
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/result_record.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/channel_writer.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/ground_reaction.h"
 #include "myoid/recording/plate_standing.h"
+#include "myoid/signals/plate_quality.h"
 #include "myoid/signals/resample.h"
 #include "myoid/tables/storage_reader.h"
 #include "myoid/tables/storage_writer.h"
@@ -101,7 +103,7 @@ class Converter {
 
   void markers(const fs::path& out) {
     recording::MarkerFile file = recording::read_markers(o_.in);
-    if (file.screen_up_L) tell_vertical(*file.screen_up_L);
+    tell_vertical();
     write_markers(out, std::move(file.markers), file.repairs);
     report(file.repairs);
   }
@@ -203,10 +205,16 @@ class Converter {
   }
 
   /// Without plates only --up turns the recording.
-  void tell_vertical(const Vec3& up_L) const {
+  void tell_vertical() const {
     if (!o_.up.empty() || !o_.turns.empty()) return;
-    const std::string up = recording::axis_name(up_L);
-    if (up != "y")
+    std::string up;
+    try {
+      const recording::LaboratoryUp own = recording::read_laboratory_up(o_.in);
+      if (own.up_L) up = recording::axis_name(*own.up_L);
+    } catch (const ReadError& error) {
+      remarks_.warn(error.what());  // the markers stay as they are
+    }
+    if (!up.empty() && up != "y")
       remarks_.note(
           fmt::format("note: {}: up is {} in this file; the markers are written as recorded; --up {} turns them to y "
                       "up, as models stand",
@@ -219,9 +227,13 @@ class Converter {
     report(file.repairs);
     const std::vector<int> numbers = plate_numbers(o_, file);
     std::vector<recording::Repair> notes;
+    const std::vector<recording::ForcePlate> over_time = file.force_plates();
     const TimeSeries loads =
-        recording::ground_reaction(file.force_plates(), {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
+        recording::ground_reaction(over_time, {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
     report(notes);
+    for (const recording::ForcePlate& plate : over_time) {
+      for (const Remark& fault : signals::check_plate_pressure(plate)) remarks_.warn(o_.in + ": " + sentence(fault));
+    }
     recording::write_storage(out, at_rate(cut(loads, o_.call)), {.title = out.stem().string(), .comments = {}});
     wrote(out);
     if (o_.bodies.empty()) {
@@ -229,20 +241,21 @@ class Converter {
       return;
     }
     const fs::path xml = fs::path(out).replace_extension(".xml");
-    claim(xml);
+    check_companion(xml, {o_.in, o_.analog}, o_.overwrite, "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSim");
     recording::write_file(
         xml, recording::format_external_loads(out.stem().string(), numbers, o_.bodies, out.filename().string()));
     wrote(xml);
   }
 
   void everything(const fs::path& folder) {
+    recording::RecordedFolder held(folder, "convert");
     recording::Recording file = recording::read_recording(o_.in);
     const std::string stem = fs::path(o_.in).stem().string();
     (void)plate_numbers(o_, file);
     if (!file.plates.empty()) {
       stand(file);
-    } else if (file.screen_up_L && file.markers.frame_count() > 0) {
-      tell_vertical(*file.screen_up_L);
+    } else if (file.markers.frame_count() > 0) {
+      tell_vertical();
     }
     report(file.repairs);
     file.repairs.clear();
@@ -253,6 +266,8 @@ class Converter {
     }
     if (!file.analog.empty()) write_all_channels(folder, stem, file);
     if (!file.plates.empty()) plates(folder / (stem + "_grf.mot"), std::move(file));
+    held.finish();
+    for (std::string& note : held.take_notes()) remarks_.note(std::move(note));
   }
 
   /// Writes all channels, and a second file of the voltages that may be EMG.

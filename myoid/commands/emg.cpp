@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -11,8 +12,9 @@
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/quoted_text.h"
+#include "myoid/files/result_record.h"
 #include "myoid/files/text_file.h"
-#include "myoid/report/tables.h"
 #include "myoid/tables/series_file.h"
 
 namespace myoid::commands {
@@ -150,14 +152,39 @@ EmgResult emg(const EmgOptions& o) {
   return result;
 }
 
+namespace {
+
+/// Holds the folder of the results of several inputs, whose names the program makes; null for one input.
+std::unique_ptr<recording::RecordedFolder> held_folder(const std::vector<std::string>& files) {
+  if (files.size() < 2) return nullptr;
+  return std::make_unique<recording::RecordedFolder>(std::filesystem::path(files.front()).parent_path(), "emg");
+}
+
+void write_emg_files(const std::vector<std::string>& files,
+                     const std::vector<TimeSeries>& series,
+                     std::string_view title,
+                     const std::vector<std::string>& header) {
+  const auto held = held_folder(files);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    recording::write_series(files[i], series[i], std::string(title), header);
+  if (held) held->finish();
+}
+
+}  // namespace
+
 void check_emg_files(const EmgOptions& options,
                      const std::vector<std::string>& activations,
                      const std::vector<std::string>& envelopes,
                      bool overwrite) {
   const std::vector<std::string> inputs = emg_paths(options);
-  for (const std::string& file : activations) check_output(file, inputs, overwrite);
+  for (const auto* files : {&activations, &envelopes}) {
+    const auto held = held_folder(*files);
+    for (const std::string& file : *files) {
+      check_output(file, inputs, overwrite);
+      recording::require_replaceable(file);
+    }
+  }
   for (const std::string& file : envelopes) {
-    check_output(file, inputs, overwrite);
     if (std::ranges::find(activations, file) != activations.end())
       throw InvalidInput(fmt::format("--out and --envelope both name {}", file));
   }
@@ -168,7 +195,7 @@ void write_emg_measures(const EmgResult& result, const std::string& path) {
   const auto number = [](double value) { return std::isfinite(value) ? recording::format_number(value) : ""; };
   for (const EmgMeasures& one : result.measures) {
     const auto add = [&](const char* kind, const signals::EmgWindow& w) {
-      text += fmt::format("{},{},{},{},{},{},{}\n", report::csv_quoted(one.file), report::csv_quoted(one.channel), kind,
+      text += fmt::format("{},{},{},{},{},{},{}\n", recording::csv_quoted(one.file), recording::csv_quoted(one.channel), kind,
                           number(w.begin_s), number(w.end_s), number(w.rms), number(w.median_frequency_hz));
     };
     for (const signals::EmgWindow& burst : one.bursts) add("burst", burst);
@@ -180,10 +207,8 @@ void write_emg_measures(const EmgResult& result, const std::string& path) {
 void write_emg(const EmgResult& result,
                const std::vector<std::string>& activations,
                const std::vector<std::string>& envelopes) {
-  for (std::size_t i = 0; i < activations.size(); ++i)
-    recording::write_series(activations[i], result.activations[i], "Activation", result.activation_header);
-  for (std::size_t i = 0; i < envelopes.size(); ++i)
-    recording::write_series(envelopes[i], result.envelopes[i], "EMG envelope volt", result.envelope_header);
+  write_emg_files(activations, result.activations, "Activation", result.activation_header);
+  write_emg_files(envelopes, result.envelopes, "EMG envelope volt", result.envelope_header);
 }
 
 }  // namespace myoid::commands

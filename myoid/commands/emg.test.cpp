@@ -62,6 +62,37 @@ TEST(EmgFunction, AWarningIsToldAlthoughALaterFileIsRefused) {
   EXPECT_THAT(heard, testing::Contains(HasSubstr("'TRI' has the same value throughout")));
 }
 
+/// The two channels with three seconds without samples behind the first two.
+std::string with_a_pause() {
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> normal;
+  std::string text = "time,BIC [V]\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double burst = i % 2000 > 500 && i % 2000 < 1500 ? 1e-3 : 1e-5;
+    text += fmt::format("{},{}\n", 0.001 * i + (i < 2000 ? 0.0 : 3.0), burst * normal(engine));
+  }
+  return text;
+}
+
+TEST(EmgFunction, APartBeforeOrBehindAPauseIsTaken) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "a.csv", with_a_pause());
+  EmgOptions o;
+  o.in = {folder / "a.csv"};
+  o.chain.whitening = false;
+  EXPECT_THROW((void)emg(o), ReadError);
+  o.call.end_s = 1.5;
+  const EmgResult before = emg(o);
+  EXPECT_NEAR(before.activations[0].time_s().tail(1)[0], 1.5, 1e-9);
+  o.call.end_s = 3.5;  // within the pause
+  EXPECT_EQ(emg(o).activations[0].sample_count(), 2000);
+  o.call.end_s.reset();
+  o.call.start_s = 5.5;
+  EXPECT_NEAR(emg(o).activations[0].time_s()[0], 5.5, 1e-9);
+  o.call.start_s = 1.0;
+  EXPECT_THROW((void)emg(o), ReadError);
+}
+
 /// Four seconds at 2000 Hz: noise of 200 uV in bursts on BIC, with a spike if there is one, and 2 uV throughout on TRI.
 std::string burst_and_noise(double spike_v) {
   std::mt19937_64 engine(3);

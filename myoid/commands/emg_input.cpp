@@ -8,9 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
+#include "myoid/signals/clock_gaps.h"
 #include "myoid/signals/emg_kind.h"
 #include "myoid/signals/emg_quality.h"
 
@@ -112,6 +114,26 @@ void warn_of_faults(const std::string& path,
   }
 }
 
+/// Returns the part between two pauses of the recording that holds all times asked for, or all samples where there is
+/// no pause. Filters cannot bridge a pause. Throws ReadError where a pause is among the times asked for.
+TimeSeries between_pauses(const std::string& path, TimeSeries emg, const Call& call, GroupedWarnings& warnings) {
+  const signals::ClockGaps gaps = signals::find_clock_gaps(emg.time_s());
+  if (gaps.count == 0) return emg;
+  const double begin_s = call.start_s.value_or(-kInfinity), end_s = call.end_s.value_or(kInfinity);
+  std::vector<Stretch> asked;
+  for (const Stretch& stretch : signals::clock_stretches(emg.time_s(), 2.5 * gaps.usual_interval_s))
+    if (begin_s <= stretch.end_s && end_s >= stretch.begin_s) asked.push_back(stretch);
+  if (asked.size() != 1)
+    throw ReadError(path, 0,
+                    fmt::format("the recording pauses ({}), which no filter bridges; choose a part without a pause by "
+                                "--start and --end, or save its parts as files of their own",
+                                gaps.text()));
+  warnings.add(RemarkCode::clock_pause, path, "pauses",
+               fmt::format("{}: the recording pauses ({}); its part from {:.6g} to {:.6g} s is taken", path,
+                           gaps.text(), asked[0].begin_s, asked[0].end_s));
+  return emg.slice(asked[0].begin_s, asked[0].end_s);
+}
+
 /// Reads a file's EMG.
 TimeSeries read_raw(const std::string& path, const EmgOptions& o, GroupedWarnings& warnings) {
   recording::EmgFile file = recording::read_emg(path, o.unit, false, o.channels);
@@ -141,7 +163,9 @@ std::vector<std::string> emg_paths(const EmgOptions& o) {
 std::vector<TimeSeries> read_raw_emg(const EmgOptions& o, GroupedWarnings& warnings) {
   const std::vector<std::string> paths = emg_paths(o);
   std::vector<TimeSeries> raw;
-  for (const std::string& path : paths) raw.push_back(read_raw(path, o, warnings));
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    raw.push_back(
+        between_pauses(paths[i], read_raw(paths[i], o, warnings), i < o.in.size() ? o.call : Call{}, warnings));
   keep_common_channels(paths, raw, warnings);
   for (std::size_t i = 0; i < raw.size(); ++i) warn_of_faults(paths[i], raw[i], o.chain, warnings);
   return raw;

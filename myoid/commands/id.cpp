@@ -11,6 +11,7 @@
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/study/study_model.h"
 #include "myoid/tables/series_file.h"
 
@@ -49,6 +50,7 @@ IdResult id(const IdOptions& o) {
       weight && !(loads && dynamics::wrong_support(model, *loads, motion.q.time_s())) &&
       dynamics::stands(model, motion.q.values().row(0).transpose()))
     remarks.warn(weight->sentence(loads ? "" : "--loads"));
+  remarks.add(dynamics::implausible(model, result.forces), o.motion);
   result.remarks = remarks.list();
   return result;
 }

@@ -3,10 +3,13 @@
 #include <algorithm>
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
+#include "myoid/intervals/verdict_cap.h"
 #include "myoid/identify_files/electrode_ties.h"
 #include "myoid/methods/basins.h"
+#include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/force.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/paper.h"
@@ -117,8 +120,9 @@ std::string solvers_csv(const std::vector<identification::NamedContest>& contest
   std::string text = "fit,solver,start,cost,distance,evaluations,seconds,termination\n";
   for (const auto& [fit, c] : contests) {
     for (const identification::SolverRun& run : c.runs) {
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", fit, run.solver, run.start, number(run.cost),
-                          number(run.distance), run.evaluations, number(run.seconds), math::name(run.termination));
+      text +=
+          fmt::format("{},{},{},{},{},{},{},{}\n", recording::csv_cell(fit), run.solver, run.start, number(run.cost),
+                      number(run.distance), run.evaluations, number(run.seconds), math::name(run.termination));
     }
   }
   return text;
@@ -138,6 +142,8 @@ IdentifyResult identify(const IdentifyOptions& o) {
   IdentifyResult result;
   result.data = as_read;
   result.fit = fit_data(o, table, as_asked, result.data);
+  if (o.method == "torque" && identification::exchanged_electrodes(as_read, EstimatorOptions{}.delay_prior_mean_s))
+    identification::apply({{.reason = std::string(identification::kExchangedCap)}}, result.fit);
   if (o.method != "paper" && o.folds != "none" && !result.fit.exact)
     result.folds = held_out(o, as_read, as_asked, table, result.why_no_folds);
   if (const std::string text = identification::generalises_badly(result.folds); !text.empty())

@@ -7,10 +7,9 @@
 
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
-#include "myoid/recording/plate_standing.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/recording/recording.h"
 #include "myoid/results/stage_files.h"
-#include "myoid/study/trial_up.h"
 
 namespace myoid::commands {
 namespace {
@@ -33,15 +32,6 @@ std::vector<std::string> runs_not_converged(const kinematics::IkResult& result) 
     first = last;
   }
   return runs;
-}
-
-/// Returns the rotation of a marker file's laboratory onto the model's: by `up` ("z", "-y"); if
-/// `up` is empty by the file's stated vertical, with a note; else none.
-Mat3 onto_model(const model::BodyModel& model, const std::string& markers, const std::string& up, Remarks& remarks) {
-  if (const auto told = recording::axis_vector(up)) return rotation_onto(model, *told);
-  const recording::LaboratoryUp own = trial_up(kUpOfTheFile, markers, model);
-  if (*own.up_L != model_up(model)) remarks.note(fmt::format("note: {}: {}", markers, up_note(own, model)));
-  return rotation_onto(model, *own.up_L);
 }
 
 model::BodyModel read_posed_model(const IkOptions& o, Remarks& remarks) {
@@ -77,11 +67,13 @@ IkResult ik(const IkOptions& o) {
   const kinematics::IkOptions options{.marker_weights = marker_weights(o.weights), .progress = o.call.progress};
   result.solved = kinematics::inverse_kinematics(result.model, markers, options);
   for (const std::string& note : result.solved.notes) remarks.warn(note);
+  for (Remark& remark : kinematics::remarks_on_ends(result.model, result.solved.q)) remarks.add(std::move(remark));
   result.misfit = kinematics::marker_misfit(result.model, markers, result.solved);
   if (!result.misfit.warning.empty()) remarks.warn(result.misfit.warning);
   result.not_converged = runs_not_converged(result.solved);
   if (!result.not_converged.empty())
     remarks.warn(fmt::format("not converged: frames {}", fmt::join(result.not_converged, ", ")));
+  remarks.add(kinematics::implausible(result.solved.q), o.markers);
   if (!result.solved.undetermined.empty())
     remarks.warn(fmt::format("not determined by the markers: {}", fmt::join(result.solved.undetermined, ", ")));
   result.remarks = remarks.list();

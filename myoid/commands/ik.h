@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/commands/call.h"
@@ -31,6 +32,8 @@ struct IkResult {
 
 [[nodiscard]] IkResult ik(const IkOptions& options);
 
+/// The begin of the file of the marker errors.
+inline constexpr std::string_view kMarkerErrorsBegin = "Model Marker Errors from IK\n";
 /// Returns the file of the marker errors for this motion file: NAME_marker_errors.sto.
 [[nodiscard]] std::filesystem::path marker_errors_path(const std::filesystem::path& motion);
 

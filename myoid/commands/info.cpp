@@ -73,12 +73,28 @@ ordered_json tasks_contents(const model::OsimXml& xml, pugi::xml_node set) {
   return j;
 }
 
+/// Lists the objects of another set that stands in a file of its own, by their classes.
+ordered_json set_contents(pugi::xml_node set) {
+  ordered_json j{{"kind", fmt::format("{} in a file of its own (a part of an OpenSim document)", set.name())},
+                 {"name", model::OsimXml::name_of(set)}};
+  for (const pugi::xml_node object : model::OsimXml::objects(set)) {
+    std::string name = model::OsimXml::name_of(object);
+    if (name.empty()) name = object.child("segment").text().get();
+    j[object.name()].push_back(std::string(recording::trim(name)));
+  }
+  j["read_by"] = fmt::format("the model or set-up that names this file, <{} file=\"...\"/>", set.name());
+  return j;
+}
+
 /// Describes a part of set-ups that stands in a file of its own, or names the tool of a set-up and the command that
 /// runs it.
 ordered_json setup_contents(const std::string& path) {
   const model::OsimXml xml(recording::read_text_file(path), path, model::OsimXml::Root::any);
   if (const auto loads = xml.root().child("ExternalLoads")) return loads_contents(xml, loads);
-  if (const auto tasks = xml.root().child("IKTaskSet")) return tasks_contents(xml, tasks);
+  for (const char* name : {"IKTaskSet", "TaskSet"})
+    if (const auto tasks = xml.root().child(name)) return tasks_contents(xml, tasks);
+  const auto first = model::OsimXml::first_element(xml.root(), {"defaults"});
+  if (std::string_view(first.name()).ends_with("Set")) return set_contents(first);
   const OpensimSetup setup(path);
   ordered_json j{{"kind", "set-up of an OpenSim tool"}, {"tool", setup.kind()}, {"name", setup.name()}};
   for (const std::filesystem::path& input : setup.inputs()) {

@@ -1,6 +1,7 @@
 #include "myoid/commands/init.h"
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/result_record.h"
 
 namespace myoid::commands {
 
@@ -18,8 +19,12 @@ InitResult init(const InitOptions& o) {
   return result;
 }
 
-void write_init(const InitResult& result, const std::filesystem::path& path) {
+void write_init(const InitResult& result, const std::filesystem::path& path, const Call& call) {
+  recording::RecordedFolder held(path.parent_path(), "init");
   recording::write_file(path, result.draft.toml);
+  held.finish();
+  Remarks remarks(call);
+  for (std::string& note : held.take_notes()) remarks.note(std::move(note));
 }
 
 }  // namespace myoid::commands

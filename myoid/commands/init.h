@@ -26,6 +26,6 @@ struct InitResult {
 [[nodiscard]] InitResult init(const InitOptions& options);
 
 /// Writes the study file.
-void write_init(const InitResult& result, const std::filesystem::path& path);
+void write_init(const InitResult& result, const std::filesystem::path& path, const Call& call);
 
 }  // namespace myoid::commands

@@ -33,17 +33,17 @@ void add_coloring(
   input.colorings.push_back({name, unit, std::move(file.data)});
 }
 
-recording::MarkerSeries read_page_markers(const ModelPageOptions& o, Remarks& remarks) {
+recording::MarkerSeries read_page_markers(const ModelPageOptions& o, const model::BodyModel& model, Remarks& remarks) {
   recording::MarkerFile file = recording::read_markers(o.markers);
   warn_of_repairs(o.markers, file.repairs, remarks);
-  return recording::rotated(std::move(file.markers), recording::rotation_to_y_up(o.up[0]));
+  return recording::rotated(std::move(file.markers), onto_model(model, o.markers, o.up, remarks));
 }
 
 }  // namespace
 
 ModelPageResult model_page(const ModelPageOptions& o) {
   refuse_without_motion(o);
-  check_word("--up", o.up, {"x", "y", "z"});
+  if (!o.up.empty()) check_word("--up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
   Remarks remarks(o.call);
   const model::BodyModel model = load_model(o.model, o.compat, remarks);
   SceneInput input;
@@ -60,7 +60,7 @@ ModelPageResult model_page(const ModelPageOptions& o) {
   add_coloring("activation", "", o.activations, input, remarks);
   std::optional<recording::MarkerSeries> markers;
   if (!o.markers.empty()) {
-    markers = read_page_markers(o, remarks);
+    markers = read_page_markers(o, model, remarks);
     input.markers = &*markers;
   }
   result.page.scenes.push_back(model_scene(model, input));

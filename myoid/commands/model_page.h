@@ -17,7 +17,7 @@ struct ModelPageOptions {
   std::string motion;                     ///< Joint angles (.mot, .sto); empty: the default posture.
   std::string forces, activations;        ///< Color the muscles along the motion (.sto).
   std::string markers;                    ///< Measured markers, shown beside the model's (.trc, .c3d).
-  std::string up = "y";                   ///< Vertical axis of the markers: x, y or z.
+  std::string up;                         ///< Vertical of the markers: x, -y, ...; empty: as for `ik`.
   std::vector<std::string> mesh_folders;  ///< Searched after the model's folder and its Geometry.
 };
 

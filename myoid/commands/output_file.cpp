@@ -1,8 +1,12 @@
 #include "myoid/commands/output_file.h"
 
+#include <algorithm>
+#include <fstream>
+
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/result_record.h"
 
 namespace myoid::commands {
 
@@ -18,28 +22,47 @@ void check_output(const std::filesystem::path& path, const std::vector<std::stri
           "{} is an input of this command and would be replaced by its result; give another --out", path.string()));
     }
   }
-  if (!overwrite && fs::is_regular_file(path, ignored)) {
+  if (!overwrite && fs::is_regular_file(path, ignored) &&
+      recording::standing_of(path) != recording::Standing::unfinished) {
     throw InvalidInput(
         fmt::format("{} exists already; give --overwrite to replace it, or another --out", path.string()));
   }
 }
 
-void protect_inputs(const std::filesystem::path& folder,
-                    const std::vector<std::string_view>& results,
-                    const std::vector<std::string>& inputs) {
+void check_companion(const std::filesystem::path& path,
+                     const std::vector<std::string>& inputs,
+                     bool overwrite,
+                     std::string_view begins) {
+  check_output(path, inputs, overwrite);
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return;
+  std::string head(begins.size(), '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head != begins)
+    throw InvalidInput(fmt::format(
+        "{} stands in the way of a second file of this command and does not begin with '{}', as its results do; move "
+        "it elsewhere, or give another --out",
+        path.string(), begins.substr(0, begins.find('\n'))));
+}
+
+void protect_files(const std::filesystem::path& folder,
+                   const std::vector<std::string_view>& results,
+                   const std::vector<std::string>& inputs) {
   namespace fs = std::filesystem;
   std::error_code ignored;
+  const auto is_result = [&](const std::string& file) {
+    return std::ranges::any_of(results, [&](std::string_view result) { return file.starts_with(result); });
+  };
   for (const std::string& input : inputs) {
     const fs::path parent = fs::path(input).parent_path();
     if (!fs::equivalent(parent.empty() ? fs::path(".") : parent, folder, ignored)) continue;
-    const std::string file = fs::path(input).filename().string();
-    for (const std::string_view result : results) {
-      if (file.starts_with(result)) {
-        throw InvalidInput(
-            fmt::format("{} is an input of this command and would be replaced by a result; give another --out", input));
-      }
-    }
+    if (is_result(fs::path(input).filename().string()))
+      throw InvalidInput(
+          fmt::format("{} is an input of this command and would be replaced by a result; give another --out", input));
   }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (!entry.is_directory(ignored) && is_result(entry.path().filename().string()))
+      recording::require_replaceable(entry.path());
 }
 
 }  // namespace myoid::commands

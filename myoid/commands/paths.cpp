@@ -8,9 +8,9 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/commands/stage_input.h"
-#include "myoid/files/text_file.h"
 #include "myoid/kinematics/surrogate_file.h"
 #include "myoid/model/path_survey.h"
+#include "myoid/osim/osim_document.h"
 #include "myoid/results/stage_files.h"
 
 namespace myoid::commands {
@@ -44,7 +44,7 @@ std::vector<PathSurrogate> load_surrogates(const PathsOptions& o, const model::B
   const kinematics::SurrogateOptions options{.length_tolerance_m = 1e-3 * o.tolerance_mm,
                                              .arm_tolerance_m = 5e-3 * o.tolerance_mm,
                                              .progress = o.call.progress};
-  const std::string text = o.model == "arm4" ? model::arm4_osim() : recording::read_text_file(o.model);
+  const std::string text = o.model == "arm4" ? model::arm4_osim() : model::read_whole_text(o.model);
   const std::string key = kinematics::surrogate_key(text, model.compat, options);
   auto surrogates = kinematics::read_surrogates(o.surrogates, model, key);
   if (!surrogates) {
@@ -61,7 +61,7 @@ PathsResult paths(const PathsOptions& o) {
   Remarks remarks(o.call);
   const model::BodyModel model = load_model(o.model, o.compat, remarks);
   if (o.compare_with_opensim) warn_of_path_differences(model, o.model, remarks);
-  const kinematics::JointMotion motion = load_motion(model, o.motion, o.cutoff_hz, o.call, remarks);
+  const kinematics::JointMotion motion = load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, kinematics::HeldValues::of_model);
   if (o.check_jumps) {
     for (const model::PathJump& jump : model::find_jumps(model)) remarks.warn(model::describe(model, jump));
   }

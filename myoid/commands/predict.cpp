@@ -41,8 +41,10 @@ std::string predict_json(const PredictResult& result) {
   nlohmann::ordered_json object;
   object["provenance"] = report::provenance_json(result.provenance);
   object["trials"] = nlohmann::ordered_json::array();
+  const recording::NameIds folders = prediction_folders(result.trials);
   for (const identification::TrialFit& t : result.trials) {
     object["trials"].push_back({{"trial", t.trial},
+                                {"folder", folders.of(t.trial)},
                                 {"joint", t.joint},
                                 {"fitted", t.calibration},
                                 {"samples", t.score.n},

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/recording_findings.h"
+#include "myoid/files/result_record.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_report.h"
@@ -22,6 +23,10 @@ std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
   const auto reused =
       std::ranges::count_if(study.trials, [](const TrialResult& trial) { return trial.motion.ik_reused; });
   if (reused > 0) remarks.note(fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
+  const auto damaged =
+      std::ranges::count_if(study.trials, [](const TrialResult& trial) { return trial.motion.ik_was_damaged; });
+  if (damaged > 0)
+    remarks.warn(fmt::format("kept inverse kinematics of {} trials changed on the disk; computed again", damaged));
   for (const std::string& line : fault_summary(all_faults(study))) remarks.warn(line);
   std::size_t details = 0;
   for (const TrialResult& trial : study.trials) {
@@ -66,7 +71,7 @@ RunResult run(const RunOptions& o) {
 }
 
 void write_run(const RunResult& result, const std::filesystem::path& folder) {
-  remove_results(folder);
+  recording::remove_earlier_results(folder);
   write_results(result.study, result.provenance, folder);
   const report::Workbench workbench = study_workbench(result.study, folder);
   report::write_report(study_report(result.study, result.provenance), folder, &workbench);

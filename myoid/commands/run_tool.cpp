@@ -16,8 +16,12 @@ RunToolResult run_tool(const RunToolOptions& o) {
   Remarks remarks(o.call);
   RunToolResult result;
   result.tool = myoid::run_tool(
-      o.setup, {.compat = model::parse_compat(o.compat), .files = o.files, .progress = o.call.progress});
+      o.setup, {.compat = model::parse_compat(o.compat),
+                .files = o.files,
+                .anywhere = o.anywhere,
+                .progress = o.call.progress});
   for (const std::string& note : result.tool.notes) remarks.warn(note);
+  for (const Remark& remark : result.tool.remarks) remarks.add(remark);
   if (result.tool.replaced > 0)
     remarks.note(fmt::format("{} of an earlier run {} replaced",
                              counted(static_cast<std::size_t>(result.tool.replaced), "file"),
@@ -33,6 +37,7 @@ std::string run_tool_json(const RunToolResult& result) {
                               {"frames", tool.frames},
                               {"frames_failed", tool.frames_failed},
                               {"notes", tool.notes}};
+  for (const std::string& text : sentences(tool.remarks)) json["notes"].push_back(text);
   for (const std::filesystem::path& file : tool.files) json["files"].push_back(file.string());
   return json_text(json) + "\n";
 }

@@ -13,6 +13,7 @@ struct RunToolOptions {
   Call call;
   std::string setup;               ///< .xml
   SetupFiles files;                ///< Instead of the set-up's own.
+  bool anywhere = false;           ///< Writes outside the folder of the set-up too, where the set-up says so.
   std::string compat = "opensim";  ///< Paths of muscles: as OpenSim 4.5.2 has them, or "exact".
 };
 

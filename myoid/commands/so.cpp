@@ -4,7 +4,9 @@
 
 #include "myoid/commands/stage_input.h"
 #include "myoid/dynamics/ground_support.h"
+#include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/forces/sharing_input.h"
+#include "myoid/forces/sharing_plausibility.h"
 #include "myoid/results/stage_files.h"
 #include "myoid/signals/resample.h"
 #include "myoid/simulation/muscle_force_law.h"
@@ -42,7 +44,7 @@ SoResult so(const SoOptions& o) {
   Remarks remarks(o.call);
   const model::BodyModel model = load_model(o.model, o.compat, remarks);
   if (o.compare_with_opensim) warn_of_path_differences(model, o.model, remarks);
-  const kinematics::JointMotion motion = load_motion(model, o.motion, o.cutoff_hz, o.call, remarks);
+  const kinematics::JointMotion motion = load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, kinematics::HeldValues::of_model);
   std::optional<dynamics::ExternalLoads> loads;
   if (!o.loads.empty()) loads = load_external_loads(model, o.loads, motion, remarks);
   if (const auto weight = dynamics::unsupported_weight(model);
@@ -52,7 +54,9 @@ SoResult so(const SoOptions& o) {
                                                            o.coordinates, loads ? &*loads : nullptr);
   for (const std::string& note : input.notes) remarks.warn(note);
   SoResult result;
+  remarks.add(dynamics::implausible(model, input.torques), o.motion);
   result.shared = forces::share(input, sharing_options(o, model, input, remarks));
+  remarks.add(forces::reserves_act(input, result.shared), o.motion);
   result.remarks = remarks.list();
   return result;
 }

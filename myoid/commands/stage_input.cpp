@@ -9,11 +9,14 @@
 #include "myoid/checks/load_points.h"
 #include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
+#include "myoid/dynamics/ground_support.h"
+#include "myoid/kinematics/motion_plausibility.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/model/path_survey.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/signals/clock_gaps.h"
-#include "myoid/signals/motion_jumps.h"
+#include "myoid/study/trial_up.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::commands {
@@ -66,6 +69,7 @@ model::BodyModel load_model(const std::string& name, const std::string& compat, 
   model::require_lengths_in_m(model, name);
   for (const std::string& text : model.unsupported) remarks.warn(fmt::format("{}: {}", name, text));
   for (const std::string& text : model.notes) remarks.detail(fmt::format("{}: {}", name, text));
+  remarks.add(model::implausible(model), name);
   return model;
 }
 
@@ -127,23 +131,30 @@ kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
   return motion;
 }
 
+Mat3 onto_model(const model::BodyModel& model, const std::string& markers, const std::string& up, Remarks& remarks) {
+  if (const auto told = recording::axis_vector(up)) return rotation_onto(model, *told);
+  const recording::LaboratoryUp own = trial_up(kUpOfTheFile, markers, model);
+  if (*own.up_L != model_up(model)) remarks.note(fmt::format("note: {}: {}", markers, up_note(own, model)));
+  return rotation_onto(model, *own.up_L);
+}
+
 kinematics::JointMotion load_motion(const model::BodyModel& model,
                                     const std::filesystem::path& path,
                                     double cutoff_hz,
                                     const Call& call,
-                                    Remarks& remarks) {
+                                    Remarks& remarks,
+                                    kinematics::HeldValues held) {
   const recording::Storage file = recording::read_storage(path);
   warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries q = in_si(file, model);
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty()) remarks.warn(doubt);
   const Stretch asked{call.start_s.value_or(-1e300), call.end_s.value_or(1e300)};
-  for (const signals::MotionJump& jump : signals::find_motion_jumps(q, asked))
-    remarks.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
+  remarks.add(kinematics::implausible(model, q, asked), path.string());
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
     remarks.warn(
         fmt::format("{}: {}; a spline bridges the gaps, and its derivatives beside a gap are not to be relied on",
                     path.string(), gaps.text()));
-  kinematics::MotionOptions options;
+  kinematics::MotionOptions options{.held = held};
   if (cutoff_hz > 0.0) {
     if (cutoff_hz >= 0.5 * q.mean_rate_hz()) {
       throw InvalidInput(fmt::format("--lowpass {} Hz: {} has {:.4g} Hz; give less than half of that, or leave it out",
@@ -173,7 +184,7 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
   if (const auto wrong = dynamics::wrong_support(model, loads, time_s);
       wrong && dynamics::stands(model, motion.q.values().row(0).transpose()))
     remarks.warn(fmt::format("{}: {}", path.string(), wrong->sentence()));
-  for (const Remark& found : misplaced_loads(model, loads, nullptr, &motion.q, path.string())) remarks.warn(found.says);
+  for (Remark& found : misplaced_loads(model, loads, nullptr, &motion.q, path.string())) remarks.add(std::move(found));
   return loads;
 }
 

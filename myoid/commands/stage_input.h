@@ -30,14 +30,22 @@ void warn_of_repairs(const std::filesystem::path& path,
 /// Warns of the muscles whose exact path differs visibly (1 mm) from OpenSim's at random postures.
 void warn_of_path_differences(const model::BodyModel& model, const std::string& name, Remarks& remarks);
 
+/// Returns the rotation of a marker file's laboratory onto the model's: by `up` ("z", "-y"); if
+/// `up` is empty by the vertical of the file (`trial_up`), with a note; else none.
+[[nodiscard]] Mat3 onto_model(const model::BodyModel& model,
+                              const std::string& markers,
+                              const std::string& up,
+                              Remarks& remarks);
+
 /// Reads a motion file (.mot, .sto) as coordinates with two derivatives. `cutoff_hz` > 0 smooths.
 /// The whole file is smoothed and differentiated, then cut to the call's time, so that the numbers
-/// do not depend on the cut. Warns of gaps of the clock.
+/// do not depend on the cut. Warns of gaps of the clock, and of locked and prescribed coordinates that move otherwise.
 [[nodiscard]] kinematics::JointMotion load_motion(const model::BodyModel& model,
                                                   const std::filesystem::path& path,
                                                   double cutoff_hz,
                                                   const Call& call,
-                                                  Remarks& remarks);
+                                                  Remarks& remarks,
+                                                  kinematics::HeldValues held = kinematics::HeldValues::of_motion);
 
 /// Replaces the spline's derivatives of a motion by the speeds and accelerations in these files, for the coordinates
 /// that they have; an empty path changes nothing. Throws ReadError unless their times equal those of the motion's file.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/commands/call.h"
@@ -11,6 +12,9 @@
 #include "myoid/virtual_person/protocol.h"
 
 namespace myoid::commands {
+
+/// Names of the results beside the folders of persons and of their truth.
+inline const std::vector<std::string_view> kTwinFiles{"study.toml", "truth.csv", "model.osim", "persons.csv"};
 
 /// Options of virtual recordings with known parameters. The call's seed determines the person.
 struct TwinOptions {

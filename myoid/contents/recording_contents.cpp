@@ -1,7 +1,6 @@
 #include "myoid/contents/recording_contents.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -18,12 +17,15 @@
 #include "myoid/core/json_array.h"
 #include "myoid/core/numbers.h"
 #include "myoid/files/file_format.h"
+#include "myoid/recording/angle_file.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/c3d_survey.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/tables/csv_reader.h"
+#include "myoid/tables/result_units.h"
 #include "myoid/tables/storage_reader.h"
 #include "myoid/tables/trc_reader.h"
 
@@ -132,9 +134,9 @@ ordered_json events_json(const std::vector<recording::Event>& events) {
 /// Adds the upward direction and its sources in the file; "not known" without any, "contradictory"
 /// where two sources disagree.
 void add_up(const std::filesystem::path& path, const recording::C3dSurvey& survey, ordered_json& j) {
-  recording::LaboratoryUp up{recording::screen_up(survey.file), "POINT:Y_SCREEN or POINT:SCREEN"};
+  recording::LaboratoryUp up;
   try {
-    if (!survey.plates.empty()) up = recording::read_laboratory_up(path);
+    if (!survey.plates.empty() || recording::screen_up(survey.file)) up = recording::read_laboratory_up(path);
   } catch (const ReadError& error) {
     j["up"] = "contradictory";
     j["up_from"] = error.what();
@@ -183,6 +185,9 @@ ordered_json c3d_json(const std::filesystem::path& path) {
                                  {"largest_force_n", survey.largest_force_n[p]}});
   }
   add_up(path, survey, j);
+  const recording::StatedBody body = recording::stated_body(file);
+  if (body.mass_kg) j["body_mass_kg"] = *body.mass_kg;
+  if (body.height_m) j["body_height_m"] = *body.height_m;
   j["events"] = events_json(file.events);
   j["repairs"] = repairs_json(survey.repairs);
   return j;
@@ -214,28 +219,14 @@ ordered_json recording_json(const std::filesystem::path& path, const char* serie
   return j;
 }
 
-/// Returns true if a file may hold angles: neither its title nor all of its channels speak of forces or EMG.
-bool may_hold_angles(const recording::Storage& file) {
-  const auto speaks_of_other = [](std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::string_view kOthers[] = {"force",      "torque",     "moment",    "emg",
-                                            "electromyo", "activation", "excitation"};
-    return std::ranges::any_of(kOthers, [&](std::string_view word) { return text.find(word) != std::string::npos; });
-  };
-  return !speaks_of_other(file.title) &&
-         !std::ranges::all_of(file.data.channels(), [&](const Channel& c) { return speaks_of_other(c.name); });
-}
-
 ordered_json storage_json(const std::filesystem::path& path) {
   const recording::Storage file = recording::read_storage(path);
   ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}};
   if (const auto to_volt = recording::stated_voltage(file)) {
     j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
-  } else if (!may_hold_angles(file)) {
+  } else if (!recording::may_hold_angles(file)) {
     // inDegrees stands in every file of OpenSim.
-  } else if (std::ranges::any_of(file.header, [](const auto& entry) {
-               return recording::equal_ignoring_case(entry.first, "inDegrees");
-             })) {
+  } else if (recording::states_degrees(file)) {
     j["angles"] = file.in_degrees ? "degrees" : "radians";
   } else if (file.in_degrees) {
     j["angles"] = "degrees (the header does not say; files of this kind are)";

@@ -29,8 +29,10 @@ std::string check_angle_unit(const std::filesystem::path& path, bool says_degree
                     "not radians; write inDegrees=yes into the header",
                     largest_name, largest_rad);
   }
-  // A small joint may move little, but over a whole motion some joint exceeds 3.5 degrees.
-  if (says_degrees && largest_rad < 3.5 * kDegree && widest_rad > 0.2 * kDegree) {
+  // A small joint may move little, but over a whole motion some joint exceeds 3.5 degrees. A posture that is held sways
+  // by a small part of its angle; the radians of a small movement change by much of it.
+  const bool moves = widest_rad > 0.2 * kDegree || (widest_rad > 0.02 * kDegree && widest_rad > 0.3 * largest_rad);
+  if (says_degrees && largest_rad < 3.5 * kDegree && moves) {
     return fmt::format(
         "{}: no angle reaches 3.5 degrees (the largest is '{}') although the header says inDegrees=yes; if these are "
         "radians, write inDegrees=no",

@@ -23,7 +23,10 @@ TEST(AngleUnit, DegreesThatAreCalledRadiansAreRefused) {
 
 TEST(AngleUnit, RadiansThatAreCalledDegreesAreDoubted) {
   EXPECT_THAT(check_angle_unit("m.mot", true, angles(0.1 * kDegree, 1.2 * kDegree)), ::testing::HasSubstr("'knee'"));
+  // An elbow that bends from 3.3 to 13.2 degrees has such radians.
+  EXPECT_NE(check_angle_unit("m.mot", true, angles(0.058 * kDegree, 0.23 * kDegree)), "");
   // A posture that hardly moves may be what it says.
+  EXPECT_EQ(check_angle_unit("m.mot", true, angles(0.0 * kDegree, 0.01 * kDegree)), "");
   EXPECT_EQ(check_angle_unit("m.mot", true, angles(1.0 * kDegree, 1.1 * kDegree)), "");
 }
 

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
+#include "myoid/draft/draft_loads.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/model/body_model.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/force_plate.h"
 
 namespace myoid {
@@ -21,6 +23,8 @@ struct FoundRecording {
   bool has_unit = true;               ///< The EMG has a unit.
   bool raw = true;
   int plates = 0;
+  LoadHints loads{};
+  recording::StatedBody body;  ///< Body mass and height that the file states.
   bool motion_taken = false;
   bool emg_taken = false;
 };

@@ -5,6 +5,9 @@
 
 namespace myoid {
 
+/// Returns a text as one line of a remark.
+[[nodiscard]] std::string in_remark(const std::string& text);
+
 /// The text of a study that is being drafted, and the questions in it.
 struct DraftText {
   std::string toml;
@@ -12,13 +15,12 @@ struct DraftText {
 
   void line(const std::string& text) { toml += text + '\n'; }
   void todo(const std::string& text) {
-    line("# TODO: " + text);
+    line("# TODO: " + in_remark(text));
     questions.push_back(text);
   }
 };
 
-/// Returns a text of TOML: quotes and backslashes escaped, control characters left out.
-[[nodiscard]] std::string in_quotes(const std::string& text);
+/// Returns a list of texts of TOML.
 [[nodiscard]] std::string list_of(const std::vector<std::string>& names);
 
 }  // namespace myoid

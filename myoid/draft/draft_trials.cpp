@@ -1,7 +1,6 @@
 #include "myoid/draft/draft_trials.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -9,10 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "myoid/files/file_words.h"
+#include "myoid/files/name_ids.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid {
 namespace {
+
+using recording::toml_text;
 
 /// Grows as two files belong to one trial more surely: by an equal name, then by the folders that both are in, then by
 /// a long name.
@@ -42,23 +46,6 @@ const FoundRecording* emg_of(const FoundRecording& motion, const std::vector<Fou
   return best;
 }
 
-/// Asks whether a mass in the name is held in the hand: "flex_2.5kg".
-void held_mass(const std::string& stem, bool own_model, DraftText& out) {
-  const auto at = stem.find("kg");
-  if (at == std::string::npos) return;
-  std::size_t begin = at;
-  while (begin > 0 && (std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0 || stem[begin - 1] == '.' ||
-                       stem[begin - 1] == 'p'))
-    --begin;
-  std::string number = stem.substr(begin, at - begin);
-  std::ranges::replace(number, 'p', '.');
-  const auto mass = recording::parse_number(number);
-  if (!mass || !(*mass > 0.0 && *mass <= 100.0)) return;
-  out.todo(fmt::format("the name says {} kg: held in the hand?{}", *mass,
-                       own_model ? " Then [model] held_mass must say where it acts" : ""));
-  out.line(fmt::format("# held_mass_kg = {}", *mass));
-}
-
 /// Writes the [[trial]] tables one after another.
 class TrialWriter {
  public:
@@ -74,7 +61,7 @@ class TrialWriter {
       if (f.markers.frame_count() == 0 || f.motion_taken) continue;
       if (!starts_from_markers(f, found_)) {
         notes_.push_back(fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
-                                     in_quotes(around_.relative(f.path))));
+                                     toml_text(around_.relative(f.path))));
       } else {
         motion_trial(f, "markers");
       }
@@ -88,7 +75,10 @@ class TrialWriter {
   }
 
  private:
-  [[nodiscard]] std::string unique(std::string name) {
+  /// Returns a name of a trial from the name of a file, whatever bytes that has.
+  [[nodiscard]] std::string unique(const std::string& stem) {
+    std::string name = recording::to_utf8(stem);
+    if (name.empty() || !recording::name_refusal(name).empty()) name = recording::ids_of({stem}).front();
     while (!names_.insert(name).second) name += "_2";
     return name;
   }
@@ -102,21 +92,25 @@ class TrialWriter {
     if (without_emg && use != "passive") use = "static";
     if (emg != nullptr) found_[static_cast<std::size_t>(emg - found_.data())].emg_taken = true;
     out_.line("[[trial]]");
-    out_.line("name = " + in_quotes(unique(f.stem)));
-    out_.line(key + " = " + in_quotes(around_.relative(f.path)));
-    if (emg != nullptr) out_.line("emg = " + in_quotes(around_.relative(emg->path)));
+    out_.line("name = " + toml_text(unique(f.stem)));
+    out_.line(key + " = " + toml_text(around_.relative(f.path)));
+    if (emg != nullptr) out_.line("emg = " + toml_text(around_.relative(emg->path)));
     two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
-    out_.line("use = " + in_quotes(use));
+    out_.line("use = " + toml_text(use));
     any_calibration_ = any_calibration_ || use == "calibration";
     if (without_emg) without(emg_of(f, found_, !around_.raw_emg), f.stem);
+    bool stated = false;
     for (const std::filesystem::path& loads : around_.external_loads) {
-      if (trial_stem(loads) == f.stem) out_.line("external_loads = " + in_quotes(around_.relative(loads)));
+      if (trial_stem(loads) != f.stem) continue;
+      out_.line("external_loads = " + toml_text(around_.relative(loads)));
+      stated = true;
     }
     if (f.plates > 0) {
       out_.line(fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the person stood on them",
                             f.plates));
     }
-    held_mass(f.stem, around_.own_model, out_);
+    const bool needed = use == "calibration" || mass_in_name(f.stem) || !f.loads.object_markers.empty();
+    if (!stated && needed) ask_for_loads(f.stem, f.loads, around_.own_model, asked_for_loads_, out_);
     out_.line("");
   }
 
@@ -139,8 +133,8 @@ class TrialWriter {
           f.path.filename().string()));
     const std::string remark = mvc ? "" : "# ";
     out_.line(remark + "[[trial]]");
-    out_.line(remark + "name = " + in_quotes(unique(f.stem)));
-    out_.line(remark + "emg = " + in_quotes(around_.relative(f.path)));
+    out_.line(remark + "name = " + toml_text(unique(f.stem)));
+    out_.line(remark + "emg = " + toml_text(around_.relative(f.path)));
     out_.line(remark + "use = \"mvc\"");
     out_.line("");
   }
@@ -158,7 +152,7 @@ class TrialWriter {
   DraftText& out_;
   std::set<std::string> names_;
   std::vector<std::string> notes_;
-  bool two_clocks_ = false, any_calibration_ = false;
+  bool two_clocks_ = false, any_calibration_ = false, asked_for_loads_ = false;
 };
 
 }  // namespace

@@ -22,9 +22,13 @@
 #include "myoid/draft/draft_text.h"
 #include "myoid/draft/draft_trials.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/file_words.h"
 #include "myoid/files/label_match.h"
+#include "myoid/files/name_ids.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/kinematics/marker_places.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/trial_up.h"
@@ -33,6 +37,7 @@ namespace myoid {
 namespace {
 
 namespace fs = std::filesystem;
+using recording::toml_text;
 
 class Draft {
  public:
@@ -134,8 +139,11 @@ class Draft {
       const auto format = recording::format_of(path);
       recording::Recording file = recording::read_recording(path);
       f.plates = static_cast<int>(file.plates.size());
+      f.body = recording::read_stated_body(path);
       note_up(path, file);
       f.markers = std::move(file.markers);
+      if (format != recording::FileFormat::storage && !file.analog.empty())
+        f.loads.channels = load_channels(file.analog.series(), file.plates);
       for (const Channel& c : file.analog.channels()) {
         if (format == recording::FileFormat::storage && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
         torques = torques || std::ranges::any_of(model_.coordinates, [&](const model::Coordinate& q) {
@@ -168,6 +176,7 @@ class Draft {
       for (std::string& name : f.markers.names) {
         if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
       }
+      f.loads.object_markers = object_markers(f.markers, model_);
       for (const kinematics::PlacedMarker& pair : kinematics::markers_by_place(model_, f.markers)) {
         const bool taken = std::ranges::any_of(elsewhere_, [&](const auto& p) { return p.second == pair.wanted; });
         if (!taken) elsewhere_.emplace(pair.recorded, pair.wanted);
@@ -209,23 +218,38 @@ class Draft {
     line("[subject]");
     std::error_code error;
     const fs::path at = fs::absolute(folder_, error).lexically_normal();
-    line("name = " + in_quotes((at.has_filename() ? at : at.parent_path()).filename().string()));
+    const std::string folder = recording::to_utf8((at.has_filename() ? at : at.parent_path()).filename().string());
+    line("name = " + toml_text(recording::name_refusal(folder).empty() ? folder : "subject"));
     if (!person_.left_out.empty())
       todo(fmt::format("{} in the names: a study is of one person, and this one is of {}; it leaves {} of the others "
                        "out. If these are other persons, draft a study for each (`myoid init DIR --from` that person's "
                        "files) and run all with `myoid cohort`; if not, name all files with --from one by one",
                        name_list(person_.all), person_.kept, counted(person_.left_out.size(), "file")));
-    if (!model_file_) {
+    body_mass();
+    line("");
+  }
+
+  /// Offers the mass that a file states; the built-in arm needs one.
+  void body_mass() {
+    const auto stated =
+        std::ranges::find_if(found_, [](const FoundRecording& f) { return f.body.mass_kg.has_value(); });
+    if (stated == found_.end()) {
+      if (model_file_) return;
       todo("the person's mass, for the segments of the built-in arm");
       line("# mass_kg = 70.0");
+      return;
     }
-    line("");
+    const std::string height =
+        stated->body.height_m ? fmt::format(" and a height of {:.3g} m", *stated->body.height_m) : "";
+    todo(fmt::format("is this the person's mass? {} states it (PROCESSING:BODYMASS){}",
+                     stated->path.filename().string(), height));
+    line(fmt::format("mass_kg = {:g}", *stated->body.mass_kg));
   }
 
   void model_table() {
     line("[model]");
     if (model_file_) {
-      line("file = " + in_quotes(relative(*model_file_)));
+      line("file = " + toml_text(relative(*model_file_)));
     } else {
       line("builtin = \"arm4\"");
       if (is_of_a_leg(found_) && most_known_ < 3)
@@ -237,7 +261,7 @@ class Draft {
                        list_of(other_models_)));
     if (guessed_coordinate_)
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
-    line("coordinate = " + in_quotes(coordinate_));
+    line("coordinate = " + toml_text(coordinate_));
     line("");
   }
 
@@ -280,7 +304,7 @@ class Draft {
     }
     if (elsewhere_.empty()) return;
     std::vector<std::string> pairs;
-    for (const auto& [name, like] : elsewhere_) pairs.push_back(fmt::format("{} = {}", in_quotes(name), in_quotes(like)));
+    for (const auto& [name, like] : elsewhere_) pairs.push_back(fmt::format("{} = {}", toml_text(name), toml_text(like)));
     todo("these stand where the model has the others: are they the same? Then take the # away");
     line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }
@@ -344,9 +368,9 @@ class Draft {
       while (!names.insert(name).second) name += "_2";
       if (first.empty()) first = name;
       line("[[muscle]]");
-      line("name = " + in_quotes(name));
+      line("name = " + toml_text(name));
       line("osim = " + list_of(fresh));
-      line("emg = " + in_quotes(pair.channel));
+      line("emg = " + toml_text(pair.channel));
       line("");
     }
     if (first.empty()) {
@@ -380,8 +404,8 @@ class Draft {
                     "act as another muscle does:",
                     coordinate_, fmt::join(left, ", ")));
     line("# [[muscle]]");
-    line("# name = " + in_quotes(left[0]));
-    line("# emg = { same_as = " + in_quotes(like) + " }");
+    line("# name = " + toml_text(left[0]));
+    line("# emg = { same_as = " + toml_text(like) + " }");
     line("");
   }
 
@@ -404,9 +428,7 @@ class Draft {
     if (!draft_.notes.empty()) {
       line("");
       for (const std::string& note : draft_.notes) {
-        std::string flat = note;
-        std::ranges::replace(flat, '\n', ' ');
-        line("# " + flat);
+        line("# " + in_remark(note));
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/arm/arm4.h"
+#include "myoid/c3d/c3d_writer.h"
 #include "myoid/checks/check_study.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
@@ -14,6 +15,7 @@
 #include "myoid/study/read_study.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/plate_recording.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid {
@@ -38,6 +40,19 @@ void write_trial(const std::filesystem::path& folder, const std::string& stem) {
                        noise * (1.2 - std::sin(6.0 * t)), noise);
   }
   recording::write_file(folder / (stem + "_emg.csv"), emg);
+}
+
+TEST(StudyDraft, OffersTheBodyMassThatAFileStates) {
+  const test::TemporaryFolder folder;
+  recording::C3dFile file = test::plate_recording(2);
+  recording::C3dGroup group{.id = 9, .name = "PROCESSING"};
+  group.parameters = {test::c3d_numbers("Bodymass", recording::C3dType::real, {}, {61.5}),
+                      test::c3d_numbers("Height", recording::C3dType::real, {}, {1680.0})};
+  file.groups.push_back(group);
+  recording::write_c3d(folder / "walk.c3d", file);
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  EXPECT_THAT(draft.toml, HasSubstr("\nmass_kg = 61.5\n"));
+  EXPECT_THAT(draft.todo, Contains(testing::AllOf(HasSubstr("walk.c3d"), HasSubstr("1.68 m"))));
 }
 
 TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {

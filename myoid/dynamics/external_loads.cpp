@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/dynamics/load_units.h"
 #include "myoid/files/named_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_xml.h"
@@ -151,12 +152,14 @@ ExternalForce read_force(const OsimXml& xml,
   }
   const Eigen::MatrixX3d f = values_of(xml, node, "force", data, file);
   Eigen::MatrixX3d p = values_of(xml, node, "point", data, file);
-  const Eigen::MatrixX3d t = values_of(xml, node, "torque", data, file);
+  Eigen::MatrixX3d t = values_of(xml, node, "torque", data, file);
   if (f.rows() == 0 && t.rows() == 0) {
     xml.fail(node, fmt::format("{} '{}' names neither columns of a force nor of a torque", node.name(), force.name));
   }
   check_finite(f, data, "force of '" + force.name + "'", file);
   check_finite(t, data, "torque of '" + force.name + "'", file);
+  for (const std::string& said : mend_load_units(f, p, t))
+    notes.push_back(fmt::format("{}: '{}': {}", file.string(), force.name, said));
   if (p.rows() > 0) {
     std::vector<bool> is_loaded(static_cast<std::size_t>(p.rows()), false);
     if (f.rows() > 0) {
@@ -178,6 +181,12 @@ ExternalForce read_force(const OsimXml& xml,
                       file.string(), force.name, mended));
     }
     force.point = fit(clock, p);
+  }
+  if (p.rows() == 0 && f.rows() > 0 && !f.isZero(0.0) && force.body != 0) {
+    notes.push_back(fmt::format("{}: {}: '{}' names no point: its force acts at the origin of body '{}', as in OpenSim; "
+                                "<point_identifier> names the columns of its point",
+                                xml.path().string(), xml.place_of(node), force.name,
+                                model.bodies[static_cast<std::size_t>(force.body)].name));
   }
   if (f.rows() > 0) force.force = fit(clock, f);
   if (t.rows() > 0) force.torque = fit(clock, t);
@@ -245,15 +254,16 @@ ExternalLoads read_external_loads(const model::BodyModel& model, const std::file
   }
   const recording::NamedFile named = recording::find_named_file(path.parent_path(), name);
   if (!named.exists) {
-    xml.fail(set.child("datafile"), fmt::format("<datafile> names '{}', and there is no such file; a file of that name "
-                                                "beside this one or one folder up would be taken",
-                                                name));
+    xml.fail(set.child("datafile"), fmt::format("<datafile> names '{}', and {}", name,
+                                                recording::missing_file(path.parent_path(), name)));
   }
   const std::filesystem::path& file = named.path;
   const recording::Storage table = recording::read_storage(file);
   const TimeSeries& data = table.data;
   if (data.empty()) throw InvalidInput(fmt::format("{}: there are no rows", file.string()));
   ExternalLoads loads;
+  for (const auto* sentences : {&xml.repairs(), &xml.ignored()})
+    for (const std::string& sentence : *sentences) loads.notes.push_back(fmt::format("{}: {}", path.string(), sentence));
   if (!named.note.empty()) loads.notes.push_back(fmt::format("{}: <datafile>: {}", path.string(), named.note));
   for (const recording::Repair& repair : table.repairs) loads.notes.push_back(recording::to_string(file, repair));
   loads.start_s = data.time_s()[0];

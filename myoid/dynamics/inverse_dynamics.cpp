@@ -35,9 +35,10 @@ TimeSeries inverse_dynamics(const model::BodyModel& model,
       if (options.loads != nullptr) options.loads->append_wrenches(state, motion.q.time_s()[frame], wrenches);
       if (passive) append_passive_forces(model, state, generalized, wrenches, motion.q.time_s()[frame]);
       Eigen::VectorXd moments =
-          model::inverse_dynamics(model, q, qdot, motion.qddot.values().row(frame).transpose(), wrenches, state);
+          model::inverse_dynamics(model, q, qdot, motion.qddot.values().row(frame).transpose(), wrenches, state) -
+          generalized;
       if (by_speeds) moments = kinematics::rates_of_speeds(model, q).transpose() * moments;
-      tau.row(frame) = (moments - generalized).transpose();
+      tau.row(frame) = moments.transpose();
     }
   });
   std::vector<Channel> channels;

@@ -7,6 +7,7 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/arm/planar_elbow.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -69,6 +70,46 @@ TEST(InverseDynamics, OfTheRajagopalModelIsOpenSimsAlsoWhereAxesShareACoordinate
   // The angles have twelve digits; the second derivative of their spline keeps seven.
   EXPECT_LT(worst(model::kOpenSim452), 1e-5);
   EXPECT_GT(worst({}), 1e-4);
+}
+
+// At rest the generalized forces on OpenSim's speeds are N^T times those on the rates, whatever makes them.
+TEST(InverseDynamics, SpringsAndLigamentsOfABallJointActOnItsSpeeds) {
+  const auto read = [](const model::Compat& compat) {
+    const std::string point = "</socket_parent_frame><location>";
+    const auto path = [&](const char* a, const char* b) {
+      return "<GeometryPath><PathPointSet><objects><PathPoint name=\"a\"><socket_parent_frame>/ground" + point + a +
+             "</location></PathPoint><PathPoint name=\"b\"><socket_parent_frame>/bodyset/b" + point + b +
+             "</location></PathPoint></objects></PathPointSet></GeometryPath>";
+    };
+    return model::parse_osim(
+        "<OpenSimDocument Version=\"40000\"><Model name=\"m\"><BodySet><objects><Body name=\"b\"><mass>2</mass>"
+        "<mass_center>0 -0.2 0.05</mass_center><inertia>0.1 0.1 0.1 0 0 0</inertia></Body></objects></BodySet>"
+        "<JointSet><objects><BallJoint name=\"j\"><socket_parent_frame>/ground</socket_parent_frame>"
+        "<socket_child_frame>/bodyset/b</socket_child_frame><coordinates><Coordinate name=\"x\"/>"
+        "<Coordinate name=\"y\"/><Coordinate name=\"z\"/></coordinates></BallJoint></objects></JointSet>"
+        "<ForceSet><objects><PathSpring name=\"s\"><resting_length>0.05</resting_length><stiffness>300</stiffness>"
+        "<dissipation>0</dissipation>" + path("0.1 0.1 0.2", "0.05 -0.2 0") +
+            "</PathSpring><Ligament name=\"l\"><resting_length>0.1</resting_length><pcsa_force>200</pcsa_force>" +
+            path("-0.1 0.05 0.1", "0 -0.3 0.1") +
+            "</Ligament><SpringGeneralizedForce name=\"g\"><coordinate>y</coordinate><stiffness>7</stiffness>"
+            "<rest_length>0.4</rest_length><viscosity>1</viscosity></SpringGeneralizedForce></objects></ForceSet>"
+            "</Model></OpenSimDocument>",
+        "ball.osim", {.compat = compat});
+  };
+  const model::BodyModel opensim = read(model::kOpenSim452);
+  model::BodyModel exact = read({});
+  const Eigen::Vector3d q(0.4, -0.7, 0.9);
+  const auto at_rest = [&](const model::BodyModel& m) {
+    const std::vector<Channel> channels{{"x", Unit::radian}, {"y", Unit::radian}, {"z", Unit::radian}};
+    const TimeSeries zero(Eigen::VectorXd::Zero(1), channels, Eigen::MatrixXd::Zero(1, 3));
+    const kinematics::JointMotion motion{{Eigen::VectorXd::Zero(1), channels, q.transpose()}, zero, zero};
+    return Eigen::Vector3d(inverse_dynamics(m, motion, {.passive_forces = true}).values().row(0).transpose());
+  };
+  const Eigen::MatrixXd N = kinematics::rates_of_speeds(exact, q);
+  // The spring of a coordinate acts on the speed in OpenSim, on the rate here.
+  const Eigen::Vector3d on_coordinate(0.0, -7.0 * (q[1] - 0.4), 0.0);
+  const Eigen::Vector3d expected = N.transpose() * (at_rest(exact) + on_coordinate) - on_coordinate;
+  EXPECT_LT((at_rest(opensim) - expected).norm(), 1e-10);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "myoid/core/index.h"
 #include "myoid/dynamics/contact_force.h"
+#include "myoid/kinematics/angular_speeds.h"
 
 namespace myoid::dynamics {
 namespace {
@@ -106,15 +107,17 @@ void append_passive_forces(const model::BodyModel& model,
                            double time_s) {
   model::PathWorkspace workspace;
   model::PathResult path;
+  const Eigen::VectorXd speed = kinematics::speeds_of_rates(model, state.q, state.qdot);
+  Eigen::VectorXd on_speeds = Eigen::VectorXd::Zero(state.q.size());
   for (const model::PassiveForce& force : model.passive_forces) {
     if (const auto* limit = std::get_if<model::CoordinateLimitForce>(&force.law)) {
-      generalized[limit->coordinate] += limit_force(*limit, state.q[limit->coordinate], state.qdot[limit->coordinate]);
+      on_speeds[limit->coordinate] += limit_force(*limit, state.q[limit->coordinate], speed[limit->coordinate]);
     } else if (const auto* spring = std::get_if<model::CoordinateSpring>(&force.law)) {
-      generalized[spring->coordinate] -= spring->stiffness * (state.q[spring->coordinate] - spring->rest) +
-                                         spring->viscosity * state.qdot[spring->coordinate];
+      on_speeds[spring->coordinate] -= spring->stiffness * (state.q[spring->coordinate] - spring->rest) +
+                                       spring->viscosity * speed[spring->coordinate];
     } else if (const auto* formula = std::get_if<model::CoordinateFormula>(&force.law)) {
-      const std::array<double, 2> at_state{state.q[formula->coordinate], state.qdot[formula->coordinate]};
-      generalized[formula->coordinate] += formula->force(at_state);
+      const std::array<double, 2> at_state{state.q[formula->coordinate], speed[formula->coordinate]};
+      on_speeds[formula->coordinate] += formula->force(at_state);
     } else if (const auto* bushing = std::get_if<model::Bushing>(&force.law)) {
       append(*bushing, state, wrenches);
     } else if (const auto* point = std::get_if<model::PointSpring>(&force.law)) {
@@ -144,6 +147,7 @@ void append_passive_forces(const model::BodyModel& model,
                      evaluate(ligament->force_length, path.length_m / ligament->rest_length_m).value;
     }
   }
+  generalized += kinematics::on_rates(model, state.q, std::move(on_speeds));
 }
 
 }  // namespace myoid::dynamics

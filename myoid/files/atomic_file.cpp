@@ -16,6 +16,8 @@
 #include <unistd.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/input_log.h"
+#include "myoid/files/result_record.h"
 
 namespace myoid::recording {
 namespace {
@@ -79,6 +81,7 @@ std::filesystem::path behind_links(std::filesystem::path path) {
 
 FileInParts::FileInParts(std::filesystem::path path, Flush flush) : path_(std::move(path)), flush_(flush) {
   if (path_.empty()) throw InvalidInput("the name of the file to write is empty");
+  make_way(path_);
   // A path that neither exists nor is a link is its own end.
   struct stat existing {};
   bool exists = lstat(path_.c_str(), &existing) == 0;
@@ -130,6 +133,13 @@ void FileInParts::finish() {
     if (close(descriptor) != 0) fail("writing failed", errno);
     return;
   }
+  try {
+    record_file(path_, descriptor);
+  } catch (...) {
+    unlink(temporary_.c_str());
+    close(descriptor);
+    throw;
+  }
   if (fchmod(descriptor, permissions_) != 0 || (flush_ == Flush::now && fsync(descriptor) != 0)) cause = errno;
   // A close reports late errors of the disk; the other descriptor keeps the lock.
   if (close(dup(descriptor)) != 0 && cause == 0) cause = errno;
@@ -137,6 +147,7 @@ void FileInParts::finish() {
   if (cause == 0 && replaces_ && flush_ == Flush::later) unlink(target_.c_str());
   if (cause == 0 && rename(temporary_.c_str(), target_.c_str()) != 0) cause = errno;
   if (cause != 0) unlink(temporary_.c_str());
+  if (cause == 0) note_own_file(descriptor);
   close(descriptor);
   if (cause != 0) fail("writing failed", cause);
 }

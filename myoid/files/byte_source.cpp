@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/input_log.h"
 
 namespace myoid::recording {
 
@@ -39,6 +40,7 @@ ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
     if (descriptor_ >= 0) close(descriptor_);
     throw ReadError(path, 0, "cannot be opened: {}", std::strerror(cause));
   }
+  note_input(descriptor_);
   size_ = static_cast<std::uint64_t>(info.st_size);
   if (size_ == 0) {
     close(descriptor_);
@@ -66,6 +68,40 @@ std::span<const std::byte> ByteSource::view(std::uint64_t offset, std::size_t co
     done += static_cast<std::size_t>(got);
   }
   return {buffer_.data(), count};
+}
+
+TextMarks text_marks(ByteSource& source, std::uint64_t most) {
+  constexpr std::uint64_t kPart = std::uint64_t{1} << 18U;
+  TextMarks marks;
+  unsigned char before = 0, second = 0;  // the last byte and the one before it
+  const std::uint64_t end = std::min(most, source.size());
+  for (std::uint64_t at = 0; at < end; at += kPart) {
+    for (const std::byte b : source.view(at, static_cast<std::size_t>(std::min(kPart, end - at)))) {
+      const auto byte = static_cast<unsigned char>(b);
+      if (byte == '\n') {
+        ++marks.line_feeds;
+        if (before == '\r') ++marks.returned;
+      }
+      if (second == 0xEF && before == 0xBF && byte == 0xBD) ++marks.replaced;
+      second = before;
+      before = byte;
+    }
+  }
+  return marks;
+}
+
+void refuse_text_transfer(ByteSource& source, const std::filesystem::path& path) {
+  constexpr std::uint64_t kLeast = 16;
+  const TextMarks marks = text_marks(source, std::uint64_t{1} << 20U);
+  if (marks.all_returned(kLeast))
+    throw ReadError(path, 0,
+                    "a carriage return stands before every line feed of this binary file: it was transferred as text, "
+                    "which shifts its bytes; copy it again in binary mode");
+  if (marks.replaced >= kLeast)
+    throw ReadError(path, 0,
+                    "{} places of this binary file hold the sign for a byte that is no text: it was saved as text, and "
+                    "bytes are lost; copy the original again",
+                    marks.replaced);
 }
 
 std::string read_bytes(const std::filesystem::path& path) {

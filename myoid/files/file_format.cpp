@@ -1,10 +1,12 @@
 #include "myoid/files/file_format.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid::recording {
@@ -134,7 +136,7 @@ const std::vector<FormatEntry>& file_formats() {
        .kind = "a study",
        .holds = "a study, the protocol of a virtual recording, an isolated muscle",
        .reader = "files/toml_table",
-       .writer = "files/toml_text"},
+       .writer = "files/quoted_text"},
   };
   return table;
 }
@@ -173,6 +175,42 @@ std::string written_endings_text() { return listed(written_endings()); }
 bool is_written_ending(std::string_view ending) {
   const auto endings = written_endings();
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+void refuse_foreign_format(const std::filesystem::path& path) {
+  struct Foreign {
+    std::string_view ending, program, next;
+  };
+  static constexpr std::array kForeign{
+      Foreign{".acq", "AcqKnowledge (BIOPAC)", "save it there as text (.txt, with header and channel units)"},
+      Foreign{".adicht", "LabChart", "export it there as text (.txt, with times and block headers)"},
+      Foreign{".mat", "MATLAB", "write its numbers there with writetable as .csv, a column 'time' first"},
+      Foreign{".xlsx", "Excel", "save the sheet there as 'CSV UTF-8' (.csv)"},
+      Foreign{".xls", "Excel", "save the sheet there as 'CSV UTF-8' (.csv)"},
+      Foreign{".ods", "LibreOffice", "save the sheet there as .csv"},
+      Foreign{".mvnx", "Xsens MVN", "export the recording there as .c3d"},
+      Foreign{".mvn", "Xsens MVN", "export the recording there as .c3d"},
+      Foreign{".xdf", "LabStreamingLayer",
+              "load it with pyxdf in Python and write each stream as .csv, with a column 'time'"},
+      Foreign{".hpf", "EMGworks (Delsys)", "export it there as .csv"},
+      Foreign{".shpf", "Trigno Discover (Delsys)", "export it there as .csv or .c3d"},
+      Foreign{".qtm", "Qualisys Track Manager", "export it there as .c3d"},
+      Foreign{".tak", "Motive (OptiTrack)", "export it there as .c3d or .csv"},
+      Foreign{".x1d", "Vicon Nexus", "export the trial there as .c3d"},
+      Foreign{".x2d", "Vicon Nexus", "export the trial there as .c3d"},
+      Foreign{".bvh", "motion capture for animation", "export the markers as .c3d or .trc"},
+      Foreign{".fbx", "motion capture for animation", "export the markers as .c3d or .trc"},
+      Foreign{".h5", "HDF5", "write its numbers as .csv, with a column 'time'"},
+      Foreign{".hdf5", "HDF5", "write its numbers as .csv, with a column 'time'"},
+      Foreign{".vhdr", "BrainVision", "export it as .edf"},
+      Foreign{".poly5", "TMSi", "export it as .edf"},
+      Foreign{".otb+", "OT BioLab", "export it there as .edf or .csv"},
+      Foreign{".zip", "an archive", "unpack it"},
+      Foreign{".gz", "an archive", "unpack it"}};
+  const std::string ending = extension_of(path);
+  const auto found = std::ranges::find(kForeign, ending, &Foreign::ending);
+  if (found != kForeign.end())
+    throw ReadError(path, 0, "files of {} ({}) are not read; {}", found->program, ending, found->next);
 }
 
 std::string wrong_kind(const std::filesystem::path& path,

@@ -68,6 +68,10 @@ struct FormatEntry {
 /// Returns true if Myoid writes recordings under this ending (in small letters).
 [[nodiscard]] bool is_written_ending(std::string_view ending);
 
+/// Throws ReadError for the ending of another program's format that Myoid does not read (.acq, .mat, .xlsx, .mvnx, .xdf
+/// and others), with the way to a format that it reads. Any other name passes.
+void refuse_foreign_format(const std::filesystem::path& path);
+
 /// Returns an empty text if the name's ending belongs to one of the formats `wanted` or to no format; else "this is a
 /// .trc file (markers), but EXPECTED is expected here: were two options mixed up?".
 [[nodiscard]] std::string wrong_kind(const std::filesystem::path& path,

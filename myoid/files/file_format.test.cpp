@@ -78,6 +78,19 @@ TEST(FileFormat, TheListsOfEndingsComeFromTheTable) {
   EXPECT_EQ(endings_text([](const FormatEntry& e) { return e.format == FileFormat::edf; }), ".edf and .bdf");
 }
 
+TEST(FileFormat, OtherProgramsFormatsAreRefusedWithTheNextStep) {
+  for (const char* name : {"a.acq", "a.mat", "b.XLSX", "a.mvnx", "a.xdf", "a.qtm", "a.hpf"}) {
+    try {
+      refuse_foreign_format(name);
+      ADD_FAILURE() << name;
+    } catch (const ReadError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(name), HasSubstr("not read; "))) << name;
+    }
+  }
+  for (const char* name : {"a.csv", "a.c3d", "a", "a.xyz", "acq", "mat.sto"})
+    EXPECT_NO_THROW(refuse_foreign_format(name)) << name;
+}
+
 TEST(WrongKind, NamesTheKindOfTheFileAndTheOneExpected) {
   EXPECT_THAT(wrong_kind("a/push.TRC", {FileFormat::model}, "a model (.osim)"),
               AllOf(HasSubstr(".trc"), HasSubstr("markers"), HasSubstr("a model (.osim)")));

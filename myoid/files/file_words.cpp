@@ -3,38 +3,13 @@
 #include <array>
 
 #include "myoid/files/text_file.h"
+#include "myoid/files/utf8.h"
 
 namespace myoid::recording {
-namespace {
-
-bool valid_utf8(std::string_view text) {
-  std::size_t i = 0;
-  while (i < text.size()) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t more = lead < 0x80                    ? 0
-                             : lead >= 0xC2 && lead <= 0xDF ? 1
-                             : lead >= 0xE0 && lead <= 0xEF ? 2
-                             : lead >= 0xF0 && lead <= 0xF4 ? 3
-                                                            : 9;
-    if (more == 9 || i + more >= text.size() + (more == 0 ? 1 : 0)) return false;
-    for (std::size_t k = 1; k <= more; ++k) {
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return false;
-    }
-    // Overlong forms, surrogates and numbers beyond the last code point are no UTF-8.
-    const auto second = more > 0 ? static_cast<unsigned char>(text[i + 1]) : 0;
-    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
-        (lead == 0xF4 && second > 0x8F))
-      return false;
-    i += more + 1;
-  }
-  return true;
-}
-
-}  // namespace
 
 std::string to_utf8(std::string_view bytes) {
   std::string text;
-  const bool utf8 = valid_utf8(bytes);
+  const bool utf8 = is_utf8(bytes);
   for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte == 0x7F) {
@@ -57,6 +32,7 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
   for (const char c : text) {
     if (c != ' ' && c != '\0') word += small_letter(c);
   }
+  constexpr double kFootPound = 0.3048 * 4.4482216152605;  // foot times pound-force [N m]
   struct Word {
     std::string_view text;
     ScaledUnit unit;
@@ -72,6 +48,15 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
       Word{"n-mm", {Unit::newton_meter, 1e-3}},
       Word{"n*m", {Unit::newton_meter, 1.0}},
       Word{"n*mm", {Unit::newton_meter, 1e-3}},
+      Word{"n.m", {Unit::newton_meter, 1.0}},
+      Word{"newton-meters", {Unit::newton_meter, 1.0}},
+      Word{"ft-lb", {Unit::newton_meter, kFootPound}},
+      Word{"ft-lbs", {Unit::newton_meter, kFootPound}},
+      Word{"ft.lbs", {Unit::newton_meter, kFootPound}},
+      Word{"ftlbs", {Unit::newton_meter, kFootPound}},
+      Word{"ft*lbf", {Unit::newton_meter, kFootPound}},
+      Word{"in-lb", {Unit::newton_meter, kFootPound / 12.0}},
+      Word{"in-lbs", {Unit::newton_meter, kFootPound / 12.0}},
       Word{"n/m", {Unit::newton_per_meter, 1.0}},
       Word{"ncm", {Unit::newton_meter, 1e-2}},
       Word{"g", {Unit::meter_per_second2, kStandardGravity}},
@@ -81,7 +66,11 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
       Word{"mm/s2", {Unit::meter_per_second2, 1e-3}},
       Word{"mm/s^2", {Unit::meter_per_second2, 1e-3}},
       Word{"rad/s2", {Unit::radian_per_second2, 1.0}},
+      Word{"m/s²", {Unit::meter_per_second2, 1.0}},
       Word{"deg/sec", {Unit::radian_per_second, kDegree}},
+      Word{"deg/s", {Unit::radian_per_second, kDegree}},
+      Word{"degrees/sec", {Unit::radian_per_second, kDegree}},
+      Word{"degrees/s", {Unit::radian_per_second, kDegree}},
       Word{"°/s", {Unit::radian_per_second, kDegree}},
       Word{"dps", {Unit::radian_per_second, kDegree}},
       Word{"v", {Unit::volt, 1.0}},
@@ -89,6 +78,10 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
       Word{"uv", {Unit::volt, 1e-6}},
       Word{"millivolt", {Unit::volt, 1e-3}},
       Word{"microvolt", {Unit::volt, 1e-6}},
+      Word{"msec", {Unit::second, 1e-3}},
+      Word{"msecs", {Unit::second, 1e-3}},
+      Word{"millisec", {Unit::second, 1e-3}},
+      Word{"secs", {Unit::second, 1.0}},
       Word{"inches", {Unit::meter, 0.0254}},
       Word{"inch", {Unit::meter, 0.0254}},
   };

@@ -18,6 +18,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/result_record.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid::recording {
@@ -148,7 +149,7 @@ bool holds_content(const fs::path& folder, std::string_view unless_only) {
   std::error_code ignored;
   const auto counts = [&](const fs::directory_entry& entry) {
     const fs::path name = entry.path().filename();
-    return name != unless_only && name != FolderLock::kFile && !is_temporary(name);
+    return name != unless_only && name != FolderLock::kFile && name != kRecordFile && !is_temporary(name);
   };
   return std::any_of(fs::directory_iterator(folder, ignored), fs::directory_iterator(), counts);
 }

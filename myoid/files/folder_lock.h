@@ -55,8 +55,8 @@ class FolderLock {
   bool finished_ = false;
 };
 
-/// Returns true if the folder holds anything but locks, half-written files of killed processes, and
-/// an entry named `unless_only`.
+/// Returns true if the folder holds anything but locks, lists of results, half-written files of killed
+/// processes, and an entry named `unless_only`.
 [[nodiscard]] bool holds_content(const std::filesystem::path& folder, std::string_view unless_only = "");
 
 }  // namespace myoid::recording

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/files/text_file.h"
+#include "myoid/files/toml_table.h"
 
 namespace myoid::recording {
 namespace {
@@ -89,6 +91,30 @@ NamedFile find_named_file(const fs::path& folder, std::string_view name) {
     parts.erase(parts.begin());
   }
   return {named, false};
+}
+
+std::string missing_file(const fs::path& folder, std::string_view name) {
+  constexpr std::size_t kListed = 5, kMostEntries = 2000;
+  const std::string wanted = last_part(name);
+  const std::string ending = fs::path(wanted).extension().string();
+  std::vector<std::string> alike;
+  std::error_code ignored;
+  std::size_t seen = 0;
+  fs::directory_iterator entry(folder.empty() ? "." : folder, ignored);
+  for (; entry != fs::directory_iterator() && seen < kMostEntries; entry.increment(ignored), ++seen) {
+    const fs::path file = entry->path().filename();
+    if (equal_ignoring_case(file.extension().string(), ending) && is_file(entry->path())) alike.push_back(file.string());
+  }
+  std::sort(alike.begin(), alike.end());
+  std::string text = "there is no such file";
+  if (const auto near = nearest_word(wanted, alike)) text += fmt::format(" (did you mean '{}'?)", *near);
+  if (!alike.empty()) {
+    const std::size_t listed = std::min(kListed, alike.size());
+    text += fmt::format("; in its folder {} {}{}", alike.size() == 1 ? "is" : "are",
+                        fmt::join(alike.begin(), alike.begin() + static_cast<std::ptrdiff_t>(listed), ", "),
+                        listed < alike.size() ? fmt::format(" and {} more", alike.size() - listed) : "");
+  }
+  return text + "; a file of that name beside the document or one folder up would be taken";
 }
 
 }  // namespace myoid::recording

@@ -19,6 +19,10 @@ struct NamedFile {
 /// folder up. Case is ignored if only one file fits. Does not throw for missing files.
 [[nodiscard]] NamedFile find_named_file(const std::filesystem::path& folder, std::string_view name);
 
+/// Says that a file which a document in `folder` names is missing: "there is no such file; beside it are a.mot, b.mot
+/// (did you mean 'a.mot'?)", with the files of the same ending, and where else a file of that name would be found.
+[[nodiscard]] std::string missing_file(const std::filesystem::path& folder, std::string_view name);
+
 /// Returns the name with / between folders, relative to `folder` unless it is absolute on this system.
 [[nodiscard]] std::filesystem::path native_path(const std::filesystem::path& folder, std::string_view name);
 

@@ -1,9 +1,14 @@
 #include "myoid/files/result_folder.h"
 
+#include <algorithm>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
@@ -21,13 +26,23 @@ std::string_view command_word(std::string_view command_line) {
 }
 
 void remove_empty(const std::vector<fs::path>& folders) {
-  std::error_code ignored;
-  for (const fs::path& folder : folders) {
-    if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
-  }
+  for (const fs::path& folder : folders)
+    if (rmdir(folder.c_str()) != 0) return;
 }
 
 }  // namespace
+
+bool is_of_earlier_version(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / kRecordFile, ignored)) return false;
+  const auto says = [&](const char* name, std::initializer_list<std::string_view> words) {
+    std::ifstream stream(folder / name);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    return std::ranges::all_of(words, [&](std::string_view word) { return text.find(word) != std::string::npos; });
+  };
+  return says("run.json", {"\"program\": \"myoid\""}) || says("parameters.json", {"\"program\": \"myoid\""}) ||
+         says("simulation.json", {"\"program\": \"myoid\""}) || says("outcome.json", {"\"outcome\"", "\"build\""});
+}
 
 void ResultFolder::make() {
   if (path_.empty()) throw InvalidInput("--out is empty; name the folder for the results");
@@ -47,6 +62,19 @@ void ResultFolder::make() {
 
 ResultFolder::ResultFolder(fs::path folder, const std::string& command, bool overwrite, std::string_view unless_only)
     : path_(std::move(folder)) {
+  lock(command, std::string(command_word(command)), overwrite, false, unless_only);
+}
+
+ResultFolder::ResultFolder(fs::path folder, const std::string& command, std::string word, bool overwrite)
+    : path_(std::move(folder)) {
+  lock(command, word, overwrite, true, "");
+}
+
+void ResultFolder::lock(const std::string& command,
+                        const std::string& word,
+                        bool overwrite,
+                        bool continues,
+                        std::string_view unless_only) {
   make();
   try {
     lock_ = std::make_unique<FolderLock>(path_);
@@ -55,13 +83,16 @@ ResultFolder::ResultFolder(fs::path folder, const std::string& command, bool ove
     throw;
   }
   const std::optional<FolderOwner>& dead = lock_->left_behind();
+  record_ = std::make_unique<RecordedFolder>(path_, word,
+                                             RecordTerms{.earlier_version = is_of_earlier_version(path_), .alone = true});
+  const bool own = record_->is_signed_by(word);
   const bool empty = !holds_content(path_, unless_only);
   const bool unfinished = dead && dead->from_empty && command_word(dead->command) == command_word(command);
-  if (!overwrite && !empty && !unfinished) {
+  if (!overwrite && !empty && !unfinished && !(continues && own)) {
     throw InvalidInput("the folder {} is not empty; give --overwrite to write into it, or another --out",
                        path_.string());
   }
-  const std::size_t swept = sweep_temporaries(path_);
+  const std::size_t swept = dead || record_->is_signed() ? sweep_temporaries(path_) : 0;
   if (dead) {
     note_ = fmt::format("note: the folder {} is taken over from a command that did not finish ({}){}", path_.string(),
                         dead->sentence(), swept > 0 ? fmt::format("; {} half-written files are removed", swept) : "");
@@ -69,16 +100,15 @@ ResultFolder::ResultFolder(fs::path folder, const std::string& command, bool ove
   lock_->sign(command, empty || unfinished);
 }
 
-ResultFolder::ResultFolder(fs::path folder, const std::string& command)
-    : path_(std::move(folder)), lock_(std::make_unique<FolderLock>(path_)) {
-  lock_->sign(command, false);
-}
-
 ResultFolder::~ResultFolder() {
+  record_.reset();
   lock_.reset();  // its file goes first, so that the folder can be empty
   remove_empty(made_);
 }
 
-void ResultFolder::finish() { lock_->finish(); }
+void ResultFolder::finish() {
+  record_->finish();
+  lock_->finish();
+}
 
 }  // namespace myoid::recording

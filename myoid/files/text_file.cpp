@@ -18,6 +18,8 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/byte_source.h"
+#include "myoid/files/file_format.h"
+#include "myoid/files/input_log.h"
 
 namespace myoid::recording {
 namespace {
@@ -81,8 +83,10 @@ std::string read_text_file(const std::filesystem::path& path) {
   // A pipe ends; a device may not end.
   std::error_code error;
   if (!std::filesystem::is_fifo(path, error)) require_regular_file(path);
+  refuse_foreign_format(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw ReadError(path, 0, "cannot be opened: {}", std::strerror(errno));
+  note_input(fileno(file.get()));
   std::string text;
   const auto size = std::filesystem::file_size(path, error);
   char buffer[1 << 16];
@@ -126,16 +130,25 @@ std::vector<std::string_view> split_lines(std::string_view text) {
 bool ends_with_line(std::string_view text) { return text.empty() || text.back() == '\n' || text.back() == '\r'; }
 
 bool looks_cut(std::string_view last, std::string_view before) {
-  const auto decimals = [](std::string_view line) {
-    line = trim(line);
+  struct End {
     std::size_t digits = 0;
-    while (digits < line.size() && line[line.size() - 1 - digits] >= '0' && line[line.size() - 1 - digits] <= '9')
-      ++digits;
-    const bool fraction =
-        digits < line.size() && (line[line.size() - 1 - digits] == '.' || line[line.size() - 1 - digits] == ',');
-    return fraction ? digits : 0;
+    char sign = ' ';  ///< '.' before decimals, 'e' before an exponent, else a blank.
   };
-  return decimals(last) < decimals(before);
+  const auto end_of = [](std::string_view line) {
+    line = trim(line);
+    End end;
+    while (end.digits < line.size() && line[line.size() - 1 - end.digits] >= '0' &&
+           line[line.size() - 1 - end.digits] <= '9')
+      ++end.digits;
+    line.remove_suffix(end.digits);
+    const bool is_signed = line.ends_with('-') || line.ends_with('+');
+    if (line.ends_with('.') || line.ends_with(',')) end.sign = '.';
+    if (is_signed) line.remove_suffix(1);
+    if (line.ends_with('e') || line.ends_with('E')) end.sign = 'e';
+    return end;
+  };
+  const End a = end_of(last), b = end_of(before);
+  return a.digits < b.digits || (b.sign != ' ' && a.sign == ' ') || (b.sign == 'e' && a.sign != 'e');
 }
 
 std::string_view trim(std::string_view text) {

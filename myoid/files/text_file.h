@@ -35,8 +35,8 @@ void note(std::vector<Repair>& repairs, fmt::format_string<Args...> message, Arg
 /// Returns false if the text ends in the middle of a line: its last number may be cut off.
 [[nodiscard]] bool ends_with_line(std::string_view text);
 
-/// Returns true if the last line of a text, which has no line end, seems cut: its last number has
-/// fewer decimals than that of the line before.
+/// Returns true if the last line of a text, which has no line end, seems cut: its last number ends in fewer digits than
+/// that of a line before, or lacks the decimals or the exponent of that number.
 [[nodiscard]] bool looks_cut(std::string_view last, std::string_view before);
 
 /// Notes of readers that leave out or keep a last row without a line end.

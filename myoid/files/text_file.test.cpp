@@ -81,6 +81,12 @@ TEST(LooksCut, ComparesTheDecimalsOfTheLastNumbers) {
   EXPECT_FALSE(looks_cut("", ""));
 }
 
+TEST(LooksCut, ComparesExponentsToo) {
+  EXPECT_TRUE(looks_cut("0.2\t1.25e-0", "0.1\t1.25e-03"));
+  EXPECT_TRUE(looks_cut("0.2\t1.25", "0.1\t1.25e-03"));
+  EXPECT_FALSE(looks_cut("0.2\t1.2e-03", "0.1\t1.25e-03"));
+}
+
 TEST(TextFile, ADeviceThatNeverEndsIsRefused) { EXPECT_THROW((void)read_text_file("/dev/zero"), ReadError); }
 
 }  // namespace

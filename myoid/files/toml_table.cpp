@@ -85,6 +85,36 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) {
   return result;
 }
 
+std::optional<std::vector<TomlTable::NumbersOrText>> TomlTable::numbers_or_texts(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  constexpr std::string_view kExpected = "expected a list of lists of numbers, and of texts";
+  const auto numbers_of = [&](const toml::array& list) {
+    NumbersOrText found;
+    for (const toml::node& element : list) {
+      const auto value = element.value<double>();
+      if (!value || !element.is_number() || !std::isfinite(*value)) fail(key, std::string(kExpected));
+      found.numbers.push_back(*value);
+    }
+    return found;
+  };
+  if (const auto text = node->value<std::string>()) return std::vector<NumbersOrText>{{.numbers = {}, .text = *text}};
+  const auto* array = node->as_array();
+  if (array == nullptr) fail(key, std::string(kExpected));
+  if (!array->empty() && array->front().is_number()) return std::vector<NumbersOrText>{numbers_of(*array)};
+  std::vector<NumbersOrText> result;
+  for (const toml::node& element : *array) {
+    if (const auto* inner = element.as_array()) {
+      result.push_back(numbers_of(*inner));
+    } else if (const auto text = element.value<std::string>()) {
+      result.push_back({.numbers = {}, .text = *text});
+    } else {
+      fail(key, std::string(kExpected));
+    }
+  }
+  return result;
+}
+
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;

@@ -32,6 +32,13 @@ class TomlTable {
   /// Returns a string or an array of strings as a list.
   [[nodiscard]] std::optional<std::vector<std::string>> texts(std::string_view key);
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key);
+  /// An element of a list: numbers in brackets, or a text.
+  struct NumbersOrText {
+    std::vector<double> numbers;
+    std::optional<std::string> text;
+  };
+  /// Returns a list of lists of numbers and of texts; a text alone, and two numbers alone, are a list of one element.
+  [[nodiscard]] std::optional<std::vector<NumbersOrText>> numbers_or_texts(std::string_view key);
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key);
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);  ///< [[key]]
   [[nodiscard]] std::vector<std::string> keys() const;

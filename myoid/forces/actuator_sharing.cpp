@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/decompositions.h"
 
 namespace myoid::forces {
 namespace {
@@ -165,6 +166,96 @@ Eigen::VectorXd unbounded(const Dual& dual) {
   return h.selfadjointView<Eigen::Lower>().ldlt().solve(dual.b());
 }
 
+/// The controls of least sum |x|^q for rising q up to p, each by Newton's method from the controls before. A step is the
+/// problem of exponent 2 with weights |x|^(q-2) and targets x (q-2)/(q-1), which the dual solves.
+class RisingExponent {
+ public:
+  RisingExponent(const ActuatorProblem& problem, const Dual& scaled, Eigen::VectorXd start)
+      : problem_(problem), scaled_(scaled), x_(std::move(start)) {}
+
+  /// Leaves the controls in x().
+  void run() {
+    constexpr double kRise = 1.5;
+    constexpr int kMostSteps = 60;
+    for (double q = std::min(problem_.exponent, 2.0 * kRise);; q = std::min(problem_.exponent, q * kRise)) {
+      for (int step = 0; step < kMostSteps && take_step(q); ++step) ++steps_;
+      if (q >= problem_.exponent) return;
+    }
+  }
+  [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
+  /// Returns the multipliers of the scaled rows that agree best with the slopes of the free controls.
+  [[nodiscard]] Eigen::VectorXd lambda() const {
+    const double p = problem_.exponent, size = std::max(x_.cwiseAbs().maxCoeff(), 1e-300);
+    Eigen::MatrixXd rows = scaled_.a().transpose();
+    Eigen::VectorXd slope(x_.size());
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      slope[i] = std::copysign(std::pow(std::abs(x_[i]) / size, p - 1.0), x_[i]);
+      const bool is_free = x_[i] > problem_.lower[i] && x_[i] < problem_.upper[i];
+      const double weight = is_free ? 1.0 / std::max(std::abs(slope[i]), 1e-3) : 0.0;
+      slope[i] *= weight;
+      rows.row(i) *= weight;
+    }
+    return math::shortest_solution(rows, slope) * (p * std::pow(size, p - 1.0));
+  }
+  [[nodiscard]] int steps() const { return steps_; }
+
+ private:
+  /// Returns false if the controls are optimal or cannot be improved.
+  bool take_step(double q) {
+    constexpr double kLeastWeight = 1e-14;  // of the greatest: controls below it cost nothing
+    const double size = std::max(x_.cwiseAbs().maxCoeff(), 1e-300);
+    const Eigen::VectorXd weight = (x_.cwiseAbs() / size).array().pow(q - 2.0).max(kLeastWeight);
+    const Eigen::VectorXd target = x_ * ((q - 2.0) / (q - 1.0));
+    const Eigen::VectorXd root = weight.cwiseSqrt();
+    Eigen::MatrixXd rows = scaled_.a() * root.cwiseInverse().asDiagonal();
+    Eigen::VectorXd rest = scaled_.b() - scaled_.a() * target;
+    normalize(rows, rest);
+    Dual step(std::move(rows), std::move(rest), root.cwiseProduct(problem_.lower - target),
+              root.cwiseProduct(problem_.upper - target), 2.0);
+    (void)maximize(step, unbounded(step));
+    Eigen::VectorXd next = (target + step.x().cwiseQuotient(root)).cwiseMax(problem_.lower).cwiseMin(problem_.upper);
+    constexpr int kRefinements = 3;
+    for (int k = 0; k < kRefinements; ++k) balance(root, next);
+    const Eigen::VectorXd way = next - x_;
+    const auto cost = [&](const Eigen::VectorXd& x) { return (x.cwiseAbs() / size).array().pow(q).sum(); };
+    const double before = cost(x_);
+    constexpr double kRoundOff = 1e-14;
+    for (double share = 1.0; share > 1e-6; share *= 0.5) {
+      const Eigen::VectorXd tried = x_ + share * way;
+      if (cost(tried) > before * (1.0 + kRoundOff)) continue;
+      x_ = share == 1.0 ? next : tried;
+      return way.cwiseAbs().maxCoeff() > 1e-13 * size;
+    }
+    return false;
+  }
+
+  /// Removes the rest of the rows that rounding leaves: by the least change of the controls between their bounds, each
+  /// weighed by its root.
+  void balance(const Eigen::VectorXd& root, Eigen::VectorXd& x) const {
+    Eigen::VectorXd rest = scaled_.b() - scaled_.a() * x;
+    Eigen::MatrixXd rows = scaled_.a() * root.cwiseInverse().asDiagonal();
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      if (x[i] <= problem_.lower[i] || x[i] >= problem_.upper[i]) rows.col(i).setZero();
+    normalize(rows, rest);
+    const Eigen::VectorXd change = math::shortest_solution(rows, rest).cwiseQuotient(root);
+    x = (x + change).cwiseMax(problem_.lower).cwiseMin(problem_.upper);
+  }
+
+  static void normalize(Eigen::MatrixXd& rows, Eigen::VectorXd& right) {
+    for (Eigen::Index k = 0; k < right.size(); ++k) {
+      const double length = rows.row(k).norm();
+      if (!(length > 0.0)) continue;
+      rows.row(k) /= length;
+      right[k] /= length;
+    }
+  }
+
+  const ActuatorProblem& problem_;
+  const Dual& scaled_;
+  Eigen::VectorXd x_;
+  int steps_ = 0;
+};
+
 /// Finds the nearest controls if the actuators cannot produce the required torques: costly extra
 /// actuators produce the rest.
 void take_nearest(const ActuatorProblem& problem,
@@ -218,7 +309,24 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
   solution.iterations = best.iterations;
   solution.kkt_residual = certificate(problem, solution);
   solution.solved = best.balanced && solution.kkt_residual <= 1e-9;
-  if (!best.balanced) take_nearest(problem, dual, scale, solution);
+  if (best.balanced || problem.exponent <= 2.0) {
+    if (!best.balanced) take_nearest(problem, dual, scale, solution);
+    return solution;
+  }
+  // Whether the actuators can produce b does not depend on the exponent.
+  Dual squares(dual.a(), dual.b(), problem.lower, problem.upper, 2.0);
+  const Maximum least = maximize(squares, unbounded(squares));
+  if (!least.balanced) {
+    take_nearest(problem, dual, scale, solution);
+    return solution;
+  }
+  RisingExponent rising(problem, dual, squares.x());
+  rising.run();
+  solution.control = rising.x();
+  solution.multiplier = scale.cwiseProduct(rising.lambda());
+  solution.iterations += least.iterations + rising.steps();
+  solution.kkt_residual = certificate(problem, solution);
+  solution.solved = solution.kkt_residual <= 1e-9;
   return solution;
 }
 

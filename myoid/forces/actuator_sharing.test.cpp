@@ -23,6 +23,46 @@ TEST(ActuatorSharing, TwoActuatorsShareByTheLawOfLagrange) {
   EXPECT_NEAR(10.0 * s.control[0] + 40.0 * s.control[1], 20.0, 1e-11);
 }
 
+TEST(ActuatorSharing, LargeExponentsShareByTheLawOfLagrangeToo) {
+  for (const double p : {8.0, 20.0, 50.0, 100.0}) {
+    // Two joints; the second needs a hundredth of the first's effort.
+    ActuatorProblem problem{Eigen::MatrixXd::Zero(2, 4), Eigen::Vector2d(20.0, 0.2),
+                            Eigen::VectorXd::Constant(4, 1e-4), Eigen::VectorXd::Ones(4), p};
+    problem.forces.row(0) << 10.0, 40.0, 0.0, 0.0;
+    problem.forces.row(1) << 0.0, 0.0, 10.0, 40.0;
+    const ActuatorSolution s = solve_actuators(problem);
+    EXPECT_TRUE(s.solved) << p << " " << s.kkt_residual;
+    EXPECT_TRUE(s.feasible) << p;
+    // x_i ~ a_i^(1/(p-1)), and the sum of a_i x_i is the torque.
+    const double ratio = std::pow(4.0, 1.0 / (p - 1.0));
+    EXPECT_NEAR(s.control[0], 20.0 / (10.0 + 40.0 * ratio), 1e-9) << p;
+    EXPECT_NEAR(s.control[1], ratio * s.control[0], 1e-9) << p;
+    EXPECT_NEAR(10.0 * s.control[2] + 40.0 * s.control[3], 0.2, 1e-12) << p;
+  }
+}
+
+TEST(ActuatorSharing, NoExponentMakesAPossibleTorqueImpossible) {
+  math::Random random(11, 1);
+  for (const double p : {2.5, 6.0, 15.0, 40.0, 100.0}) {
+    for (int trial = 0; trial < 10; ++trial) {
+      const Eigen::Index m = 2 + trial % 5, n = m + 6;
+      ActuatorProblem problem{Eigen::MatrixXd(m, n), Eigen::VectorXd(m), Eigen::VectorXd::Constant(n, 0.01),
+                              Eigen::VectorXd::Ones(n), p};
+      for (Eigen::Index k = 0; k < m; ++k)
+        for (Eigen::Index i = 0; i < n; ++i) problem.forces(k, i) = 30.0 * random.normal();
+      Eigen::VectorXd inside(n);
+      for (Eigen::Index i = 0; i < n; ++i) inside[i] = 0.05 + 0.9 * random.uniform();
+      problem.required = problem.forces * inside;
+      const ActuatorSolution s = solve_actuators(problem);
+      EXPECT_TRUE(s.feasible) << p << " " << trial;
+      EXPECT_TRUE(s.solved) << p << " " << trial << " " << s.kkt_residual;
+      EXPECT_NEAR((problem.required - problem.forces * s.control).cwiseAbs().maxCoeff(), 0.0, 1e-9) << p;
+      const auto cost = [&](const Eigen::VectorXd& x) { return x.cwiseAbs().array().pow(p).sum(); };
+      EXPECT_LE(cost(s.control), cost(inside) * (1.0 + 1e-9)) << p << " " << trial;
+    }
+  }
+}
+
 TEST(ActuatorSharing, BoundsHoldAndTheRestMakesUpForThem) {
   ActuatorProblem problem{Eigen::RowVector3d(100.0, 10.0, 1.0), Eigen::VectorXd::Constant(1, 106.0),
                           Eigen::Vector3d(0.01, 0.01, -kInfinity), Eigen::Vector3d(1.0, 0.5, kInfinity), 2.0};

@@ -8,7 +8,6 @@
 #include "myoid/core/index.h"
 #include "myoid/core/parallel.h"
 #include "myoid/dynamics/passive_forces.h"
-#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
 
 namespace myoid::forces {
@@ -24,7 +23,6 @@ DrivenState DrivenFrame::at_state(const Eigen::VectorXd& q,
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(q.size());
   if (loads_ != nullptr) loads_->append_wrenches(state, time_s, result.wrenches);
   dynamics::append_passive_forces(model_, state, tau, result.wrenches, time_s);
-  tau = kinematics::on_rates(model_, result.q, std::move(tau));
   // Actuators accelerate by their moment arms and load joints by their wrenches: in OpenSim's paths
   // these differ slightly.
   const std::vector<model::BodyWrench> others = result.wrenches;

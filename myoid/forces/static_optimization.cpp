@@ -51,8 +51,7 @@ class SharedFrame {
     Eigen::VectorXd passive = Eigen::VectorXd::Zero(q.size());
     if (options_.loads != nullptr) options_.loads->append_wrenches(state_, time_s, wrenches_);
     if (!model_.passive_forces.empty()) dynamics::append_passive_forces(model_, state_, passive, wrenches_, time_s);
-    const Eigen::VectorXd required =
-        model::inverse_dynamics(model_, q, u, udot, wrenches_, state_) - kinematics::on_rates(model_, q, passive);
+    const Eigen::VectorXd required = model::inverse_dynamics(model_, q, u, udot, wrenches_, state_) - passive;
     const auto n = static_cast<Eigen::Index>(actuators_.size());
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(q.size(), n);
     strength.resize(n);

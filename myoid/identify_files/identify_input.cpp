@@ -10,6 +10,7 @@
 #include "myoid/checks/trial_plausibility.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/joint_capacity.h"
+#include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identify_files/torque_sign.h"
 #include "myoid/math/decompositions.h"
@@ -381,8 +382,9 @@ class TrialCheck {
                                           .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
                                           .lever_m = 1.0,
                                           .body_mass_kg = 100.0};
-      const std::string text = too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
-                                               usual_peak(torque(j)), joint.greatest_nm(), "the torque");
+      const std::string text =
+          dynamics::too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
+                                    dynamics::usual_peak(torque(j)), joint.greatest_nm(), "the torque");
       if (!text.empty()) fail(files_.torques, text);
     }
   }
@@ -454,7 +456,7 @@ class TrialCheck {
     for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
       const Eigen::VectorXd here = torque(j)(rows);
       const double usual = median_of(here);
-      if (std::abs(usual) < kRestingTorque * usual_peak(torque(j))) continue;
+      if (std::abs(usual) < kRestingTorque * dynamics::usual_peak(torque(j))) continue;
       remark(
           files_.torques,
           fmt::format("{:.3g} to {:.3g} N m{} while all EMG is below {:g}, expected about 0: torque without activity "

@@ -6,15 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
-#include "myoid/core/units.h"
 #include "myoid/identify_files/joint_of_arms.h"
 #include "myoid/intake/emg_cover.h"
 #include "myoid/intake/limits.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/math/spline.h"
 #include "myoid/math/statistics.h"
 #include "myoid/recording/recording.h"
-#include "myoid/signals/motion_jumps.h"
 #include "myoid/signals/resample.h"
 #include "myoid/tables/series_file.h"
 #include "myoid/tables/storage_reader.h"
@@ -93,7 +93,7 @@ class TrialReader {
     trial.name = trial_label(sources_.lengths, number);
     trial.time_s = clock(files, {forces, motion});
     trial.length_m = columns_of(files.lengths, trial.time_s);
-    say_jumps(files.lengths, muscle_series(files.lengths), Unit::meter);
+    say_implausible(files.lengths, muscle_series(files.lengths), Unit::meter);
     trial.velocity_mps = files.velocities.empty() ? rates_of(muscle_series(files.lengths), trial.time_s)
                                                   : columns_of(files.velocities, trial.time_s);
     trial.activation = selected(files.activations, &MuscleSetup::emg_channel);
@@ -118,13 +118,12 @@ class TrialReader {
     return read_.emplace(path, std::move(file.data)).first->second;
   }
 
-  /// Remarks on moments that are too fast and too short to be a movement.
-  void say_jumps(const std::string& path, const TimeSeries& series, Unit unit) {
+  /// Remarks on what no movement does.
+  void say_implausible(const std::string& path, const TimeSeries& series, Unit unit) {
     std::vector<Channel> channels = series.channels();
     for (Channel& channel : channels) channel.unit = unit;
-    for (const signals::MotionJump& jump :
-         signals::find_motion_jumps({series.time_s(), std::move(channels), series.values()}))
-      remark_(fmt::format("{}: {}", path, jump.sentence()));
+    for (const Remark& found : kinematics::implausible({series.time_s(), std::move(channels), series.values()}))
+      remark_(fmt::format("{}: {}", path, sentence(found)));
   }
 
   /// Returns the columns that a name of the muscles (`name`, `emg_channel`) names, each once.
@@ -271,7 +270,7 @@ class TrialReader {
   /// Adds angle, speed and acceleration of every joint, by the whole file's quintic spline.
   void add_motion(const std::string& path, TrialData& trial) {
     const TimeSeries& angles = series(path);
-    say_jumps(path, angles, Unit::radian);
+    say_implausible(path, angles, Unit::radian);
     const auto column = [&](const std::string& joint) {
       const auto found = angles.find(joint);
       if (!found && !(sources_.coordinates.empty() && angles.channel_count() == 1)) {
@@ -303,12 +302,7 @@ class TrialReader {
     for (const recording::Repair& repair : file.repairs) remark_(recording::to_string(path, repair));
     TimeSeries angles = recording::to_si(file, [](const std::string&) { return true; });
     require_finite(angles, path);
-    constexpr double kTwoTurns_rad = 4.0 * kPi;
-    if (angles.values().cwiseAbs().maxCoeff() > kTwoTurns_rad) {
-      throw ReadError(path, 0,
-                      fmt::format("an angle reaches {:.4g} rad: these are degrees; write inDegrees=yes into the header",
-                                  angles.values().cwiseAbs().maxCoeff()));
-    }
+    if (const std::string doubt = check_angle_unit(path, file.in_degrees, angles); !doubt.empty()) remark_(doubt);
     return angles;
   }
 

@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 
 #include "myoid/intake/limits.h"
+#include "myoid/kinematics/motion_plausibility.h"
 
 namespace myoid {
 
 std::string check_clock(const std::filesystem::path& path, const Eigen::VectorXd& time_s) {
-  const Eigen::Index n = time_s.size();
+  if (const std::string slow = kinematics::slow_clock(time_s); !slow.empty()) throw ReadError(path, 0, slow);
   const signals::ClockGaps gaps = signals::find_clock_gaps(time_s);
-  if (gaps.usual_interval_s > 1.0 / kLimits.slowest_clock_hz) {
-    throw ReadError(path, 0,
-                    fmt::format("{} samples from {:.6g} to {:.6g}, about one per {:.3g} s: is the time in ms or in "
-                                "frames? expected seconds and {} Hz or more",
-                                n, time_s[0], time_s[n - 1], gaps.usual_interval_s, kLimits.slowest_clock_hz));
-  }
   if (gaps.longest_s() > kLongestGap_s) {
     throw ClockPause(path,
                      fmt::format("{} in its clock; a pause of more than {} s cannot be bridged: make two trials of it, "

@@ -6,6 +6,9 @@
 
 #include "myoid/core/units.h"
 #include "myoid/dynamics/ground_support.h"
+#include "myoid/forces/sharing_plausibility.h"
+#include "myoid/kinematics/motion_plausibility.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/signals/motion_jumps.h"
 
@@ -38,7 +41,20 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
                   fmt::format("an error above {:g} kg (grams?); a warning below {:g} kg, and above {:g} times "
                               "`[subject] mass_kg`; so below, of a model that stands (pounds?). A model of a part of "
                               "the body is lighter than the person",
-                              l.heaviest_kg, l.lightest_kg, l.heavier_than)});
+                              model::kModelLimits.heaviest_kg, model::kModelLimits.lightest_kg, l.heavier_than)});
+  rows.push_back({"gravity of the model", "error or warning",
+                  fmt::format("an error above {:g} m/s², a warning below {:g} m/s² unless it is 0",
+                              model::kModelLimits.strongest_mps2, model::kModelLimits.weakest_mps2)});
+  rows.push_back({"numbers of the model's muscles", "warning",
+                  fmt::format("an optimal fiber length outside {:g} to {:g} m, a tendon slack length below 0 or above "
+                              "{:g} m, a force above {:g} N: mm, cm?",
+                              model::kModelLimits.shortest_fiber_m, model::kModelLimits.longest_fiber_m,
+                              model::kModelLimits.longest_tendon_m, model::kModelLimits.strongest_muscle_n)});
+  rows.push_back({"body mass or height that a C3D file states", "warning or note",
+                  fmt::format("a warning if `PROCESSING:BODYMASS` differs by more than {:g} % from `[subject] mass_kg` "
+                              "or between two files, or `PROCESSING:HEIGHT` by more than {:g} % between two files: two "
+                              "persons? A note if the study gives no mass",
+                              percent(l.other_mass), percent(l.other_height))});
   rows.push_back({"lengths of the model", "error",
                   fmt::format("two neighboring segments have their origins more than {:g} m apart: mm, cm? No command "
                               "that computes takes such a model",
@@ -66,8 +82,9 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
 }
 
 void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
-  rows.push_back(
-      {"a clock that is not in seconds", "error", fmt::format("fewer than {:g} samples a second", l.slowest_clock_hz)});
+  rows.push_back({"a clock that is not in seconds", "error",
+                  fmt::format("fewer than {:g} samples a second; of a motion also more than {:g}",
+                              kinematics::kMotionLimits.slowest_hz, kinematics::kMotionLimits.fastest_hz)});
   rows.push_back({"a pause of a clock", "warning; error if no part lasts a second",
                   fmt::format("longer than {:g} s: the trial is cut there. With `[ik] calibrate` an error. A spline "
                               "bridges shorter pauses, with a warning",
@@ -100,11 +117,26 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
        fmt::format("warning; error if more than {:g} % of a clamped coordinate's samples are", percent(l.angle_share)),
        fmt::format("{:g} degrees beyond, where muscle paths mean nothing. Sign, zero or another coordinate?",
                    l.angle_beyond_deg)});
+  constexpr const auto& kMotion = kinematics::kMotionLimits;
+  rows.push_back({"a motion that is too fast", "error",
+                  fmt::format("an angle is faster than {:.0f} deg/s (a length: {:g} m/s) in {:g} % of the time: the "
+                              "clock or the unit is another. Only a pitcher's shoulder is faster, for some hundredths "
+                              "of a second",
+                              kMotion.fastest_radps / kDegree, kMotion.fastest_mps, percent(kMotion.share))});
+  rows.push_back(
+      {"coordinates that the motion lacks", "warning", "they rest at their default; locked ones are left out"});
+  rows.push_back(
+      {"markers that do not determine a joint of the study", "error",
+       "in three frames that show most markers, the study's coordinate is open: the markers of the file that "
+       "the model has would be as near at another angle"});
+  rows.push_back({"windows of `exclude`", "note; warning",
+                  "the times that are left out of fit, scores and activation 1; a warning if one lies outside of the "
+                  "trial"});
   rows.push_back({"an angle that jumps", "warning",
                   fmt::format("moves faster than {:.0f} deg/s (a length: {:g} m/s) and {:g} times as fast as 95 % of "
                               "the time, for less than {:g} s above half of that peak. Joints speed up and slow down "
                               "over a tenth of a second; the jump's acceleration would mean a torque that does not "
-                              "exist. `id`, `so`, `paths` and `identify` warn of jumps, too",
+                              "exist",
                               kJump.radps / kDegree, kJump.mps, kJump.ratio, kJump.for_s)});
 }
 
@@ -238,7 +270,10 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
       {"muscles of the joint that are not in the study", "warning",
        fmt::format("more than {:g} % of the joint's strength", percent(l.missing_share))},
       {"muscles too weak for the torque", "warning",
-       fmt::format("a reserve acts in {:g} % of the frames or more", l.reserve_percent)},
+       fmt::format("a reserve acts in {:g} % of the frames or more", percent(forces::kReserveShare))},
+      {"external loads that are not stated", "warning",
+       "a trial that is fitted or predicted has no `external_loads`, `force_plates`, `load_cell` or `external_torque`, "
+       "and does not say by `held_mass_kg` what the person held (0: nothing). `check` warns, too"},
       {"a torque that is not explained", "warning; fails",
        fmt::format("R² below {:g}; errors larger than the torque, or larger than {:g} % of it at an R² below {:g}; of "
                    "the fitted samples an R² below {:g}",

@@ -11,11 +11,11 @@ struct PlausibilityLimits {
   // One recording and its copies.
   double same_samples = 0.1;  ///< Share of equal samples from which two recordings are one.
   double least_arm_m = 1e-4;  ///< A muscle with smaller moment arms does not cross the joint.
-  // The model: lengths of fibers in optimal ones, the mass of the bodies.
+  // The model: lengths of fibers in optimal ones, the mass of the bodies (others: model/model_plausibility.h).
   double shortest_fiber = 0.1, longest_fiber = 3.0;
-  double heaviest_kg = 500.0;  ///< No person weighs more.
   double heavier_than = 1.2;   ///< Ratio of the model's mass to the person's; clothes and shoes weigh less.
-  double lightest_kg = 0.1;    ///< A model of a hand is heavier.
+  double other_mass = 0.1;     ///< Share by which two statements of a body mass differ: clothes, shoes, months.
+  double other_height = 0.05;  ///< Likewise of a body height.
   // EMG.
   double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
   double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.
@@ -25,7 +25,6 @@ struct PlausibilityLimits {
   double flat_activation = 0.02;      ///< No muscle is active below this activation.
   // Clocks and lengths.
   double pause_s = 0.5;  ///< A longer pause of a clock is not bridged.
-  double slowest_clock_hz = 5.0;
   double shortest_trial_s = 0.5;
   double covered = 0.5;          ///< Least share of the motion that EMG or loads cover.
   double uncovered_s = 0.1;      ///< The motion may last so much longer, without a word.
@@ -91,7 +90,6 @@ struct GateLimits {
   double marker_error_m = 0.020;  ///< Rms over the markers of a frame; twice it fails.
   double missing_share = 0.05;    ///< Share of a joint's strength.
   double least_range_deg = 5.0;   ///< A joint that moves less was not moved.
-  double reserve_percent = 5.0;   ///< Share of the frames in which a reserve acts.
   double explains = 0.5;          ///< R2 of a good prediction.
   double mean = 0.0;              ///< R2 of the torque's mean; a fit below describes nothing.
   double unrelated = -1.0;        ///< R2 of a prediction unrelated to the torque.

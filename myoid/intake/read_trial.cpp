@@ -15,6 +15,7 @@
 #include "myoid/intake/trial_loads.h"
 #include "myoid/intake/trial_markers.h"
 #include "myoid/recording/recording.h"
+#include "myoid/tables/series_file.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid {
@@ -70,7 +71,7 @@ TimeSeries read_trial_motion(const Study& study,
 }
 
 TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std::vector<Remark>& remarks) {
-  recording::Storage file = recording::read_storage(*trial.external_torque);
+  recording::SeriesFile file = recording::read_series(*trial.external_torque);
   add_repairs(*trial.external_torque, file.repairs, remarks);
   std::vector<Channel> columns;
   std::vector<std::string> there;
@@ -84,6 +85,12 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   }
   // A dynamometer acts on one joint only.
   const TimeSeries found = file.data.select(there);
+  for (const Channel& channel : found.channels()) {
+    if (channel.unit != Unit::newton_meter && channel.unit != Unit::dimensionless)
+      throw ReadError(*trial.external_torque, 0,
+                      fmt::format("column '{}' is in {}, expected N m; correct the unit in the header", channel.name,
+                                  symbol(channel.unit)));
+  }
   Eigen::MatrixXd torque = Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (const auto column = found.find(columns[i].name))

@@ -71,6 +71,22 @@ TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheTorquesFile) {
             std::string::npos);
 }
 
+TEST(ReadTrialParts, ATorqueMayBeATableInItsOwnUnit) {
+  WrittenTrial trial(0.01, 4.99);
+  std::string rows;
+  for (int i = 0; i <= 500; ++i) rows += fmt::format("{:.2f},{:.1f}\n", 0.01 * i, -100.0 * i);
+  const std::string name = "time,elbow_flexion_moment [";
+  recording::write_file(trial.folder / "torque.csv", name + "N.mm]\n" + rows);
+  trial.spec.external_torque = trial.folder / "torque.csv";
+  const std::vector<TrialPart> parts = read_trial_parts(arm_study(), trial.spec, arm());
+  ASSERT_EQ(parts.size(), 1U);
+  const TimeSeries& torque = *parts[0].input.external_torque;
+  EXPECT_NEAR(torque.column("elbow_flexion_moment")[200], -20.0, 1e-12);
+  recording::write_file(trial.folder / "torque.csv", name + "N]\n" + rows);
+  EXPECT_NE(message_of([&] { (void)read_trial_parts(arm_study(), trial.spec, arm()); }).find("is in N, expected N m"),
+            std::string::npos);
+}
+
 TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheForcesFile) {
   WrittenTrial trial(0.01, 4.99);
   std::string force = "f\nendheader\ntime\tf_vx\tf_vy\tf_vz\tf_px\tf_py\tf_pz\n";

@@ -62,17 +62,43 @@ StudyActivation study_envelopes(const Study& study, const EmgOfTrials& emg) {
   return found;
 }
 
-std::vector<signals::TrialEnvelope> envelopes_of(const Study& study,
-                                                 const EmgOfTrials& emg,
-                                                 const StudyActivation& envelopes,
-                                                 bool without_validation) {
+void ComparedEnvelopes::add(const signals::TrialEnvelope& whole, const std::vector<Stretch>& windows) {
+  constexpr Eigen::Index kLeastSamples = 10;
+  const Eigen::VectorXd& t = whole.envelope->time_s();
+  const auto is_out = [&](Eigen::Index i) {
+    return std::ranges::any_of(windows, [&](const Stretch& w) { return t[i] >= w.begin_s && t[i] <= w.end_s; });
+  };
+  bool any_out = false;
+  for (Eigen::Index i = 0; i < t.size() && !any_out && !windows.empty(); ++i) any_out = is_out(i);
+  if (!any_out) {
+    trials.push_back(whole);
+    return;
+  }
+  for (Eigen::Index first = 0; first < t.size();) {
+    Eigen::Index end = first;
+    while (end < t.size() && !is_out(end)) ++end;
+    if (end - first >= kLeastSamples) {
+      parts.emplace_back(t.segment(first, end - first), whole.envelope->channels(),
+                         whole.envelope->values().middleRows(first, end - first));
+      trials.push_back(whole);
+      trials.back().envelope = &parts.back();
+    }
+    first = end + 1;
+  }
+}
+
+ComparedEnvelopes envelopes_of(const Study& study,
+                               const EmgOfTrials& emg,
+                               const StudyActivation& envelopes,
+                               bool without_validation) {
   const std::vector<bool> seen = seen_trials(study);
-  std::vector<signals::TrialEnvelope> found;
+  ComparedEnvelopes found;
   for (std::size_t i = 0; i < emg.size(); ++i) {
     if (emg[i] == nullptr || (without_validation && !seen[i])) continue;
     const auto& stages = envelopes.trials[i].stages;
-    found.push_back({study.trials[i].name, study.trials[i].use == Use::mvc, stages ? &stages->envelope : emg[i],
-                     stages ? stages->bandwidth_hz : Eigen::VectorXd(), stages ? stages->flatness : Eigen::VectorXd()});
+    found.add({study.trials[i].name, study.trials[i].use == Use::mvc, stages ? &stages->envelope : emg[i],
+               stages ? stages->bandwidth_hz : Eigen::VectorXd(), stages ? stages->flatness : Eigen::VectorXd()},
+              study.trials[i].exclude.windows);
   }
   return found;
 }
@@ -84,8 +110,8 @@ void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& foun
     }
     return;
   }
-  found.scale.normalisation =
-      signals::find_normalisation(envelopes_of(study, emg, found, true), {.window_s = study.emg.normalise_window_s});
+  found.scale.normalisation = signals::find_normalisation(envelopes_of(study, emg, found, true).trials,
+                                                          {.window_s = study.emg.normalise_window_s});
   for (std::size_t i = 0; i < emg.size(); ++i) {
     if (emg[i] == nullptr) continue;
     const auto& stages = found.trials[i].stages;

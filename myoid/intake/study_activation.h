@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -42,12 +43,20 @@ inline constexpr double kActivationRate_hz = 200.0;
 /// activations are empty. Throws as `signals::clean_emg`.
 [[nodiscard]] StudyActivation study_envelopes(const Study& study, const EmgOfTrials& emg);
 
-/// Returns the envelopes of the trials that have EMG, for a comparison of levels; with
+/// Envelopes for a comparison of levels: a trial without its excluded windows is several.
+struct ComparedEnvelopes {
+  std::vector<signals::TrialEnvelope> trials;
+  std::deque<TimeSeries> parts;  ///< Owns the parts of trials.
+  /// Adds an envelope; only its parts outside the windows, if there are any.
+  void add(const signals::TrialEnvelope& whole, const std::vector<Stretch>& windows);
+};
+
+/// Returns the envelopes of the trials that have EMG, without the windows that the study excludes; with
 /// `without_validation`, omits the trials held back for validation.
-[[nodiscard]] std::vector<signals::TrialEnvelope> envelopes_of(const Study& study,
-                                                               const EmgOfTrials& emg,
-                                                               const StudyActivation& envelopes,
-                                                               bool without_validation);
+[[nodiscard]] ComparedEnvelopes envelopes_of(const Study& study,
+                                             const EmgOfTrials& emg,
+                                             const StudyActivation& envelopes,
+                                             bool without_validation);
 
 /// Divides the envelopes by the study's greatest effort and thins them to kActivationRate_hz, for
 /// `TrialActivation::activation` and `EmgScale::normalisation`. Trials held back for validation have no part in the

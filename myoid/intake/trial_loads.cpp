@@ -18,6 +18,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/load_cell.h"
+#include "myoid/signals/plate_quality.h"
 #include "myoid/study/study_model.h"
 #include "myoid/study/trial_up.h"
 
@@ -129,6 +130,13 @@ dynamics::ExternalLoads read_plates(const Study& study,
   add_repairs(spec.file, file.repairs, remarks);
   add_notes({fmt::format("{}: {}", name, up_note(up, model))}, remarks);
   std::vector<recording::ForcePlate> plates = file.force_plates();
+  for (const recording::ForcePlate& plate : plates) {
+    for (Remark& fault : signals::check_plate_pressure(plate)) {
+      fault.where = trial.name;
+      fault.says = fmt::format("{}: {}", name, fault.says);
+      remarks.push_back(std::move(fault));
+    }
+  }
   if (const auto clock = loads_clock(study, trial, spec.file)) {
     for (recording::ForcePlate& plate : plates) {
       for (double& t : plate.time_s) t = clock->study_time_s(t);

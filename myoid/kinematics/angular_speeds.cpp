@@ -77,6 +77,17 @@ Eigen::VectorXd on_rates(const model::BodyModel& model,
   return on_speeds;
 }
 
+Eigen::VectorXd speeds_of_rates(const model::BodyModel& model,
+                                const Eigen::Ref<const Eigen::VectorXd>& q,
+                                Eigen::VectorXd qdot) {
+  if (!takes_rates_for_speeds(model)) return qdot;
+  for (const auto& c : angles_of_joints(model)) {
+    const Vec3 rates = qdot(c);
+    qdot(c) = axes_in_parent(q(c)) * rates;
+  }
+  return qdot;
+}
+
 bool takes_rates_for_speeds(const model::BodyModel& model) {
   return model.compat.rates_for_angular_velocities && !angular_speed_joints(model).empty();
 }

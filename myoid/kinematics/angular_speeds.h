@@ -22,6 +22,11 @@ namespace myoid::kinematics {
 [[nodiscard]] Eigen::MatrixXd rates_of_speeds(const model::BodyModel& model,
                                               const Eigen::Ref<const Eigen::VectorXd>& q);
 
+/// Returns the speeds of OpenSim's model that moves with these rates: N^-1 qdot if takes_rates_for_speeds, else `qdot`.
+[[nodiscard]] Eigen::VectorXd speeds_of_rates(const model::BodyModel& model,
+                                              const Eigen::Ref<const Eigen::VectorXd>& q,
+                                              Eigen::VectorXd qdot);
+
 /// Converts generalized forces on the speeds (of actuators and springs on a coordinate) to forces
 /// on the coordinates' rates: N^-T times the forces if takes_rates_for_speeds, else unchanged.
 [[nodiscard]] Eigen::VectorXd on_rates(const model::BodyModel& model,

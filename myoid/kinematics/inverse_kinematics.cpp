@@ -11,18 +11,16 @@
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/kinematics/joint_motion.h"
+#include "myoid/kinematics/joint_angles.h"
 #include "myoid/kinematics/pose_fit.h"
+#include "myoid/kinematics/pose_sequence.h"
 
 namespace myoid::kinematics {
 namespace {
 
 using Pair = PoseFit::Pair;
 
-constexpr double kAtEnd = 1e-6;             // of the range: nearer to an end lies at it
-constexpr int kFramesBetweenSearches = 50;  // for other limbs, while coordinates lie at ends
-constexpr double kFarBetter = 0.5;          // share of the cost at which another minimum replaces the nearest
-constexpr double kBetterThanAtEnds = 0.8;   // the same where coordinates lie at ends
-constexpr double kMostFramesAtEnd = 0.9;    // a coordinate that lies at an end longer is told
+constexpr double kManyFrames = 0.25;  // a coordinate that lies longer at an end of its range is told
 
 std::vector<Pair> pair_markers(const model::BodyModel& model,
                                const recording::MarkerSeries& markers,
@@ -68,80 +66,6 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
   return pairs;
 }
 
-/// Returns postures to start from without a previous frame: the default posture, a posture near it,
-/// and the default posture turned about the vertical by the root joint.
-std::vector<Eigen::VectorXd> fresh_starts(const model::BodyModel& model) {
-  const Eigen::VectorXd rest = model.default_q();
-  std::vector<Eigen::VectorXd> starts{rest, Eigen::VectorXd(rest.array() + 0.3)};
-  const Vec3 up = model.gravity_G.norm() > 0.0 ? Vec3(-model.gravity_G.normalized()) : Vec3(Vec3::UnitY());
-  model::BodyState state = model::make_state(model);
-  model::compute_poses(model, rest, state);
-  for (const model::Joint& joint : model.joints) {
-    if (joint.parent != 0 || joint.coordinates.size() < 6) continue;
-    int best = -1;
-    double most = 0.8;  // cosine of the axis with the vertical
-    for (const int c : joint.coordinates) {
-      const double share = std::abs(state.H_w_G[at(c)].dot(up));
-      if (share > most) {
-        most = share;
-        best = c;
-      }
-    }
-    if (best < 0) continue;
-    for (const double turn : {0.5 * kPi, kPi, -0.5 * kPi}) {
-      starts.push_back(rest);
-      starts.back()[best] += turn;
-    }
-  }
-  return starts;
-}
-
-bool lies_at_end(const model::Coordinate& of, double value) {
-  return of.clamped && std::min(value - of.lower, of.upper - value) < kAtEnd * (of.upper - of.lower);
-}
-
-/// Tells of coordinates that lie at an end of their range in nearly every frame.
-void note_ends(const model::BodyModel& model, const PoseFit& fit, const Eigen::MatrixXd& q, IkResult& result) {
-  for (const Eigen::Index c : fit.free()) {
-    const model::Coordinate& of = model.coordinates[at(c)];
-    Eigen::Index lower = 0, upper = 0;
-    for (const double value : q.col(c)) {
-      if (lies_at_end(of, value)) ++(value - of.lower < of.upper - value ? lower : upper);
-    }
-    const Eigen::Index most = std::max(lower, upper);
-    if (q.rows() < 2 || static_cast<double>(most) < kMostFramesAtEnd * static_cast<double>(q.rows())) continue;
-    const double end = lower > upper ? of.lower : of.upper;
-    result.notes.push_back(fmt::format(
-        "coordinate '{}' lies at the end of its range, {}, in {} of {} frames: its markers, or the range", of.name,
-        of.motion == model::MotionType::rotational ? fmt::format("{:.4g} deg", end * 180.0 / kPi)
-                                                   : fmt::format("{:.4g} m", end),
-        most, q.rows()));
-  }
-}
-
-/// Returns postures with the joints to ground as in q, and all others in their default posture or in the middle of
-/// their ranges: a limb whose search ended at the ends of ranges may have a far better posture elsewhere.
-std::vector<Eigen::VectorXd> other_limbs(const model::BodyModel& model, const Eigen::VectorXd& q) {
-  Eigen::VectorXd rest = model.default_q(), middle = rest;
-  for (const model::Joint& joint : model.joints) {
-    for (const int c : joint.coordinates) {
-      const model::Coordinate& of = model.coordinates[at(c)];
-      if (joint.parent == 0) rest[c] = middle[c] = q[c];
-      if (joint.parent != 0 && of.clamped) middle[c] = 0.5 * (of.lower + of.upper);
-    }
-  }
-  return {std::move(rest), std::move(middle)};
-}
-
-bool better(const PoseFit::Pose& a, const PoseFit::Pose& b) {
-  return (a.converged && !b.converged && a.cost <= b.cost * (1.0 + 1e-9)) || a.cost < b.cost * (1.0 - 1e-9);
-}
-
-/// Returns true if a pose replaces the minimum nearest to the start: at this share of its cost or less.
-bool much_better(const PoseFit::Pose& a, const PoseFit::Pose& b, double share) {
-  return a.converged && a.cost < share * b.cost;
-}
-
 void check_tasks(const model::BodyModel& model, const std::vector<CoordinateTask>& tasks, Eigen::Index frames) {
   for (const CoordinateTask& task : tasks) {
     (void)model.coordinate_index(task.coordinate);
@@ -152,62 +76,6 @@ void check_tasks(const model::BodyModel& model, const std::vector<CoordinateTask
           fmt::format("coordinate '{}': {} target values for {} frames", task.coordinate, task.values.size(), frames));
   }
 }
-
-/// The frames of one recording in their order; each begins at the posture of the one before.
-class FrameSequence {
- public:
-  FrameSequence(const model::BodyModel& model, const IkOptions& options, PoseFit& fit)
-      : model_(model),
-        barrier_(options.range_barrier),
-        fit_(fit),
-        posture_(model.default_q()),
-        fresh_(fresh_starts(model)) {}
-
-  /// Returns the posture of the latest frame.
-  [[nodiscard]] const Eigen::VectorXd& posture() const { return posture_; }
-
-  /// Returns the pose for the targets of `fit`. Tries other starts in the first frame, after a jump of the cost, and
-  /// where the search fails; other limbs also now and then while coordinates lie at ends of their ranges.
-  PoseFit::Pose next() {
-    PoseFit::Pose pose = solve_from(posture_);
-    const bool jumped = pose.cost > 4.0 * cost_before_ + 1e-8;
-    if (!std::isfinite(cost_before_) || !pose.converged || jumped) try_from(fresh_, kFarBetter, pose);
-    if (solved_++ % kFramesBetweenSearches == 0 && has_ends(pose.q))
-      try_from(other_limbs(model_, pose.q), kBetterThanAtEnds, pose);
-    pose.cost = fit_.place(pose.q);
-    if (!std::isfinite(cost_before_)) fit_.unwind(pose);
-    cost_before_ = pose.cost;
-    fit_.place(pose.q);
-    posture_ = pose.q;
-    return pose;
-  }
-
- private:
-  PoseFit::Pose solve_from(const Eigen::VectorXd& start) {
-    return barrier_ > 0.0 ? fit_.solve_inside(start, barrier_) : fit_.solve(start);
-  }
-
-  /// Replaces the pose where a search from one of the starts ends at this share of its cost or less.
-  void try_from(const std::vector<Eigen::VectorXd>& starts, double share, PoseFit::Pose& pose) {
-    for (const Eigen::VectorXd& start : starts) {
-      PoseFit::Pose again = solve_from(start);
-      if (pose.converged ? much_better(again, pose, share) : better(again, pose)) pose = std::move(again);
-    }
-  }
-
-  [[nodiscard]] bool has_ends(const Eigen::VectorXd& q) const {
-    return std::any_of(fit_.free().begin(), fit_.free().end(),
-                       [&](Eigen::Index c) { return lies_at_end(model_.coordinates[at(c)], q[c]); });
-  }
-
-  const model::BodyModel& model_;
-  double barrier_;
-  PoseFit& fit_;
-  int solved_ = 0;  ///< Frames.
-  Eigen::VectorXd posture_;
-  std::vector<Eigen::VectorXd> fresh_;
-  double cost_before_ = std::numeric_limits<double>::infinity();
-};
 
 /// Returns squared error, its root mean square, the largest error, then the error of each pair.
 Eigen::RowVectorXd error_row(const PoseFit& fit) {
@@ -226,6 +94,15 @@ Eigen::RowVectorXd error_row(const PoseFit& fit) {
   row[1] = std::sqrt(total / fit.seen_count());
   row[2] = largest;
   return row;
+}
+
+std::string with_unit(const model::Coordinate& of, double value) {
+  switch (of.motion) {
+    case model::MotionType::rotational: return fmt::format("{:.4g} deg", value * 180.0 / kPi);
+    case model::MotionType::translational: return fmt::format("{:.4g} m", value);
+    case model::MotionType::coupled: break;
+  }
+  return fmt::format("{:.4g}", value);
 }
 
 std::vector<Channel> coordinate_channels(const model::BodyModel& model) {
@@ -254,6 +131,72 @@ std::vector<Channel> location_channels(const model::BodyModel& model, const std:
 
 }  // namespace
 
+std::vector<CoordinateAtEnd> coordinates_at_ends(const model::BodyModel& model, const TimeSeries& q) {
+  std::vector<CoordinateAtEnd> list;
+  const auto frames = static_cast<double>(q.sample_count());
+  for (std::size_t c = 0; c < model.coordinates.size() && q.sample_count() > 1; ++c) {
+    const model::Coordinate& of = model.coordinates[c];
+    const auto column = q.find(of.name);
+    if (!column || model.is_constrained(static_cast<int>(c))) continue;
+    Eigen::Index lower = 0, upper = 0;
+    for (const double value : q.values().col(*column))
+      if (lies_at_end(of, value)) ++(value - of.lower < of.upper - value ? lower : upper);
+    const double share = static_cast<double>(std::max(lower, upper)) / frames;
+    // A person may turn as far as they like: a range of the whole body's turn tells after two frames.
+    const bool turns_body =
+        model.joints[at(of.joint)].parent == 0 && of.motion == model::MotionType::rotational && lower + upper > 1;
+    if (share >= kManyFrames || turns_body) list.push_back({of.name, lower > upper ? of.lower : of.upper, share});
+  }
+  return list;
+}
+
+std::vector<Remark> remarks_on_ends(const model::BodyModel& model, const TimeSeries& q) {
+  const std::vector<CoordinateAtEnd> list = coordinates_at_ends(model, q);
+  if (list.empty()) return {};
+  std::vector<std::string> names, places;
+  for (const CoordinateAtEnd& of : list) {
+    const model::Coordinate& coordinate = model.coordinates[at(model.coordinate_index(of.coordinate))];
+    names.push_back(of.coordinate);
+    places.push_back(fmt::format("{} at {} in {:.0f} %", of.coordinate, with_unit(coordinate, of.end), 100.0 * of.share));
+  }
+  return {{.about = fmt::format("{}", fmt::join(names, ", ")),
+           .says = fmt::format("coordinates at the end of their range: {} of the frames", fmt::join(places, ", ")),
+           .remedy = "see whether their markers, or the ranges of the model, are right"}};
+}
+
+std::vector<std::string> undetermined_coordinates(const model::BodyModel& model,
+                                                  const recording::MarkerSeries& markers,
+                                                  const IkOptions& options) {
+  std::vector<std::string> notes;
+  PoseFit fit(model, options, pair_markers(model, markers, options, notes));
+  // One frame with every marker that is ever seen; only the markers' places on the bodies matter.
+  recording::MarkerSeries ever{Eigen::VectorXd::Zero(1), markers.names, Eigen::MatrixXd(1, markers.positions_m.cols())};
+  for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+    bool seen = false;
+    for (Eigen::Index frame = 0; frame < markers.frame_count() && !seen; ++frame) seen = !markers.missing(frame, m);
+    ever.positions_m.middleCols(3 * m, 3).setConstant(seen ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+  }
+  fit.set_targets(ever, 0);
+  std::vector<bool> open(fit.free().size(), true);
+  // A posture may hide a coordinate, as a straight elbow hides the turn of the upper arm: two bent ones tell.
+  for (const double share : {0.35, 0.6}) {
+    Eigen::VectorXd q = model.default_q();
+    for (const Eigen::Index c : fit.free()) {
+      const model::Coordinate& of = model.coordinates[at(c)];
+      const bool ranged = of.upper > of.lower && of.upper - of.lower < 2.0 * kPi;
+      if (of.motion == model::MotionType::rotational) q[c] = ranged ? of.lower + share * (of.upper - of.lower) : share;
+    }
+    std::vector<bool> here(open.size(), false);
+    (void)fit.place_within(q);
+    fit.collect_undetermined(here);
+    for (std::size_t k = 0; k < open.size(); ++k) open[k] = open[k] && here[k];
+  }
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < open.size(); ++k)
+    if (open[k]) names.push_back(model.coordinates[at(fit.free()[k])].name);
+  return names;
+}
+
 IkResult inverse_kinematics(const model::BodyModel& model,
                             const recording::MarkerSeries& markers,
                             const IkOptions& options) {
@@ -267,33 +210,27 @@ IkResult inverse_kinematics(const model::BodyModel& model,
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(frames, 3 + pairs);
   Eigen::MatrixXd locations(frames, 3 * pairs);
   std::vector<bool> undetermined(fit.free().size(), false);
-  FrameSequence sequence(model, options, fit);
+  PoseSequence sequence(model, markers, options, fit);
+  sequence.solve();
   for (Eigen::Index frame = 0; frame < frames; ++frame) {
-    if (frame % 256 == 0) {
-      options.progress.check();
-      options.progress.tell(static_cast<double>(frame) / static_cast<double>(frames), "inverse kinematics");
-    }
+    const PoseFit::Pose& pose = sequence.pose(frame);
+    q.row(frame) = pose.q;
     fit.set_targets(markers, frame);
-    if (fit.seen_count() == 0) {
+    const double cost = fit.place(pose.q);
+    fit.locate(locations, frame);
+    if (!sequence.seen(frame)) {
       result.status.push_back(FrameStatus::no_markers);
       result.objective.push_back(0.0);
       ++result.frames_without_markers;
-      q.row(frame) = sequence.posture();
       errors.row(frame).setConstant(std::numeric_limits<double>::quiet_NaN());
-      fit.place(sequence.posture());
-      fit.locate(locations, frame);
       continue;
     }
-    const PoseFit::Pose pose = sequence.next();
     if (frame % 16 == 0 || frame + 1 == frames) fit.collect_undetermined(undetermined);
-    q.row(frame) = pose.q;
     result.status.push_back(pose.converged ? FrameStatus::converged : FrameStatus::not_converged);
     if (!pose.converged) ++result.frames_not_converged;
-    result.objective.push_back(0.5 * pose.cost);
+    result.objective.push_back(0.5 * cost);
     errors.row(frame) = error_row(fit);
-    fit.locate(locations, frame);
   }
-  note_ends(model, fit, q, result);
   result.q = TimeSeries(markers.time_s, coordinate_channels(model), std::move(q));
   result.errors = TimeSeries(markers.time_s, error_channels(model, fit.pairs()), std::move(errors));
   result.marker_locations = TimeSeries(markers.time_s, location_channels(model, fit.pairs()), std::move(locations));

@@ -4,10 +4,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "myoid/core/counted.h"
 #include "myoid/core/error.h"
+#include "myoid/core/units.h"
 #include "myoid/math/spline.h"
 
 namespace myoid::kinematics {
@@ -24,6 +23,73 @@ Unit coordinate_unit(const model::Coordinate& coordinate, int order) {
   }
 }
 
+namespace {
+
+/// Returns the value of a locked or prescribed coordinate at a time.
+model::FunctionValue held_value(const model::Coordinate& coordinate, double time_s) {
+  model::FunctionValue value{};
+  if (!coordinate.locked && coordinate.prescribed) return evaluate(*coordinate.prescribed, time_s);
+  value.value = coordinate.default_value;
+  return value;
+}
+
+}  // namespace
+
+bool is_held(const model::Coordinate& coordinate) { return coordinate.locked || coordinate.prescribed; }
+
+Eigen::VectorXd held_values(const model::Coordinate& coordinate, const Eigen::VectorXd& times_s) {
+  Eigen::VectorXd values(times_s.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = held_value(coordinate, times_s[i]).value;
+  return values;
+}
+
+std::vector<std::string> held_notes(const model::BodyModel& model, const TimeSeries& q, HeldValues held) {
+  constexpr double kRounding = 1e-4;  // [rad, m]: files round angles to a few digits
+  std::vector<std::string> notes;
+  for (const model::Coordinate& coordinate : model.coordinates) {
+    const auto column = is_held(coordinate) ? q.find(coordinate.name) : std::nullopt;
+    if (!column || q.sample_count() == 0) continue;
+    const Eigen::VectorXd own = held_values(coordinate, q.time_s());
+    const auto recorded = q.values().col(*column);
+    if (!((recorded - own).cwiseAbs().maxCoeff() > kRounding)) continue;
+    const bool meters = coordinate.motion == model::MotionType::translational;
+    const double unit = meters ? 1.0 : kDegree;
+    const char* name = meters ? "m" : "degrees";
+    const auto range = [&](const auto& values) {
+      const double low = values.minCoeff() / unit, high = values.maxCoeff() / unit;
+      return high - low > 1e-9 ? fmt::format("from {:.4g} to {:.4g} {}", low, high, name)
+                               : fmt::format("at {:.4g} {}", low, name);
+    };
+    notes.push_back(fmt::format("coordinate '{}' is {} {} by the model, and the motion has it {}; {}", coordinate.name,
+                                coordinate.locked ? "locked" : "prescribed", range(own), range(recorded),
+                                held == HeldValues::of_model
+                                    ? "the model's values count, as in OpenSim's analyses"
+                                    : "the motion's values count, as in OpenSim's inverse dynamics"));
+  }
+  return notes;
+}
+
+JointMotion with_held_values(const model::BodyModel& model, JointMotion motion, bool rates_too) {
+  Eigen::MatrixXd q = motion.q.values(), qdot = motion.qdot.values(), qddot = motion.qddot.values();
+  bool any = false;
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    const model::Coordinate& coordinate = model.coordinates[c];
+    if (!is_held(coordinate)) continue;
+    any = true;
+    const auto column = static_cast<Eigen::Index>(c);
+    for (Eigen::Index i = 0; i < q.rows(); ++i) {
+      const model::FunctionValue own = held_value(coordinate, motion.q.time_s()[i]);
+      q(i, column) = own.value;
+      if (rates_too) qdot(i, column) = own.first;
+      qddot(i, column) = own.second;
+    }
+  }
+  if (!any) return motion;
+  const Eigen::VectorXd time = motion.q.time_s();
+  return {TimeSeries(time, motion.q.channels(), std::move(q)), TimeSeries(time, motion.qdot.channels(), std::move(qdot)),
+          TimeSeries(time, motion.qddot.channels(), std::move(qddot))};
+}
+
 MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, const MotionOptions& options) {
   MotionResult result;
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
@@ -33,7 +99,6 @@ MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, co
   Eigen::MatrixXd second = Eigen::MatrixXd::Zero(time.size(), count);
   std::vector<Channel> channels[3];
   int found = 0;
-  std::vector<std::string> resting;
   std::optional<math::SplineKnots> knots;  // shared by all columns
   if (!options.cutoff_hz) knots.emplace(q.time_s());
   for (Eigen::Index c = 0; c < count; ++c) {
@@ -43,8 +108,6 @@ MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, co
     const auto column = q.find(coordinate.name);
     if (!column) {
       value.col(c).setConstant(coordinate.default_value);
-      resting.push_back(fmt::format("'{}' at {:.4g} {}", coordinate.name, coordinate.default_value,
-                                    symbol(coordinate_unit(coordinate, 0))));
       continue;
     }
     ++found;
@@ -57,9 +120,6 @@ MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, co
     first.col(c) = values.first;
     second.col(c) = values.second;
   }
-  if (!resting.empty())
-    result.notes.push_back(fmt::format("{} not in the motion; resting: {}", counted(resting.size(), "coordinate"),
-                                       fmt::join(resting, ", ")));
   if (found == 0) {
     throw InvalidInput(fmt::format(
         "no column of the motion ({}) is a coordinate of the model '{}'; rename the columns to the model's coordinates",
@@ -73,6 +133,8 @@ MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, co
   }
   result.motion = {TimeSeries(time, channels[0], std::move(value)), TimeSeries(time, channels[1], std::move(first)),
                    TimeSeries(time, channels[2], std::move(second))};
+  for (std::string& note : held_notes(model, q, options.held)) result.notes.push_back(std::move(note));
+  if (options.held == HeldValues::of_model) result.motion = with_held_values(model, std::move(result.motion), true);
   return result;
 }
 

@@ -171,7 +171,7 @@ TEST(JointMotion, DifferentiatesEveryCoordinateAndRestsWhereTheMotionIsSilent) {
   const MotionResult result = joint_motion(m, q);
   EXPECT_NEAR(result.motion.qddot.column("elbow_flexion")[200], -4.0 * std::sin(4.0), 1e-6);
   EXPECT_EQ(result.motion.qdot.column("shoulder_flexion")[10], 0.0);
-  EXPECT_EQ(result.notes.size(), 1U);  // for all coordinates together
+  EXPECT_TRUE(result.notes.empty());
 }
 
 TEST(JointMotion, RefusesAMotionOfAnotherModel) {

@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/parallel.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
@@ -34,15 +35,20 @@ class MuscleFrames {
         tables_(tables),
         state_(model::make_state(model)),
         is_coupled_(!model.couplers.empty() || !model.constraints.empty()),
+        by_speeds_(takes_rates_for_speeds(model)),
         surrogate_workspaces_(surrogates != nullptr ? surrogates->size() : 0) {}
 
   void compute(const JointMotion& motion, Eigen::Index frame) {
     model::compute_poses(model_, motion.q.values().row(frame).transpose(), state_);
     model::compute_velocities(model_, motion.qdot.values().row(frame).transpose(), state_);
     if (is_coupled_) coupling_ = model::coupling_matrix(model_, state_);
+    if (by_speeds_) {
+      const Eigen::MatrixXd N = rates_of_speeds(model_, state_.q);
+      coupling_ = is_coupled_ ? Eigen::MatrixXd(coupling_ * N) : N;
+    }
     for (std::size_t m = 0; m < model_.muscles.size(); ++m) {
       compute_path(m);
-      if (is_coupled_) path_.moment_arm_m = (coupling_.transpose() * path_.moment_arm_m).eval();
+      if (is_coupled_ || by_speeds_) path_.moment_arm_m = (coupling_.transpose() * path_.moment_arm_m).eval();
       const auto column = static_cast<Eigen::Index>(m);
       tables_.length(frame, column) = path_.length_m;
       tables_.velocity(frame, column) = path_.speed_mps;
@@ -69,7 +75,7 @@ class MuscleFrames {
   const std::vector<PathSurrogate>* surrogates_;
   MuscleTables& tables_;
   model::BodyState state_;
-  bool is_coupled_;
+  bool is_coupled_, by_speeds_;
   Eigen::MatrixXd coupling_;
   model::PathWorkspace workspace_;
   model::PathResult path_;
@@ -86,8 +92,9 @@ std::vector<Channel> muscle_channels(const model::BodyModel& model, Unit unit) {
 }  // namespace
 
 MuscleKinematics muscle_kinematics(const model::BodyModel& model,
-                                   const JointMotion& motion,
+                                   const JointMotion& asked,
                                    const MuscleKinematicsOptions& options) {
+  const JointMotion motion = moved_by_speeds(model, asked);
   if (options.surrogates && options.surrogates->size() != model.muscles.size()) {
     throw InvalidInput(fmt::format("expected a path surrogate for each of {} muscles, found {}", model.muscles.size(),
                                    options.surrogates->size()));

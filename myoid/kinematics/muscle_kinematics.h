@@ -16,7 +16,8 @@ struct MuscleKinematics {
   TimeSeries length;    ///< Musculotendon length [m].
   TimeSeries velocity;  ///< dl/dt [m/s], lengthening positive.
   /// r = -dl/dq [m] by the name of every coordinate that is not locked. Coordinates that
-  /// constraints couple move along, as in OpenSim (coupling_matrix in model/constraints.h).
+  /// constraints couple move along, as in OpenSim (coupling_matrix in model/constraints.h). If takes_rates_for_speeds
+  /// (angular_speeds.h) the arms belong to the speeds.
   std::map<std::string, TimeSeries> moment_arm;
   long from_surrogates = 0;  ///< Number of paths (frames x muscles) computed by polynomials.
 };

@@ -357,7 +357,10 @@ std::vector<int> acting_coordinates(const model::BodyModel& model, const model::
   if (path.function) acting.insert(path.function->coordinates.begin(), path.function->coordinates.end());
   for (const model::PathPoint& point : path.points) {
     bodies.insert(point.body);
-    if (point.moving && point.moving->coordinate >= 0) acting.insert(point.moving->coordinate);
+    if (point.moving) {
+      for (const int c : point.moving->coordinates)
+        if (c >= 0) acting.insert(c);
+    }
     if (point.condition) acting.insert(point.condition->coordinate);
   }
   for (const model::PathWrap& wrap : path.wraps) bodies.insert(model.wrap_objects[at(wrap.wrap_object)].body);

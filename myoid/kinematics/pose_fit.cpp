@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "myoid/core/index.h"
+#include "myoid/kinematics/joint_angles.h"
 #include "myoid/math/decompositions.h"
 #include "myoid/model/constraints.h"
 
@@ -17,13 +18,9 @@ namespace {
 constexpr double kLongestTurn_rad = 0.5;  ///< Largest change of a coordinate in one step.
 /// The strongest barrier, in units of J [m^2]: as strong as markers 0.4 m off.
 constexpr double kFirstBarrier = 0.1;
+constexpr double kTurn = 2.0 * kPi;
 constexpr double kSame = 1e-9;        ///< A smaller step [rad or m] changes nothing.
 constexpr double kLastNewton = 1e-6;  ///< After a smaller step [rad or m] the next is none.
-
-bool turns(const model::Joint& joint, int coordinate) {
-  return std::any_of(joint.rotation.begin(), joint.rotation.end(),
-                     [&](const auto& axis) { return axis.coordinate == coordinate; });
-}
 
 }  // namespace
 
@@ -123,7 +120,11 @@ void PoseFit::update_gains(const Eigen::VectorXd& q) {
 }
 
 double PoseFit::cost_at(const Eigen::VectorXd& q) {
-  model::compute_poses(model_, q, state_);
+  if (!posed_ || state_.q != q) {
+    model::compute_poses(model_, q, state_);
+    posed_ = true;
+    ++evaluations_;
+  }
   double cost = 0.0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (seen_[i]) cost += pairs_[i].weight * scale_ * (marker_position(i) - target_[i]).squaredNorm();
@@ -304,7 +305,9 @@ std::optional<Eigen::VectorXd> PoseFit::damped_step(const Eigen::VectorXd& q,
 }
 
 /// Makes one iteration: increases the damping until the cost falls or no step changes the pose.
-void PoseFit::descend(Pose& pose, double& damping) {
+void PoseFit::descend(Search& search) {
+  Pose& pose = search.pose;
+  double& damping = search.damping;
   linearize(pose.q);
   const std::vector<bool> held = held_at_ends(pose.q);
   const Eigen::MatrixXd N = model_.constraints.empty() ? Eigen::MatrixXd() : allowed_directions(pose.q);
@@ -344,21 +347,27 @@ void PoseFit::descend(Pose& pose, double& damping) {
   }
 }
 
-PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
+PoseFit::Search PoseFit::begin(Eigen::VectorXd start) {
   obey(start);
   if (barrier_.acts()) {
     barrier_.move_inside(start, 0.01);
     obey(start);
   }
-  Pose pose{std::move(start), 0.0, false};
-  pose.cost = cost_at(pose.q);
-  double damping = 0.0;
-  for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-    descend(pose, damping);
-    if (pose.converged) return pose;
-  }
-  (void)cost_at(pose.q);
-  return pose;
+  Search search{{std::move(start), 0.0, false}, 0.0};
+  search.pose.cost = cost_at(search.pose.q);
+  return search;
+}
+
+void PoseFit::advance(Search& search, int iterations) {
+  (void)cost_at(search.pose.q);
+  for (int iteration = 0; iteration < iterations && !search.pose.converged; ++iteration) descend(search);
+}
+
+PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
+  Search search = begin(std::move(start));
+  advance(search, options_.max_iterations);
+  (void)cost_at(search.pose.q);
+  return std::move(search.pose);
 }
 
 PoseFit::Pose PoseFit::solve_inside(Eigen::VectorXd start, double barrier) {
@@ -372,26 +381,65 @@ PoseFit::Pose PoseFit::solve_inside(Eigen::VectorXd start, double barrier) {
   return pose;
 }
 
+/// Returns the posture with a coordinate moved by whole turns if that leaves the cost unchanged: functions, couplers and
+/// tasks of the coordinate may change it.
+std::optional<Eigen::VectorXd> PoseFit::turned_whole(const Pose& pose, std::size_t k, double turns) {
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free_.size()));
+  step[static_cast<Eigen::Index>(k)] = turns * kTurn;
+  Eigen::VectorXd q = moved(pose.q, step);
+  if (std::abs(cost_at(q) - pose.cost) <= 1e-9 * pose.cost + 1e-15) return q;
+  return std::nullopt;
+}
+
 void PoseFit::unwind(Pose& pose) {
-  constexpr double kTurn = 2.0 * kPi;
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const model::Coordinate& coordinate = model_.coordinates[at(free_[k])];
     const double value = pose.q[free_[k]];
     if (coordinate.motion != model::MotionType::rotational || (value >= coordinate.lower && value <= coordinate.upper))
       continue;
-    const double turns = std::round((0.5 * (coordinate.lower + coordinate.upper) - value) / kTurn);
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free_.size()));
-    step[static_cast<Eigen::Index>(k)] = turns * kTurn;
-    const Eigen::VectorXd q = moved(pose.q, step);
-    const double back = q[free_[k]];
-    // Whole turns may change the cost through the coordinate's functions, couplers or tasks: then the coordinate stays.
-    const bool same = std::abs(cost_at(q) - pose.cost) <= 1e-9 * pose.cost + 1e-15;
+    const auto q = turned_whole(pose, k, std::round((0.5 * (coordinate.lower + coordinate.upper) - value) / kTurn));
     const auto outside = [&](double x) { return std::max({0.0, coordinate.lower - x, x - coordinate.upper}); };
-    if (same && outside(back) < outside(value)) pose.q = q;
+    if (q && outside((*q)[free_[k]]) < outside(value)) pose.q = *q;
+  }
+}
+
+void PoseFit::unwind_towards(const Eigen::VectorXd& neighbor, Pose& pose) {
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    if (model_.coordinates[at(free_[k])].motion != model::MotionType::rotational) continue;
+    const double turns = std::round((neighbor[free_[k]] - pose.q[free_[k]]) / kTurn);
+    if (turns == 0.0) continue;
+    if (const auto q = turned_whole(pose, k, turns)) pose.q = *q;
   }
 }
 
 double PoseFit::place(const Eigen::VectorXd& q) { return cost_at(q); }
+
+double PoseFit::place_within(Eigen::VectorXd q) {
+  obey(q);
+  return cost_at(q);
+}
+
+double PoseFit::part_of(const std::vector<std::size_t>& pairs) const {
+  double part = 0.0;
+  for (const std::size_t i : pairs)
+    if (seen_[i]) part += pairs_[i].weight * scale_ * (marker_position(i) - target_[i]).squaredNorm();
+  return part;
+}
+
+double PoseFit::mean_square(const std::vector<std::size_t>& pairs) const {
+  double sum = 0.0;
+  int seen = 0;
+  for (const std::size_t i : pairs) {
+    if (!seen_[i]) continue;
+    sum += (marker_position(i) - target_[i]).squaredNorm();
+    ++seen;
+  }
+  return seen > 0 ? sum / seen : 0.0;
+}
+
+double PoseFit::work() const {
+  return evaluations_ * static_cast<double>(model_.bodies.size() + model_.coordinates.size());
+}
 
 void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
   linearize(state_.q);

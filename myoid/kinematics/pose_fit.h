@@ -33,21 +33,48 @@ class PoseFit {
   PoseFit(const model::BodyModel& model, const IkOptions& options, std::vector<Pair> pairs);
 
   void set_targets(const recording::MarkerSeries& markers, Eigen::Index frame);
+  /// Returns one over the sum of the weights of the markers seen, by which J is scaled.
+  [[nodiscard]] double scale() const { return scale_; }
+  /// Sets another scale until the next set_targets: that of a whole of which this model is a part.
+  void set_scale(double scale) { scale_ = scale; }
   [[nodiscard]] int seen_count() const { return seen_count_; }
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
   [[nodiscard]] const std::vector<Eigen::Index>& free() const { return free_; }
 
+  /// A search under way.
+  struct Search {
+    Pose pose;
+    double damping = 0.0;
+  };
+
   /// Returns the nearest minimum of J. The start first meets locks, ranges and constraints.
   [[nodiscard]] Pose solve(Eigen::VectorXd start);
+  /// Begins a search for the nearest minimum at a start, which first meets locks, ranges and constraints.
+  [[nodiscard]] Search begin(Eigen::VectorXd start);
+  /// Makes up to so many iterations, fewer if the search converges.
+  void advance(Search& search, int iterations);
   /// Returns the minimum of J plus a barrier at the ends of the ranges (range_barrier.h), found
   /// through the minima with stronger barriers, whose path stays near the middle of the ranges.
   [[nodiscard]] Pose solve_inside(Eigen::VectorXd start, double barrier);
 
   /// Brings coordinates outside their range back into it, or nearer, by whole turns that leave pose and cost unchanged.
   void unwind(Pose& pose);
+  /// Brings coordinates nearer to those of a neighboring posture by such turns.
+  void unwind_towards(const Eigen::VectorXd& neighbor, Pose& pose);
 
   /// Sets the posture for the functions below; returns 2 J there.
   double place(const Eigen::VectorXd& q);
+  /// The same with q brought to locks, ranges and constraints.
+  double place_within(Eigen::VectorXd q);
+  /// Returns the part of 2 J of some markers.
+  [[nodiscard]] double part_of(const std::vector<std::size_t>& pairs) const;
+  /// Returns the mean square distance of some markers from their targets, over those seen; 0 if none is.
+  [[nodiscard]] double mean_square(const std::vector<std::size_t>& pairs) const;
+  [[nodiscard]] const model::BodyState& state() const { return state_; }
+  /// The model has changed: the next posture is computed even if its coordinates are equal.
+  void forget_posture() { posed_ = false; }
+  /// Returns the work so far: postures evaluated, times bodies and coordinates of the model.
+  [[nodiscard]] double work() const;
   /// Marks the free coordinates with a part in directions that markers and tasks leave open.
   void collect_undetermined(std::vector<bool>& undetermined);
   /// Returns the distance of a marker from its target; NaN for a marker that was not seen.
@@ -83,8 +110,9 @@ class PoseFit {
                                                            const Eigen::MatrixXd& N,
                                                            bool second_order,
                                                            double shift);
-  void descend(Pose& pose, double& damping);
+  void descend(Search& search);
   void update_gains(const Eigen::VectorXd& q);
+  [[nodiscard]] std::optional<Eigen::VectorXd> turned_whole(const Pose& pose, std::size_t k, double turns);
   [[nodiscard]] Eigen::VectorXd moved(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const;
   [[nodiscard]] double farthest_turn(const Eigen::VectorXd& step) const;
   [[nodiscard]] Eigen::MatrixXd allowed_directions(const Eigen::VectorXd& q) const;
@@ -108,6 +136,8 @@ class PoseFit {
   double time_s_ = 0.0;
   double scale_ = 0.0;
   int seen_count_ = 0;
+  bool posed_ = false;  ///< The bodies of state_ stand as its coordinates say.
+  double evaluations_ = 0.0;
   Eigen::VectorXd gradient_;  ///< Gradient of J by the free coordinates.
   Eigen::MatrixXd gauss_;     ///< First-order part of the second derivatives of J.
   Eigen::MatrixXd bend_;      ///< Remaining second derivatives, from the turning of the chains.

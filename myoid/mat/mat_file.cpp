@@ -15,6 +15,7 @@
 
 #include <dlfcn.h>
 #include <matio.h>
+#include <unistd.h>
 
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
@@ -156,8 +157,8 @@ class Scratch {
     folder_ = pattern;
   }
   ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+    unlink(file().c_str());
+    rmdir(folder_.c_str());
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;

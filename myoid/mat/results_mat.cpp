@@ -1,7 +1,6 @@
 #include "myoid/mat/results_mat.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 
@@ -11,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
 #include "myoid/core/numbers.h"
+#include "myoid/files/name_ids.h"
 #include "myoid/files/text_file.h"
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/result_units.h"
@@ -22,19 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using recording::CsvTable;
-
-/// Returns a name of MATLAB for a field: other characters become '_', and it has 63 characters at most.
-std::string field_name(const std::string& text, std::set<std::string>& taken) {
-  constexpr std::size_t kMost = 63, kRoomForNumber = 4;
-  std::string name = text;
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) name = "x" + name;
-  name.resize(std::min(name.size(), kMost));
-  const std::string stem = name.substr(0, kMost - kRoomForNumber);
-  for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", stem, i);
-  return name;
-}
 
 std::size_t column_of(const CsvTable& table, const std::string& name, const fs::path& path) {
   const auto it = std::find(table.names.begin(), table.names.end(), name);
@@ -64,11 +51,10 @@ MatValue column(const CsvTable& table, std::size_t c) {
 
 MatStruct parameters_of(const CsvTable& table) {
   MatStruct parameters;
-  std::set<std::string> taken;
-  for (std::size_t c = 0; c < table.names.size(); ++c) {
-    const std::string name = table.names[c] == "case" ? "fit_case" : table.names[c];
-    parameters.fields.emplace_back(field_name(name, taken), column(table, c));
-  }
+  std::vector<std::string> names = table.names;
+  std::ranges::replace(names, "case", "fit_case");
+  const std::vector<std::string> fields = recording::ids_of(names, recording::IdFor::variable);
+  for (std::size_t c = 0; c < fields.size(); ++c) parameters.fields.emplace_back(fields[c], column(table, c));
   return parameters;
 }
 
@@ -117,18 +103,18 @@ MatStruct all_series(const fs::path& folder) {
     }
   }
   std::sort(files.begin(), files.end());
+  std::vector<std::string> stems;
+  for (const fs::path& file : files) stems.push_back(file.stem().string());
+  const std::vector<std::string> fields = recording::ids_of(stems, recording::IdFor::variable);
   MatStruct all;
-  std::set<std::string> taken;
-  for (const fs::path& file : files)
-    all.fields.emplace_back(field_name(file.stem().string(), taken), std::vector<MatStruct>{series_of(file)});
+  for (std::size_t i = 0; i < files.size(); ++i)
+    all.fields.emplace_back(fields[i], std::vector<MatStruct>{series_of(files[i])});
   return all;
 }
 
-MatStruct trial(const fs::path& folder, const std::string& name, const std::string& use, const std::string& failure) {
-  return {{{"name", name},
-           {"use", use},
-           {"failure", failure},
-           {"series", std::vector<MatStruct>{all_series(folder / name)}}}};
+/// `place`: the folder of the trial's series.
+MatStruct trial(const fs::path& place, const std::string& name, const std::string& use, const std::string& failure) {
+  return {{{"name", name}, {"use", use}, {"failure", failure}, {"series", std::vector<MatStruct>{all_series(place)}}}};
 }
 
 /// Returns the trials of a folder without run.json: the folders with series.
@@ -140,7 +126,7 @@ std::vector<MatStruct> trials_by_folder(const fs::path& folder) {
   std::sort(names.begin(), names.end());
   std::vector<MatStruct> trials;
   for (const std::string& name : names) {
-    if (!all_series(folder / name).fields.empty()) trials.push_back(trial(folder, name, "", ""));
+    if (!all_series(folder / name).fields.empty()) trials.push_back(trial(folder / name, name, "", ""));
   }
   return trials;
 }
@@ -187,7 +173,8 @@ void add_run(const fs::path& folder, MatStruct& variables) {
   add_faults("", run.at("faults"), remarks);
   for (const json& t : run.at("trials")) {
     const auto name = t.at("name").get<std::string>();
-    trials.push_back(trial(folder, name, t.at("use").get<std::string>(), t.at("failure").get<std::string>()));
+    const fs::path place = folder / t.value("folder", name);
+    trials.push_back(trial(place, name, t.at("use").get<std::string>(), t.at("failure").get<std::string>()));
     add_faults(name, t.at("faults"), remarks);
     for (const json& note : t.at("notes"))
       remarks.push_back({.trial = name, .code = {}, .level = "note", .channel = {}, .text = note.get<std::string>()});

@@ -113,10 +113,16 @@ struct FunctionConstraint {
   std::vector<int> independent{};
   MultiPolynomial function{};
 };
+
+/// A further coupler of a coordinate that another coupler sets: both hold.
+struct SecondCoupler {
+  CoordinateCoupler coupler;
+};
+
 struct LoopConstraint {
   std::string name;
   std::string class_name;
-  std::variant<FrameConstraint, DistanceConstraint, LineConstraint, FunctionConstraint> law;
+  std::variant<FrameConstraint, DistanceConstraint, LineConstraint, FunctionConstraint, SecondCoupler> law;
 };
 
 /// A person as a multibody system: an immutable value once read. Joints are in tree order, breadth

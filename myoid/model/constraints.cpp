@@ -57,6 +57,13 @@ LoopEquations loop_equations(const BodyModel& model, const BodyState& state) {
       const Vec3 between = state.X_GB[at(d->body2)] * d->p_B2 - state.X_GB[at(d->body1)] * d->p_B1;
       errors[row] = between.norm() - d->distance_m;
       jacobian.row(row) = between.normalized().transpose() * relative(d->body1, d->p_B1, d->body2, d->p_B2);
+    } else if (const auto* second = std::get_if<SecondCoupler>(&constraint.law)) {
+      const CoordinateCoupler& c = second->coupler;
+      const FunctionValue v = evaluate(c.function, state.q[c.independent]);
+      errors[row] = state.q[c.dependent] - v.value;
+      jacobian.row(row).setZero();
+      jacobian(row, c.dependent) = 1.0;
+      jacobian(row, c.independent) -= v.first;
     } else if (const auto* coupled = std::get_if<FunctionConstraint>(&constraint.law)) {
       const MultiPolynomialValue v = function_value(*coupled, state.q);
       errors[row] = state.q[coupled->dependent] - v.value;

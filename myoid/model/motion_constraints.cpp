@@ -57,6 +57,11 @@ class LoopRows {
         evaluate(f.function, x + step * rate).gradient - evaluate(f.function, x - step * rate).gradient;
     return Eigen::VectorXd::Constant(1, -change.dot(rate) / (2.0 * step));
   }
+  [[nodiscard]] Eigen::VectorXd bias(const SecondCoupler& second) const {
+    const CoordinateCoupler& c = second.coupler;
+    const double rate = state_.qdot[c.independent];
+    return Eigen::VectorXd::Constant(1, -evaluate(c.function, state_.q[c.independent]).second * rate * rate);
+  }
 
  private:
   [[nodiscard]] PointMotion point(BodyIndex body, const Vec3& p_B) const {

@@ -153,8 +153,10 @@ void add_contact_motion(const PosedPath& posed, const std::vector<PathStation>& 
     const auto add = [&](const PathStation& end, const Vec3& by_end_W) {
       const Vec3 by_end_G = s.X_GW.R * by_end_W;
       add_pair_moment(posed.model, posed.state, tangent.body, end.p_G, end.body, end.p_G, by_end_G, arm);
-      if (const PathPoint* point = moving_point(posed.path, end))
-        arm[point->moving->coordinate] -= by_end_G.dot(moving_rate(posed, *point, false));
+      if (const PathPoint* point = moving_point(posed.path, end)) {
+        for_each_moving_rate(posed, *point, false,
+                             [&](int coordinate, const Vec3& rate) { arm[coordinate] -= by_end_G.dot(rate); });
+      }
     };
     add(stations[s.station - 1], s.effect.head<3>());
     add(stations[s.station + 2], s.effect.tail<3>());

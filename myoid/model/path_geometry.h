@@ -23,9 +23,9 @@ struct PathPoint {
     double lower = 0.0;
     double upper = 0.0;
   };
-  /// Location in a frame F of the body as functions of one coordinate [m].
+  /// Location in a frame F of the body [m]: x, y and z each a function of a coordinate; -1: of none.
   struct Moving {
-    int coordinate = -1;
+    std::array<int, 3> coordinates{-1, -1, -1};
     std::array<Function, 3> location;
     Pose X_BF{};
   };

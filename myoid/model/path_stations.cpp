@@ -28,13 +28,13 @@ void place_points(const PosedPath& posed, PathWorkspace& workspace) {
     s.source = static_cast<int>(i);
     if (point.moving) {
       const PathPoint::Moving& moving = *point.moving;
-      double q = 0.0;
-      if (moving.coordinate >= 0) {
-        const Coordinate& c = model.coordinates[at(moving.coordinate)];
-        q = std::clamp(state.q[moving.coordinate], c.lower, c.upper);
-      }
       Vec3 p_F;
-      for (std::size_t k = 0; k < 3; ++k) p_F[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int index = moving.coordinates[k];
+        double q = 0.0;
+        if (index >= 0) q = std::clamp(state.q[index], model.coordinates[at(index)].lower, model.coordinates[at(index)].upper);
+        p_F[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
+      }
       s.p_B = moving.X_BF * p_F;
     }
     s.p_G = state.X_GB[at(s.body)] * s.p_B;
@@ -98,18 +98,9 @@ void add_pair_moment(const BodyModel& model,
 const PathPoint* moving_point(const MusclePath& path, const PathStation& station) {
   if (station.source < 0) return nullptr;
   const PathPoint& point = path.points[at(station.source)];
-  return point.moving && point.moving->coordinate >= 0 ? &point : nullptr;
-}
-
-Vec3 moving_rate(const PosedPath& posed, const PathPoint& point, bool beyond_range) {
-  const auto& [model, path, state] = posed;
-  const PathPoint::Moving& moving = *point.moving;
-  const Coordinate& coordinate = model.coordinates[at(moving.coordinate)];
-  const double q = state.q[moving.coordinate];
-  if (!beyond_range && (q < coordinate.lower || q > coordinate.upper)) return Vec3::Zero();
-  Vec3 rate;
-  for (std::size_t k = 0; k < 3; ++k) rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
-  return state.X_GB[at(point.body)].R * (moving.X_BF.R * rate);
+  if (!point.moving) return nullptr;
+  const auto& c = point.moving->coordinates;
+  return std::any_of(c.begin(), c.end(), [](int coordinate) { return coordinate >= 0; }) ? &point : nullptr;
 }
 
 std::array<PathStation, 2> contact_stations(const WrapObject& object,
@@ -143,8 +134,10 @@ void add_moving_moments(const PosedPath& posed,
                         bool beyond_range,
                         Eigen::VectorXd& arm) {
   const auto add = [&](const PathStation& s, double sign) {
-    if (const PathPoint* point = moving_point(posed.path, s))
-      arm[point->moving->coordinate] -= sign * u.dot(moving_rate(posed, *point, beyond_range));
+    const PathPoint* point = moving_point(posed.path, s);
+    if (point == nullptr) return;
+    for_each_moving_rate(posed, *point, beyond_range,
+                         [&](int coordinate, const Vec3& rate) { arm[coordinate] -= sign * u.dot(rate); });
   };
   add(b, 1.0);
   add(a, -1.0);

@@ -96,9 +96,25 @@ void insert_behind(std::vector<PathStation>& stations, int station, const std::a
 /// Returns the moving point at a station, if a coordinate moves it; null at other stations.
 [[nodiscard]] const PathPoint* moving_point(const MusclePath& path, const PathStation& station);
 
-/// Returns the derivative of such a point's location by its coordinate, in ground.
+/// Calls `visit` with each coordinate that moves such a point and the derivative of its location by it, in ground.
 /// `beyond_range`: nonzero also outside the coordinate's range, as in OpenSim.
-[[nodiscard]] Vec3 moving_rate(const PosedPath& posed, const PathPoint& point, bool beyond_range);
+template <typename Visit>
+void for_each_moving_rate(const PosedPath& posed, const PathPoint& point, bool beyond_range, const Visit& visit) {
+  const PathPoint::Moving& moving = *point.moving;
+  for (std::size_t first = 0; first < 3; ++first) {
+    const int c = moving.coordinates[first];
+    bool is_new = c >= 0;
+    for (std::size_t k = 0; k < first; ++k) is_new = is_new && moving.coordinates[k] != c;
+    if (!is_new) continue;
+    const Coordinate& coordinate = posed.model.coordinates[static_cast<std::size_t>(c)];
+    const double q = posed.state.q[c];
+    if (!beyond_range && (q < coordinate.lower || q > coordinate.upper)) continue;
+    Vec3 rate = Vec3::Zero();
+    for (std::size_t k = first; k < 3; ++k)
+      if (moving.coordinates[k] == c) rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
+    visit(c, Vec3(posed.state.X_GB[static_cast<std::size_t>(point.body)].R * (moving.X_BF.R * rate)));
+  }
+}
 
 /// Adds to `arm` the moments of two moving points, a and b, by the coordinates that they follow; u
 /// is the direction from a to b. Other stations have none.

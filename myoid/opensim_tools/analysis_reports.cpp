@@ -189,7 +189,7 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
   auto& [numbers, points] = tables;
   const Eigen::Index frames = run.motion.sample_count();
   for (OutputTable& table : tables) table.values.resize(frames, table.components * std::ssize(table.outputs));
-  MovingBodies moving(model, run.motion);
+  MovingBodies moving(model, run.moved);
   model::PathWorkspace workspace;
   model::PathResult path;
   const auto paths = paths_of(model);

@@ -14,7 +14,8 @@ namespace myoid {
 /// The inputs and results that all analyses of one AnalyzeTool share.
 struct AnalysisRun : ToolRun {
   model::BodyModel model{};
-  kinematics::JointMotion motion{};  ///< At the rows that the analysis records.
+  kinematics::JointMotion motion{};  ///< At the rows that the analysis records; its rates are OpenSim's speeds.
+  kinematics::JointMotion moved{};   ///< The motion of the bodies by these speeds (kinematics/angular_speeds.h).
   std::vector<Eigen::Index> rows{};  ///< Their numbers in the file.
   std::optional<dynamics::ExternalLoads> loads{};
   int decimals = 8;

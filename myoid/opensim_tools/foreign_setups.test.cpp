@@ -184,8 +184,7 @@ TEST_F(ForeignSetups, TasksOfMarkersThatAreNamedOtherwiseAreNamed) {
   EXPECT_THAT(result.notes, Contains(HasSubstr("is it 'subject:" + renamed + "' there?")));
 }
 
-// Scaling by 1.1 is seen by the model's hand; a second run would make it 1.21.
-TEST_F(ForeignSetups, AResultMayReplaceTheModelThatIsScaledAndTheModelIsKept) {
+TEST_F(ForeignSetups, AResultNeverReplacesTheModelThatIsScaled) {
   const std::string setup =
       "<ScaleTool name=\"t\"><GenericModelMaker><model_file>arm.osim</model_file>"
       "</GenericModelMaker><ModelScaler><scaling_order>manualScale</scaling_order><ScaleSet>"
@@ -193,12 +192,62 @@ TEST_F(ForeignSetups, AResultMayReplaceTheModelThatIsScaledAndTheModelIsKept) {
       arm_.bodies.back().name +
       "</segment></Scale></objects></ScaleSet><output_model_file>arm.osim</output_model_file>"
       "</ModelScaler><MarkerPlacer><apply>false</apply></MarkerPlacer></ScaleTool>";
-  const ToolResult result = run(setup);
-  EXPECT_THAT(result.notes, Contains(HasSubstr("is kept as")));
-  EXPECT_EQ(text_of(folder_ / "arm_unscaled.osim"), model::arm4_osim());
-  const model::BodyModel scaled = model::read_osim(folder_ / "arm.osim");
-  EXPECT_LT((scaled.bodies.back().p_BBcm_B - 1.1 * arm_.bodies.back().p_BBcm_B).norm(), 1e-15);
   EXPECT_THROW((void)run(setup), InvalidInput);
+  EXPECT_EQ(text_of(folder_ / "arm.osim"), model::arm4_osim());
+  (void)run_tool(folder_ / "setup.xml", {.files = {.out = folder_ / "scaled"}});
+  const model::BodyModel scaled = model::read_osim(folder_ / "scaled/arm.osim");
+  EXPECT_LT((scaled.bodies.back().p_BBcm_B - 1.1 * arm_.bodies.back().p_BBcm_B).norm(), 1e-15);
+  EXPECT_EQ(text_of(folder_ / "arm.osim"), model::arm4_osim());
+}
+
+/// An inverse kinematics whose motion goes to this file.
+std::string ik_to(const std::string& motion) {
+  return "<InverseKinematicsTool name=\"t\"><model_file>arm.osim</model_file><marker_file>m.trc</marker_file>"
+         "<report_errors>false</report_errors><output_motion_file>" +
+         motion + "</output_motion_file></InverseKinematicsTool>";
+}
+
+TEST_F(ForeignSetups, AResultReplacesOnlyAResult) {
+  write_markers(2);
+  (void)run(ik_to("ik.mot"));
+  EXPECT_EQ(run(ik_to("ik.mot")).replaced, 1) << "the list of the folder names it";
+  // OpenSim's own result has the same title; a force table and a text have another.
+  write_motion(3);
+  EXPECT_EQ(run(ik_to("motion.mot")).replaced, 1);
+  for (const std::string text : {"ground_forces\nversion=1\nendheader\ntime\tfx\n0\t1\n", "precious"}) {
+    write("thesis.docx", text);
+    EXPECT_THROW((void)run(ik_to("thesis.docx")), InvalidInput);
+    EXPECT_EQ(text_of(folder_ / "thesis.docx"), text);
+  }
+}
+
+TEST_F(ForeignSetups, AModelReplacesAModelOfTheSameNameAlone) {
+  const std::string setup =
+      "<ScaleTool name=\"t\"><GenericModelMaker><model_file>arm.osim</model_file>"
+      "</GenericModelMaker><ModelScaler><scaling_order>manualScale</scaling_order><output_model_file>scaled.osim"
+      "</output_model_file></ModelScaler><MarkerPlacer><apply>false</apply></MarkerPlacer></ScaleTool>";
+  std::string theirs = model::arm4_osim();
+  write("scaled.osim", theirs);
+  EXPECT_THROW((void)run(setup), InvalidInput);
+  EXPECT_EQ(text_of(folder_ / "scaled.osim"), theirs);
+  const std::string name = model::parse_osim(theirs, "arm.osim").name;
+  theirs.replace(theirs.find("\"" + name + "\"") + 1, name.size(), "t");
+  write("scaled.osim", theirs);
+  EXPECT_EQ(run(setup).replaced, 1);
+}
+
+TEST_F(ForeignSetups, AResultOutsideTheFolderOfTheSetupIsAskedFor) {
+  write_markers(2);
+  std::filesystem::create_directories(folder_ / "inner");
+  for (const char* file : {"arm.osim", "m.trc"}) std::filesystem::copy_file(folder_ / file, folder_ / "inner" / file);
+  for (const std::string& motion : {std::string("../ik.mot"), (folder_ / "ik.mot").string()}) {
+    write("inner/setup.xml", "<OpenSimDocument Version=\"40000\">" + ik_to(motion) + "</OpenSimDocument>");
+    EXPECT_THROW((void)run_tool(folder_ / "inner/setup.xml"), InvalidInput) << motion;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "ik.mot"));
+    (void)run_tool(folder_ / "inner/setup.xml", {.files = {.out = folder_ / "out"}});
+    (void)run_tool(folder_ / "inner/setup.xml", {.anywhere = true});
+    EXPECT_TRUE(std::filesystem::remove(folder_ / "ik.mot"));
+  }
 }
 
 }  // namespace

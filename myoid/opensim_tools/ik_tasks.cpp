@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <set>
 #include <utility>
 
@@ -18,35 +17,14 @@ namespace {
 
 using model::OsimXml;
 
-/// The task set of a set-up, inside it or in a separate document.
-struct TaskFile {
-  std::unique_ptr<OsimXml> xml;
-  pugi::xml_node set;
-};
-
-TaskFile task_file(const OpensimSetup& setup, pugi::xml_node owner) {
-  TaskFile file;
-  const auto inside = owner.child("IKTaskSet");
-  const std::string name = inside.attribute("file").value();
-  if (name.empty() || recording::equal_ignoring_case(name, "Unassigned")) {
-    file.set = inside;
-    return file;
-  }
-  const auto path = setup.file_named(inside, name);
-  file.xml = std::make_unique<OsimXml>(recording::read_text_file(path), path, OsimXml::Root::any);
-  file.set = file.xml->root().child("IKTaskSet");
-  if (!file.set) file.xml->fail(file.xml->root(), "expected an <IKTaskSet>");
-  return file;
-}
-
 void add_coordinate_task(const OpensimSetup& setup,
-                         const OsimXml& xml,
                          pugi::xml_node owner,
                          pugi::xml_node node,
                          const model::BodyModel& model,
                          const recording::MarkerSeries& markers,
                          kinematics::IkOptions& ik,
                          std::vector<std::string>& notes) {
+  const OsimXml& xml = setup.xml();
   const std::string name = OsimXml::name_of(node);
   const auto found = model.find_coordinate(name);
   if (!found) xml.fail(node, "IKCoordinateTask '{}': the model has no such coordinate", name);
@@ -101,10 +79,9 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
                                     const recording::MarkerSeries& markers,
                                     std::vector<std::string>& notes) {
   kinematics::IkOptions ik;
-  const TaskFile tasks = task_file(setup, owner);
-  const OsimXml& xml = tasks.xml ? *tasks.xml : setup.xml();
+  const OsimXml& xml = setup.xml();
   std::set<std::string> named;
-  for (const auto node : OsimXml::objects(tasks.set)) {
+  for (const auto node : OsimXml::objects(owner.child("IKTaskSet"))) {
     const std::string_view kind = node.name();
     const bool marker_task = kind == "IKMarkerTask";
     if (!marker_task && kind != "IKCoordinateTask")
@@ -121,7 +98,7 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
         notes.push_back(fmt::format("two tasks for marker '{}': the last one counts", name));
       if (weight > 0.0) ik.marker_weights[name] = weight;
     } else {
-      add_coordinate_task(setup, xml, owner, node, model, markers, ik, notes);
+      add_coordinate_task(setup, owner, node, model, markers, ik, notes);
     }
   }
   std::string unknown;
@@ -132,10 +109,6 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
   });
   if (!unknown.empty()) notes.push_back(fmt::format("tasks of markers that the model does not have: {}", unknown));
   note_unseen_markers(model, ik, markers, notes);
-  if (tasks.xml) {
-    const std::vector<std::string>& defaulted = xml.defaulted();
-    notes.insert(notes.end(), defaulted.begin(), defaulted.end());
-  }
   return ik;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/core/counted.h"
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/core/units.h"
@@ -170,9 +171,16 @@ void place_markers(const ToolRun& run, pugi::xml_node placer, model::OsimEditor&
   const auto range = run.setup.time_range(placer, "time_range");
   const recording::MarkerSeries pose =
       averaged(run, all, range, 1e-3 * xml.number(placer, "max_marker_movement", -1.0));
+  std::vector<std::string> removed;
   editor.remove_markers([&](const std::string& name) {
-    return std::find(pose.names.begin(), pose.names.end(), name) == pose.names.end();
+    if (std::find(pose.names.begin(), pose.names.end(), name) != pose.names.end()) return false;
+    removed.push_back(name);
+    return true;
   });
+  if (!removed.empty()) {
+    run.note("{}: the recording does not have {} of the model; the result lacks {}, as in OpenSim: {}", file.string(),
+             counted(removed.size(), "marker"), removed.size() == 1 ? "it" : "them", join_names(removed));
+  }
   model::BodyModel model = model::parse_osim(editor.text(), editor.path(), {.compat = run.options.compat});
   kinematics::IkOptions ik = read_ik_tasks(run.setup, placer, model, pose, run.result.notes);
   kinematics::IkResult solved = kinematics::inverse_kinematics(model, pose, ik);

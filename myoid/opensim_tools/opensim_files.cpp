@@ -43,11 +43,16 @@ TimeSeries read_coordinates(const model::BodyModel& model,
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd q(file.data.sample_count(), count);
   std::vector<Channel> channels;
-  std::vector<bool> found(model.coordinates.size(), false);
+  std::vector<bool> found(model.coordinates.size(), false), is_given = found;
   for (Eigen::Index k = 0; k < count; ++k) {
     const model::Coordinate& c = model.coordinates[at(k)];
     channels.push_back({c.name, kinematics::coordinate_unit(c, 0)});
-    q.col(k).setConstant(missing == MissingCoordinate::zero ? 0.0 : c.default_value);
+    if (missing == MissingCoordinate::zero && kinematics::is_held(c)) {
+      q.col(k) = kinematics::held_values(c, file.data.time_s());
+      is_given[at(k)] = true;
+    } else {
+      q.col(k).setConstant(missing == MissingCoordinate::zero ? 0.0 : c.default_value);
+    }
   }
   bool any = false;
   for (std::size_t column = 0; column < file.data.channels().size(); ++column) {
@@ -64,7 +69,7 @@ TimeSeries read_coordinates(const model::BodyModel& model,
   }
   std::string absent;
   for (std::size_t k = 0; k < found.size(); ++k) {
-    if (!found[k]) absent += (absent.empty() ? "" : ", ") + model.coordinates[k].name;
+    if (!found[k] && !is_given[k]) absent += (absent.empty() ? "" : ", ") + model.coordinates[k].name;
   }
   if (!absent.empty()) {
     notes.push_back(

@@ -11,7 +11,8 @@
 
 namespace myoid {
 
-/// The value of a coordinate without a column: its default value (inverse dynamics) or 0 (the analyses of AnalyzeTool).
+/// The value of a coordinate without a column: its default value (inverse dynamics) or 0 (the analyses of AnalyzeTool,
+/// where a locked or prescribed coordinate keeps the model's value).
 enum class MissingCoordinate { default_value, zero };
 
 /// Reads the coordinates of a motion or states file, in the model's order [rad, m]. Columns have the name of the

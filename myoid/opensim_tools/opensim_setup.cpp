@@ -89,25 +89,32 @@ std::string OpensimSetup::named_in(pugi::xml_node object, const char* name) cons
   return recording::equal_ignoring_case(text, "Unassigned") ? std::string() : text;
 }
 
-std::filesystem::path OpensimSetup::replacement(std::string_view name) const {
-  if (name == "model_file") return instead_.model;
-  if (name == "external_loads_file") return instead_.external_loads;
+std::string_view OpensimSetup::option_for(std::string_view name) const {
+  if (name == "model_file") return "--model";
+  if (name == "external_loads_file" && (kind() == "AnalyzeTool" || kind() == "InverseDynamicsTool"))
+    return "--external-loads";
   // The states, where the set-up names them, else the coordinates.
   const bool by_states = kind() == "ForwardTool" || !named_in(tool_, "states_file").empty();
   std::vector<std::string_view> motion{"coordinates_file", "marker_file", "orientations_file",
                                        "orientation_file_for_calibration"};
   if (kind() == "AnalyzeTool" || by_states) motion = {by_states ? "states_file" : "coordinates_file"};
-  const bool is_motion = std::find(motion.begin(), motion.end(), name) != motion.end();
-  return is_motion ? instead_.motion : std::filesystem::path();
+  return std::find(motion.begin(), motion.end(), name) != motion.end() ? "--motion" : "";
+}
+
+std::filesystem::path OpensimSetup::replacement(std::string_view name) const {
+  const std::string_view option = option_for(name);
+  if (option == "--model") return instead_.model;
+  if (option == "--external-loads") return instead_.external_loads;
+  return option == "--motion" ? instead_.motion : std::filesystem::path();
 }
 
 std::filesystem::path OpensimSetup::file_named(pugi::xml_node node, std::string_view name) const {
   const recording::NamedFile found = recording::find_named_file(path_.parent_path(), name);
   if (found.exists) return found.path;
-  xml_.fail(node,
-            "<{}> names '{}', and there is no such file; a file of that name beside this set-up or one folder up would "
-            "be taken",
-            node.name(), name);
+  const std::string_view option = option_for(node.name());
+  xml_.fail(node, "<{}> names '{}', and {}{}", node.name(), name,
+            recording::missing_file(path_.parent_path(), name),
+            option.empty() ? std::string() : fmt::format("; {} FILE names another", option));
 }
 
 std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object, const char* name) const {
@@ -121,7 +128,7 @@ std::filesystem::path OpensimSetup::required_file(pugi::xml_node object, const c
   if (const auto found = file(object, name)) return *found;
   const auto node = object.child(name);
   xml_.fail(node ? node : object, "<{}> expected: a file's name, relative to this set-up{}", name,
-            std::string_view(name) == "model_file" ? ", or --model FILE" : "");
+            option_for(name).empty() ? std::string() : fmt::format(", or {} FILE", option_for(name)));
 }
 
 std::vector<std::filesystem::path> OpensimSetup::files(pugi::xml_node object, const char* name) const {
@@ -163,8 +170,15 @@ std::vector<std::pair<const char*, recording::NamedFile>> OpensimSetup::named_in
 
 std::vector<std::filesystem::path> OpensimSetup::inputs() const {
   std::vector<std::filesystem::path> files{path_};
-  for (const auto& [element, file] : named_inputs())
-    if (file.exists) files.push_back(file.path);
+  const auto add_parts = [&](const std::vector<std::filesystem::path>& parts) {
+    files.insert(files.end(), parts.begin(), parts.end());
+  };
+  add_parts(xml_.files());
+  for (const auto& [element, file] : named_inputs()) {
+    if (!file.exists) continue;
+    files.push_back(file.path);
+    if (std::string_view(element) == "model_file") add_parts(model::files_of(file.path));
+  }
   return files;
 }
 
@@ -195,6 +209,17 @@ std::vector<std::string> OpensimSetup::notes() const {
     }
   }
   return notes;
+}
+
+bool OpensimSetup::is_near(const std::filesystem::path& output) const {
+  std::error_code ignored;
+  const auto real = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::current_path() / path, ignored);
+  };
+  std::filesystem::path folder = real(instead_.out.empty() ? path_.parent_path() : instead_.out);
+  if (!folder.has_filename()) folder = folder.parent_path();
+  const std::filesystem::path file = real(output);
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
 std::filesystem::path OpensimSetup::results_folder() const {
@@ -244,6 +269,7 @@ model::BodyModel setup_model(const OpensimSetup& setup,
   const auto& xml = setup.xml();
   const auto path = setup.required_file(setup.tool(), "model_file");
   model::BodyModel model = model::read_osim(path, {.compat = compat});
+  model::require_lengths_in_m(model, path);
   const bool replaces =
       xml.flag(setup.tool(), "replace_force_set", xml.flag(setup.tool(), "replace_actuator_set", false));
   if (replaces) {

@@ -57,6 +57,8 @@ class OpensimSetup {
   [[nodiscard]] std::vector<std::filesystem::path> inputs() const;
   /// Returns the files that the set-up names as inputs and that do not exist.
   [[nodiscard]] std::vector<std::filesystem::path> missing_inputs() const;
+  /// Returns true for a file in the folder of the set-up or in the folder that replaces the set-up's for results.
+  [[nodiscard]] bool is_near(const std::filesystem::path& output) const;
   /// Returns the folder of the results; the set-up's own if no folder, or one of another computer, is given.
   [[nodiscard]] std::filesystem::path results_folder() const;
   /// Returns a sentence for each file whose place differs from the name in the set-up.
@@ -71,6 +73,8 @@ class OpensimSetup {
                    std::vector<std::string>& notes) const;
 
  private:
+  /// Returns the option that replaces the file of an element ("--model"); empty if none does.
+  [[nodiscard]] std::string_view option_for(std::string_view name) const;
   /// Returns the file that replaces the file of an element; empty without a replacement.
   [[nodiscard]] std::filesystem::path replacement(std::string_view name) const;
   /// Returns the text of an element that names a file; empty for "Unassigned".

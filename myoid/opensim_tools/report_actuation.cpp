@@ -42,7 +42,7 @@ void report_actuation(AnalysisRun& run, pugi::xml_node node) {
   const TimeSeries& forces = forces_of_states(run);
   if (forces.channel_count() == 0) run.setup.xml().fail(node, "Actuation: the model has neither muscles nor actuators");
   forces::Actuation result = forces::actuation(
-      run.model, run.motion, forces,
+      run.model, run.moved, forces,
       {.speeds_of_opensim = run.options.compat == model::kOpenSim452, .progress = run.options.progress});
   const auto write = [&](const char* quantity, const char* title, const TimeSeries& table) {
     write_result(run, analysis_name(node) + quantity, table,

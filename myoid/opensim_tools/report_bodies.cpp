@@ -108,7 +108,7 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node) {
   const std::vector<Channel> channels = body_channels(run.model, wanted);
   if (channels.empty()) xml.fail(node, "BodyKinematics: there are no bodies to report");
   const Eigen::MatrixXd* qddot = accelerations_of(run);
-  MovingBodies moving(run.model, run.motion, qddot);
+  MovingBodies moving(run.model, run.moved, qddot);
   MotionTables tables =
       body_tables(moving, wanted, local, run.motion.sample_count(), static_cast<Eigen::Index>(channels.size()));
   const std::string name = analysis_name(node);
@@ -145,7 +145,7 @@ void report_point(AnalysisRun& run, pugi::xml_node node) {
   const Eigen::Index frames = run.motion.sample_count();
   Eigen::MatrixXd position(frames, 3), velocity(frames, 3), acceleration(frames, 3);
   const Eigen::MatrixXd* qddot = accelerations_of(run);
-  MovingBodies moving(run.model, run.motion, qddot);
+  MovingBodies moving(run.model, run.moved, qddot);
   for (Eigen::Index i = 0; i < frames; ++i) {
     moving.set(i);
     const model::PointMotion motion = moving.point(body, point);

@@ -84,7 +84,7 @@ TimeSeries force_table(const AnalysisRun& run, const model::BodyModel& model, co
       add_passive(run, model, name, table);
     }
   }
-  if (run.loads) add_loads(run.loads->forces, model, run.motion, table);
+  if (run.loads) add_loads(run.loads->forces, model, run.moved, table);
   return table.at_times(run.motion.q.time_s());
 }
 
@@ -134,7 +134,7 @@ const TimeSeries& forces_of_states(AnalysisRun& run) {
 const Eigen::MatrixXd* accelerations_of(AnalysisRun& run) {
   if (!run.accelerations) {
     try {
-      run.accelerations = forces::driven_accelerations(run.model, run.motion, forces_of_states(run),
+      run.accelerations = forces::driven_accelerations(run.model, run.moved, forces_of_states(run),
                                                        {.loads = run.loads_if_any(), .progress = run.options.progress});
       run.note(
           "accelerations follow from the forces, as in OpenSim, and differ from the motion's second derivatives: "

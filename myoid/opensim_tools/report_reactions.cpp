@@ -166,7 +166,7 @@ void report_reactions(AnalysisRun& run, pugi::xml_node node) {
   const std::vector<Asked> asked = asked_joints(run, node);
   const std::string name = analysis_name(node);
   const auto path = claim_result(run, name + "_ReactionLoads.sto");
-  const auto loads = forces::joint_reactions(run.model, run.motion, actuator_forces(run, node),
+  const auto loads = forces::joint_reactions(run.model, run.moved, actuator_forces(run, node),
                                              {.loads = run.loads_if_any(), .progress = run.options.progress});
   for (const model::PassiveForce& force : run.model.passive_forces) {
     if (std::holds_alternative<model::PathSpring>(force.law) || std::holds_alternative<model::Ligament>(force.law)) {

@@ -31,8 +31,10 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
   result.inputs = setup.inputs();
   result.notes = setup.notes();
   const std::vector<std::string> unknown = unknown_elements(setup.xml(), setup.tool());
-  const ToolRun run{setup, options, result};
+  std::map<std::filesystem::path, recording::RecordedFolder> folders;
+  const ToolRun run{setup, options, result, folders};
   run.add_notes(unknown);
+  run.add_notes(setup.xml().ignored());
   result.tool = setup.kind();
   try {
     for (const auto& [name, run_named] : kRuns)
@@ -42,7 +44,11 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
     if (unknown.empty()) throw;
     throw InvalidInput(fmt::format("{}; {}", error.what(), fmt::join(unknown, "; ")));
   }
-  run.add_notes(setup.xml().defaulted());
+  run.add_notes(setup.xml().repairs());
+  for (auto& [folder, held] : folders) {
+    held.finish();
+    run.add_notes(held.take_notes());
+  }
   return result;
 }
 

@@ -8,7 +8,9 @@
 #include "myoid/core/names.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/kinematics/angular_speeds.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/math/spline.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
@@ -32,11 +34,7 @@ constexpr KnownAnalysis kKnown[] = {
     {"PointKinematics", report_point},   {"StaticOptimization", run_static_optimization}};
 
 void run_analysis(AnalysisRun& run, pugi::xml_node node) {
-  const std::string_view kind = node.name();
-  // These analyses report velocities of bodies, which follow from the speeds as angular velocities.
-  for (const char* moving : {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
-    if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
-  std::ranges::find(kKnown, kind, &KnownAnalysis::class_name)->run(run, node);
+  std::ranges::find(kKnown, std::string_view(node.name()), &KnownAnalysis::class_name)->run(run, node);
   run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
@@ -61,15 +59,19 @@ std::vector<Channel> channels_of(const model::BodyModel& model, int order) {
 
 /// Forms positions, speeds and accelerations as OpenSim does: given speeds, or derivatives of the spline through the
 /// positions; accelerations are derivatives of the spline through the speeds, or zero if no analysis uses them.
-kinematics::JointMotion motion_of(const model::BodyModel& model,
+/// Locked and prescribed coordinates have the model's values.
+kinematics::JointMotion motion_of(AnalysisRun& run,
                                   TimeSeries q,
                                   std::optional<TimeSeries> speeds,
                                   bool with_accelerations) {
+  const model::BodyModel& model = run.model;
   TimeSeries u = speeds ? std::move(*speeds) : derivative(q, channels_of(model, 1));
   TimeSeries udot = with_accelerations ? derivative(u, channels_of(model, 2))
                                        : TimeSeries(u.time_s(), channels_of(model, 2),
                                                     Eigen::MatrixXd::Zero(u.sample_count(), u.channel_count()));
-  return {std::move(q), std::move(u), std::move(udot)};
+  run.add_notes(kinematics::held_notes(model, q, kinematics::HeldValues::of_model));
+  const bool as_opensim = model.compat == model::kOpenSim452;
+  return kinematics::with_held_values(model, {std::move(q), std::move(u), std::move(udot)}, !as_opensim);
 }
 
 /// Reads the motion. The range is compared with the times of the file, for a filter adds times at both ends.
@@ -83,8 +85,9 @@ kinematics::JointMotion read_motion(AnalysisRun& run, std::pair<double, double> 
     }
     TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
     setup.check_range(range_s, q.time_s(), *states, notes);
+    run.add_remarks(kinematics::implausible(q), states->string());
     read_muscle_states(run, *states);
-    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false, notes), with_accelerations);
+    return motion_of(run, std::move(q), read_speeds(run.model, *states, false, notes), with_accelerations);
   }
   const auto path = setup.file(tool, "coordinates_file");
   if (!path) {
@@ -92,6 +95,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run, std::pair<double, double> 
   }
   TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::zero, notes);
   setup.check_range(range_s, q.time_s(), *path, notes);
+  run.add_remarks(kinematics::implausible(q), path->string());
   const double cutoff_hz = setup.xml().number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   std::optional<TimeSeries> speeds;
@@ -107,7 +111,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run, std::pair<double, double> 
                       file->string(), speeds->sample_count(), q.sample_count()));
     }
   }
-  return motion_of(run.model, std::move(q), std::move(speeds), with_accelerations);
+  return motion_of(run, std::move(q), std::move(speeds), with_accelerations);
 }
 
 /// Returns the rows that an analysis records: the first, every row whose number the interval divides, the last.
@@ -126,17 +130,39 @@ void read_loads(AnalysisRun& run) {
   run.add_notes(run.loads->notes);
 }
 
-/// Throws ReadError for an unknown class: the user would not notice the missing files of a misspelt analysis.
-void require_opensim_analysis(const OsimXml& xml, pugi::xml_node node) {
+/// Says that an analysis is not run: OpenSim's own, a misspelt one, or one of a plug-in.
+std::string not_run(pugi::xml_node node) {
   static const std::vector<std::string> kOfOpensim{
       "Actuation",       "BodyKinematics",  "ForceReporter", "IMUDataReporter",   "InducedAccelerations",
       "InverseDynamics", "JointReaction",   "Kinematics",    "MomentArmAnalysis", "MuscleAnalysis",
       "OutputReporter",  "PointKinematics", "ProbeReporter", "StatesReporter",    "StaticOptimization"};
   const std::string kind = node.name();
-  if (std::find(kOfOpensim.begin(), kOfOpensim.end(), kind) != kOfOpensim.end()) return;
-  const auto near = recording::nearest_word(kind, kOfOpensim);
-  xml.fail(node, "OpenSim has no analysis <{}>{}; there are {}", kind,
-           near ? fmt::format(" (did you mean {}?)", *near) : "", fmt::join(kOfOpensim, ", "));
+  const bool is_own = std::find(kOfOpensim.begin(), kOfOpensim.end(), kind) != kOfOpensim.end();
+  const auto near = is_own ? std::nullopt : recording::nearest_word(kind, kOfOpensim);
+  return fmt::format("analysis {}{} is not run, and its files are not written; {} are run", kind,
+                     is_own ? std::string()
+                     : near ? fmt::format(" is none of OpenSim's (did you mean {}?); it", *near)
+                            : std::string(" is none of OpenSim's (is it a plug-in's?); it"),
+                     name_list(kKnown, &KnownAnalysis::class_name));
+}
+
+/// Returns the analyses that are on and can be run, with a note for each other one. Throws ReadError if there is none.
+std::vector<pugi::xml_node> chosen_analyses(const ToolRun& run) {
+  const OsimXml& xml = run.setup.xml();
+  std::vector<pugi::xml_node> chosen;
+  std::string others;
+  for (const auto node : OsimXml::objects(xml.property(run.setup.tool(), "AnalysisSet"))) {
+    if (!xml.flag(node, "on", true)) continue;
+    if (is_known_analysis(node.name())) {
+      chosen.push_back(node);
+    } else {
+      others += fmt::format("{}{}", others.empty() ? "" : "; ", not_run(node));
+      run.note("{}", not_run(node));
+    }
+  }
+  if (chosen.empty() && !others.empty()) xml.fail(run.setup.tool(), others);
+  if (chosen.empty()) xml.fail(run.setup.tool(), "no analysis is on: there is nothing to do");
+  return chosen;
 }
 
 }  // namespace
@@ -146,28 +172,17 @@ bool is_known_analysis(std::string_view class_name) {
 }
 
 void run_analyses(const ToolRun& tool_run) {
+  const std::vector<pugi::xml_node> analyses = chosen_analyses(tool_run);
   AnalysisRun run{tool_run};
   const auto& xml = run.setup.xml();
   const auto tool = run.setup.tool();
   run.model = setup_model(run.setup, run.options.compat, {}, run.result.notes);
+  run.add_remarks(model::implausible(run.model), run.setup.required_file(tool, "model_file").string());
   run.decimals = static_cast<int>(xml.number(tool, "output_precision", 8.0));
   if (run.decimals < 1 || run.decimals > 30) {
     xml.fail(tool, "<output_precision> {}, expected 1 to 30", run.decimals);
   }
   run.equilibrium = xml.flag(tool, "solve_for_equilibrium_for_auxiliary_states", false);
-  const auto set = xml.property(tool, "AnalysisSet");
-  std::vector<pugi::xml_node> analyses;
-  for (const auto node : OsimXml::objects(set)) {
-    if (xml.flag(node, "on", true)) analyses.push_back(node);
-  }
-  if (analyses.empty()) xml.fail(tool, "no analysis is on: there is nothing to do");
-  for (const auto node : analyses) {
-    if (!is_known_analysis(node.name())) {
-      require_opensim_analysis(xml, node);
-      run.note("analysis {} is not supported: its files are not written; {} are", node.name(),
-               name_list(kKnown, &KnownAnalysis::class_name));
-    }
-  }
   read_loads(run);
   const bool accelerates = std::any_of(analyses.begin(), analyses.end(), [](pugi::xml_node node) {
     const std::string_view name = node.name();
@@ -186,10 +201,10 @@ void run_analyses(const ToolRun& tool_run) {
                        times.segment(first, last - first + 1));
   }
   for (const auto node : analyses) {
-    if (!is_known_analysis(node.name())) continue;
     const auto rows = recorded_rows(first, last, static_cast<int>(xml.number(node, "step_interval", 1.0)));
     if (rows != run.rows) {
       run.motion = rows_of(all, rows);
+      run.moved = kinematics::moved_by_speeds(run.model, run.motion);
       run.rows = rows;
       run.state_forces.reset();
       run.accelerations.reset();

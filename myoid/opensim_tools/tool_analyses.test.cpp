@@ -216,5 +216,52 @@ TEST(Analyses, AreKnownByTheirClass) {
   EXPECT_FALSE(is_known_analysis("InducedAccelerations"));
 }
 
+/// A set-up with these analyses along motion.mot.
+std::string analyses_of(const std::string& analyses) {
+  return "<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><initial_time>0</initial_time>"
+         "<final_time>0.3</final_time><coordinates_file>motion.mot</coordinates_file><AnalysisSet><objects>" +
+         analyses + "</objects></AnalysisSet></AnalyzeTool>";
+}
+
+TEST_F(ToolAnalyses, AnUnknownAnalysisDoesNotStopTheOthers) {
+  write_motion(40);
+  const ToolResult result = run(analyses_of("<MyPlugin name=\"p\"/><Kinematics name=\"k\"/><MuscleAnalisis/>"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "a_k_q.sto"));
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("MyPlugin")));
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("did you mean MuscleAnalysis")));
+  // Nothing to run is an error, also for analyses of OpenSim itself.
+  EXPECT_THROW((void)run(analyses_of("<MyPlugin/>")), ReadError);
+  EXPECT_THROW((void)run(analyses_of("<StatesReporter/>")), ReadError);
+}
+
+// OpenSim assembles every row: a lock and a prescribed function hold, whatever the file says.
+TEST_F(ToolAnalyses, LocksAndPrescribedFunctionsHold) {
+  std::string text = model::arm4_osim();
+  const auto in_coordinate = [&](const std::string& name, const std::string& what) {
+    const auto at = text.find('>', text.find("Coordinate name=\"" + name + "\"")) + 1;
+    text.insert(at, what);
+  };
+  const std::string locked = arm_.coordinates[0].name;
+  in_coordinate(locked, "<locked>true</locked>");
+  in_coordinate("elbow_flexion",
+                "<prescribed>true</prescribed><prescribed_function><LinearFunction><coefficients>0.5 1"
+                "</coefficients></LinearFunction></prescribed_function>");
+  write("arm.osim", text);
+  std::string motion = "motion\nnRows=30\nnColumns=3\ninDegrees=no\nendheader\ntime\t" + locked + "\telbow_flexion\n";
+  for (int i = 0; i < 30; ++i) motion += fmt::format("{}\t{}\t{}\n", 0.01 * i, 0.2 + 0.01 * i, 2.0);
+  write("motion.mot", motion);
+  const ToolResult result =
+      run(analyses_of("<Kinematics name=\"k\"><in_degrees>false</in_degrees></Kinematics>"));
+  const TimeSeries q = read("a_k_q.sto");
+  const double lock = arm_.coordinates[0].default_value;
+  for (Eigen::Index i = 0; i < q.sample_count(); ++i) {
+    EXPECT_NEAR(q.column(locked)[i], lock, 1e-7);
+    EXPECT_NEAR(q.column("elbow_flexion")[i], 1.0 + 0.5 * q.time_s()[i], 1e-7);
+  }
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("'" + locked + "' is locked"),
+                                                                 ::testing::HasSubstr("the model's values count"))));
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("'elbow_flexion' is prescribed")));
+}
+
 }  // namespace
 }  // namespace myoid

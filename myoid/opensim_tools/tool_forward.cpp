@@ -6,6 +6,7 @@
 
 #include "myoid/core/index.h"
 #include "myoid/forces/actuator_columns.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/model_controls.h"
 #include "myoid/opensim_tools/tool_stages.h"
@@ -172,6 +173,7 @@ void run_forward(const ToolRun& tool_run) {
   const auto tool = setup.tool();
   refuse_and_note(run);
   run.model = setup_model(setup, run.options.compat, {}, result.notes);
+  run.add_remarks(model::implausible(run.model), setup.required_file(tool, "model_file").string());
   run.decimals = std::clamp(static_cast<int>(xml.number(tool, "output_precision", 8.0)), 1, 30);
   run.equilibrium = xml.flag(tool, "solve_for_equilibrium_for_auxiliary_states", false);
   const auto states_file = claim_result(run, "states.sto");

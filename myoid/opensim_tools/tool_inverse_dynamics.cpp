@@ -4,9 +4,12 @@
 
 #include "myoid/core/index.h"
 #include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/files/named_file.h"
 #include "myoid/forces/muscle_analysis.h"
 #include "myoid/kinematics/angular_speeds.h"
+#include "myoid/kinematics/motion_plausibility.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/signals/opensim_lowpass.h"
@@ -104,11 +107,14 @@ void run_inverse_dynamics(const ToolRun& run) {
     run.note("joints_to_report_body_forces: body forces at joints are not written");
   const auto motion_file = setup.required_file(tool, "coordinates_file");
   TimeSeries q = read_coordinates(model, motion_file, MissingCoordinate::default_value, result.notes);
+  run.add_remarks(model::implausible(model), setup.required_file(tool, "model_file").string());
+  run.add_remarks(kinematics::implausible(q), motion_file.string());
   const auto [start_s, end_s] = setup.time_range(tool, "time_range");
   setup.check_range({start_s, end_s}, q.time_s(), motion_file, result.notes);
   const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   kinematics::JointMotion motion = kinematics::joint_motion(model, q).motion;
+  run.add_notes(kinematics::held_notes(model, q, kinematics::HeldValues::of_motion));
   const Eigen::VectorXd& times = motion.q.time_s();
   motion = rows_of(motion, Eigen::seq(row_at(times, start_s), row_at(times, end_s)));
   dynamics::InverseDynamicsOptions dynamics_options{.passive_forces = true};
@@ -120,6 +126,7 @@ void run_inverse_dynamics(const ToolRun& run) {
     note_missing_loads(run, loads, *file, motion.q.time_s());
   }
   TimeSeries tau = dynamics::inverse_dynamics(model, motion, dynamics_options);
+  run.add_remarks(dynamics::implausible(model, tau), motion_file.string());
   note_angular_speeds(run, model, motion, dynamics_options, tau);
   if (!model.muscles.empty()) tau = without_muscles(model, motion, tau, options.progress);
   // OpenSim's columns are in the order of the tree.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -7,6 +8,8 @@
 
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/marker_misfit.h"
+#include "myoid/kinematics/motion_plausibility.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/recording/recording.h"
@@ -17,11 +20,14 @@ namespace {
 using model::OsimXml;
 
 recording::MarkerSeries within(recording::MarkerSeries markers, double start_s, double end_s) {
-  // The rows nearest to the ends of the range, as OpenSim takes them.
+  // The rows nearest to the ends of the range, the later of two equally near, as OpenSim takes them.
   const auto nearest = [&](double t) {
-    Eigen::Index row = 0;
-    (markers.time_s.array() - t).abs().minCoeff(&row);
-    return row;
+    const double* begin = markers.time_s.data();
+    const double* end = begin + markers.frame_count();
+    const double* after = std::lower_bound(begin, end, t);
+    if (after == begin) return Eigen::Index{0};
+    const bool is_after = after != end && *after - t <= t - *(after - 1);
+    return static_cast<Eigen::Index>((is_after ? after : after - 1) - begin);
   };
   const Eigen::Index first = std::isfinite(start_s) ? nearest(start_s) : 0;
   const Eigen::Index last = std::isfinite(end_s) ? nearest(end_s) : markers.frame_count() - 1;
@@ -110,10 +116,13 @@ void run_inverse_kinematics(const ToolRun& run) {
   const kinematics::IkResult solved = kinematics::inverse_kinematics(model, markers, ik);
   // Tasks name the markers that count: markers without counterpart are no news then.
   if (!ik.only_named_markers) run.add_notes(solved.notes);
+  run.add_remarks(model::implausible(model), setup.required_file(setup.tool(), "model_file").string());
+  run.add_remarks(kinematics::implausible(solved.q), marker_path.string());
   write_files(files, model, solved);
   result.frames = static_cast<int>(solved.status.size());
   result.frames_failed = solved.frames_not_converged;
   note_unsolved(run, solved);
+  for (const Remark& remark : kinematics::remarks_on_ends(model, solved.q)) result.notes.push_back(sentence(remark));
   const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, markers, solved);
   if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
   result.wrong_unit = misfit.wrong_unit;

@@ -8,8 +8,10 @@
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/kinematics/orientation_fit.h"
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/model/model_plausibility.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/osim/osim_named_frames.h"
@@ -222,6 +224,7 @@ void run_imu_inverse_kinematics(const ToolRun& run) {
   run.claim(motion_path);
   if (report_errors) run.claim(errors_path);
   const model::BodyModel model = setup_model(setup, run.options.compat, {}, result.notes);
+  run.add_remarks(model::implausible(model), setup.required_file(tool, "model_file").string());
   OrientationSeries series = orientations_of(run, path);
   const auto range_s = setup.time_range(tool, "time_range");
   setup.check_range(range_s, series.time_s, path, result.notes);
@@ -239,6 +242,7 @@ void run_imu_inverse_kinematics(const ToolRun& run) {
   const kinematics::OrientationFit fit =
       kinematics::fit_orientations(model, series, sensors.on_bodies, run.options.progress);
   note_fit(run, fit);
+  run.add_remarks(kinematics::implausible(fit.q), path.string());
   write_opensim_storage(motion_path, with_file_units(model, fit.q),
                         {.title = motion_path.filename().string(), .in_degrees = true, .decimals = 12});
   if (report_errors) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "myoid/core/progress.h"
+#include "myoid/core/remark.h"
 #include "myoid/forces/static_optimization.h"
 #include "myoid/model/opensim_defects/compat.h"
 #include "myoid/opensim_tools/opensim_setup.h"
@@ -14,7 +15,8 @@ namespace myoid {
 
 struct ToolOptions {
   model::Compat compat = model::kOpenSim452;
-  SetupFiles files{};  ///< Replacements of the files named in the set-up.
+  SetupFiles files{};     ///< Replacements of the files named in the set-up.
+  bool anywhere = false;  ///< Writes outside the folder of the set-up too, where the set-up says so.
   Progress progress{};
   /// Called with each file before it is computed; throws to refuse it.
   std::function<void(const std::filesystem::path&)> claim{};
@@ -27,6 +29,7 @@ struct ToolResult {
   std::vector<std::filesystem::path> files;   ///< Written, in order.
   int replaced = 0;                           ///< Number of files that replaced earlier results.
   std::vector<std::string> notes;             ///< Repairs and omissions, a sentence each.
+  std::vector<Remark> remarks;                ///< What model, motion, torques and forces cannot be.
   std::string summary;                        ///< One line.
   int frames = 0;
   int frames_failed = 0;    ///< Without a converged or certified solution.

@@ -78,12 +78,14 @@ model::OsimEditor::Factors factors_of(const ToolRun& run, pugi::xml_node scaler,
     if (method == "measurements") {
       std::optional<recording::MarkerSeries> markers;
       const model::BodyState state = default_state(model);
+      int used = 0;
       for (const auto node : OsimXml::objects(scaler.child("MeasurementSet"))) {
         if (!xml.flag(node, "apply", true)) continue;
         if (!markers) markers = markers_of(run, run.setup.required_file(scaler, "marker_file"));
         const auto factor =
             measured_factor(run, node, model, state, *markers, run.setup.time_range(scaler, "time_range"));
         if (!factor) continue;
+        ++used;
         for (const auto body : OsimXml::objects(node.child("BodyScaleSet"))) {
           const std::string name = OsimXml::name_of(body);
           if (!known(node, name)) continue;
@@ -95,12 +97,17 @@ model::OsimEditor::Factors factors_of(const ToolRun& run, pugi::xml_node scaler,
           }
         }
       }
+      if (used == 0) run.note("<scaling_order> asks for measurements, and no measurement is used: no factor comes from them");
     } else if (method == "manualScale") {
+      int used = 0;
       for (const auto node : OsimXml::objects(scaler.child("ScaleSet"))) {
         if (!xml.flag(node, "apply", true)) continue;
         const std::string name = xml.word(node, "segment");
-        if (known(node, name)) factors[name] = xml.vec3(node, "scales", Vec3::Ones());
+        if (!known(node, name)) continue;
+        factors[name] = xml.vec3(node, "scales", Vec3::Ones());
+        ++used;
       }
+      if (used == 0) run.note("<scaling_order> asks for manualScale, and <ScaleSet> has no factor that applies");
     } else {
       xml.fail(scaler.child("scaling_order"), "<scaling_order>: expected measurements or manualScale, found '{}'",
                method);
@@ -150,28 +157,6 @@ std::string scale_set_text(const model::OsimEditor::Factors& factors, const mode
   return text + "\t\t</objects>\n\t\t<groups />\n\t</ScaleSet>\n</OpenSimDocument>\n";
 }
 
-/// Keeps the scaled model's original beside a result that replaces it, which OpenSim allows too.
-/// Refuses a second run, which would scale a scaled model.
-void keep_model(const ToolRun& run, const std::filesystem::path& file, const std::filesystem::path& model_file) {
-  std::error_code ignored;
-  if (!std::filesystem::equivalent(file, model_file, ignored)) return;
-  auto kept = model_file;
-  kept.replace_filename(model_file.stem().string() + "_unscaled" + model_file.extension().string());
-  if (std::filesystem::exists(kept, ignored)) {
-    throw InvalidInput(
-        fmt::format("{} is the result of an earlier run of this set-up, which kept the model as {}; name that as "
-                    "<model_file>, or give --model {}",
-                    model_file.string(), kept.string(), kept.string()));
-  }
-  recording::write_file(kept, recording::read_text_file(model_file));
-  run.note("{} is read by this set-up and replaced by its result, as in OpenSim; the model that was read is kept as {}",
-           model_file.string(), kept.string());
-  std::erase_if(run.result.inputs, [&](const std::filesystem::path& input) {
-    return std::filesystem::equivalent(input, model_file, ignored);
-  });
-  run.result.inputs.push_back(kept);
-}
-
 }  // namespace
 
 void run_scale(const ToolRun& run) {
@@ -188,7 +173,6 @@ void run_scale(const ToolRun& run) {
   const auto model_file = setup.required_file(maker, "model_file");
   const auto claim = [&](bool on, pugi::xml_node stage, const char* name) {
     const auto file = on ? setup.output_file(stage, name) : std::nullopt;
-    if (file) keep_model(run, *file, model_file);
     if (file) run.claim(*file);
     return file;
   };

@@ -1,3 +1,4 @@
+#include <map>
 #include <string>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "myoid/opensim_tools/marker_placer.h"
 #include "myoid/opensim_tools/tool_stages.h"
 
+#include "tests/support/data_folder.h"
 #include "tests/support/tool_folder.h"
 
 namespace myoid {
@@ -150,6 +152,55 @@ TEST_F(ToolScale, AStaticPoseSaysWhatNoMarkerDetermines) {
   EXPECT_THAT(result.notes, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("determines"),
                                                                  ::testing::HasSubstr("elbow_flexion"),
                                                                  ::testing::HasSubstr(forearm))));
+}
+
+// MeasurementSet, ScaleSet and IKTaskSet in files give the scaled model of the same sets inside the set-up, to the last
+// byte.
+TEST(ScaleSets, InFilesOfTheirOwnScaleAsInside) {
+  const auto data = test::data_folder() / "round3" / "opensim" / "file_attribute" / "scale";
+  MYOID_REQUIRE_DATA(data);
+  test::TemporaryFolder folder;
+  std::map<std::string, std::string> results;
+  for (const char* name : {"a", "b", "c", "d"}) {
+    const auto here = folder / name;
+    std::filesystem::copy(data, here);
+    std::filesystem::permissions(here, std::filesystem::perms::owner_all, std::filesystem::perm_options::add);
+    const ToolResult result = run_tool(here / (std::string(name) + ".xml"));
+    std::string all;
+    for (const auto& file : result.files) {
+      std::ifstream in(file, std::ios::binary);
+      all += file.filename().string() + "\n" + std::string(std::istreambuf_iterator<char>(in), {});
+    }
+    EXPECT_GT(all.size(), 100000U) << name;
+    results[name] = all;
+  }
+  for (const char* name : {"b", "c", "d"}) EXPECT_TRUE(results[name] == results["a"]) << name;
+}
+
+TEST_F(ToolScale, MarkersThatTheStaticTrialLacksAreNamed) {
+  write_markers(5);
+  std::string text;
+  {
+    std::ifstream in(folder_ / "m.trc");
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const std::string name = arm_.markers.back().name;
+  text.replace(text.find(name), name.size(), "other");
+  write("m.trc", text);
+  const ToolResult result =
+      run("<ScaleTool><GenericModelMaker><model_file>arm.osim</model_file></GenericModelMaker><MarkerPlacer>"
+          "<marker_file>m.trc</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer></ScaleTool>");
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("as in OpenSim: " + name)));
+}
+
+TEST_F(ToolScale, FactorsThatNobodyGivesAreSaidSo) {
+  const ToolResult result =
+      run("<ScaleTool><GenericModelMaker><model_file>arm.osim</model_file></GenericModelMaker><ModelScaler>"
+          "<scaling_order>measurements manualScale</scaling_order><MeasurementSet fle=\"m.xml\"/>"
+          "<output_model_file>scaled.osim</output_model_file></ModelScaler></ScaleTool>");
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("no measurement is used")));
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("no factor that applies")));
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("did you mean 'file'")));
 }
 
 }  // namespace

@@ -11,6 +11,14 @@ void ToolRun::add_notes(const std::vector<std::string>& notes) const {
   result.notes.insert(result.notes.end(), notes.begin(), notes.end());
 }
 
+void ToolRun::add_remarks(std::vector<Remark> found, const std::string& where) const {
+  for (Remark& remark : found) {
+    remark.where = where;
+    remark.says = where + ": " + remark.says;
+    result.remarks.push_back(std::move(remark));
+  }
+}
+
 void note_missing_loads(const ToolRun& run,
                         const dynamics::ExternalLoads& loads,
                         const std::filesystem::path& file,
@@ -49,6 +57,14 @@ void ToolRun::claim(const std::filesystem::path& path) const {
         fmt::format("{} is read by this set-up and would be replaced by its result; name another file for one of them",
                     path.string()));
   }
+  if (!options.anywhere && !setup.is_near(path))
+    throw InvalidInput(
+        "{}: the set-up names a place outside its own folder for this result; give --anywhere to write there, or --out "
+        "FOLDER",
+        path.string());
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  folders.try_emplace(folder, folder, "run-tool", recording::RecordTerms{.replaces_alike = true});
+  recording::require_replaceable(path);
   if (options.claim) options.claim(path);
   if (exists) ++result.replaced;
   result.files.push_back(path);

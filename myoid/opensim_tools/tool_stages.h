@@ -1,10 +1,13 @@
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/dynamics/external_loads.h"
+#include "myoid/files/result_record.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/opensim_tools/opensim_setup.h"
@@ -17,13 +20,17 @@ struct ToolRun {
   const OpensimSetup& setup;
   const ToolOptions& options;
   ToolResult& result;
+  std::map<std::filesystem::path, recording::RecordedFolder>& folders;  ///< Of the results.
 
   template <typename... T>
   void note(fmt::format_string<T...> text, T&&... values) const {
     result.notes.push_back(fmt::format(text, std::forward<T>(values)...));
   }
   void add_notes(const std::vector<std::string>& notes) const;
-  /// Asks `claim` and remembers the file.
+  /// Adds the findings of a check on a file or a result; its name goes before each.
+  void add_remarks(std::vector<Remark> found, const std::string& where) const;
+  /// Remembers the file of a result. Throws InvalidInput if it is an input or stands outside the folder of the set-up,
+  /// if it would replace anything but a result of such a tool, or if `options.claim` throws.
   void claim(const std::filesystem::path& path) const;
 };
 

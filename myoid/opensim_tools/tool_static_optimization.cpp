@@ -6,6 +6,7 @@
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
+#include "myoid/forces/sharing_plausibility.h"
 #include "myoid/forces/static_optimization.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 
@@ -78,6 +79,7 @@ void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
   }
   const forces::StaticOptimizationResult solved = forces::static_optimization(model, run.motion, options);
   run.add_notes(solved.notes);
+  run.add_remarks(forces::reserves_act(model, run.motion, solved.force, run.loads_if_any()), name);
   write_opensim_storage(activation_file, solved.control,
                         {.title = "Static Optimization",
                          .description = "This file contains static optimization results.\n\n",

@@ -32,6 +32,14 @@ void read_function_constraint(OsimReading& r,
   r.model.constraints.push_back({name, node.name(), std::move(law)});
 }
 
+/// Returns true for couplers of the same coordinates whose functions agree wherever they are tried.
+bool is_same(const CoordinateCoupler& one, const CoordinateCoupler& two) {
+  if (one.independent != two.independent || one.dependent != two.dependent) return false;
+  for (const double x : {-3.1, -1.3, -0.6, -0.2, 0.0, 0.1, 0.4, 0.9, 1.7, 2.9})
+    if (evaluate(one.function, x).value != evaluate(two.function, x).value) return false;
+  return true;
+}
+
 /// Reads a coordinate that depends on one other.
 void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) {
   const auto independent = r.xml.words(node, "independent_coordinate_names");
@@ -52,10 +60,15 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
   if (coupler.independent == coupler.dependent)
     r.xml.fail(node, "constraint '{}' couples a coordinate with itself", name);
   for (const CoordinateCoupler& other : r.model.couplers) {
-    if (other.dependent == coupler.dependent) {
-      r.xml.fail(node, "constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
-                 r.model.coordinates[at(coupler.dependent)].name);
+    if (other.dependent != coupler.dependent) continue;
+    if (is_same(other, coupler)) {
+      r.note("constraint '{}' repeats constraint '{}'", name, other.name);
+      return;
     }
+    r.note("constraints '{}' and '{}' both set coordinate '{}'; both hold, which ties the coordinates they follow",
+           other.name, name, r.model.coordinates[at(coupler.dependent)].name);
+    r.model.constraints.push_back({name, node.name(), SecondCoupler{std::move(coupler)}});
+    return;
   }
   r.model.couplers.push_back(std::move(coupler));
 }

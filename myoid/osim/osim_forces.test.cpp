@@ -1,8 +1,12 @@
+#include <array>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
 #include "myoid/osim/osim_parts.h"
 #include "myoid/osim/osim_reader.h"
 
@@ -202,6 +206,54 @@ TEST(ReadFrames, AStationDefinedFrameStandsOnItsPoints) {
   EXPECT_LT((X.R.col(0) - Vec3::UnitZ()).norm(), 1e-15);
   EXPECT_LT((X.R.col(1) - Vec3::UnitY()).norm(), 1e-15);
   EXPECT_LT((X.R.col(2) + Vec3::UnitX()).norm(), 1e-15);
+}
+
+// Each direction of a moving point follows its own coordinate; the arms are minus the differences of the length.
+TEST(ReadForces, AMovingPointMayFollowSeveralCoordinates) {
+  const auto direction = [](const char* axis, const char* coordinate, const char* coefficients) {
+    return fmt::format(
+        "<socket_{0}_coordinate>/jointset/{1}</socket_{0}_coordinate><{0}_location><PolynomialFunction><coefficients>{2}"
+        "</coefficients></PolynomialFunction></{0}_location>",
+        axis, coordinate, coefficients);
+  };
+  const std::string path =
+      "<GeometryPath><PathPointSet><objects><PathPoint name=\"a\"><socket_parent_frame>/ground</socket_parent_frame>"
+      "<location>0.1 0.2 -0.1</location></PathPoint><MovingPathPoint name=\"m\"><socket_parent_frame>"
+      "/bodyset/upper_arm</socket_parent_frame>" +
+      direction("x", "shoulder/shoulder_flexion", "0.02 0.03 0.05") +
+      direction("y", "elbow/elbow_flexion", "0.01 -0.04 -0.1") +
+      direction("z", "shoulder/shoulder_flexion", "0.05, 0.02") +
+      "</MovingPathPoint><PathPoint name=\"b\"><socket_parent_frame>/bodyset/forearm_hand</socket_parent_frame>"
+      "<location>0.02 -0.1 0.03</location></PathPoint></objects></PathPointSet></GeometryPath>";
+  BodyModel m = arm_with("<PathSpring name=\"s\"><resting_length>0.1</resting_length>" + path + "</PathSpring>");
+  const MusclePath& spring = last<PathSpring>(m).path;
+  EXPECT_EQ(spring.points[1].moving->coordinates,
+            (std::array<int, 3>{m.coordinate_index("shoulder_flexion"), m.coordinate_index("elbow_flexion"),
+                                m.coordinate_index("shoulder_flexion")}));
+  for (const Compat& compat : {Compat{}, kOpenSim452}) {
+    m.compat = compat;
+    BodyState state = make_state(m);
+    PathWorkspace workspace;
+    PathResult result;
+    Eigen::VectorXd q(4), qdot(4);
+    q << 0.3, -0.2, 0.4, 1.1;
+    qdot << 0.7, 0.2, -0.3, -0.9;
+    const auto length = [&](const Eigen::VectorXd& at_q) {
+      compute_poses(m, at_q, state);
+      compute_velocities(m, qdot, state);
+      compute_path(m, spring, state, workspace, result);
+      return result.length_m;
+    };
+    constexpr double kStep = 1e-6;
+    Eigen::VectorXd slope(4);
+    for (Eigen::Index c = 0; c < 4; ++c) {
+      const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(4, c);
+      slope[c] = (length(q + step) - length(q - step)) / (2.0 * kStep);
+    }
+    (void)length(q);
+    EXPECT_LT((result.moment_arm_m + slope).norm(), 1e-9);
+    EXPECT_NEAR(result.speed_mps, slope.dot(qdot), 1e-9);
+  }
 }
 
 }  // namespace

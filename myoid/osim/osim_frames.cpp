@@ -50,7 +50,7 @@ Mat3 inertia_of(const OsimReading& r, pugi::xml_node node, const std::string& bo
       r.xml.fail(element, "body '{}': expected six numbers xx yy zz xy xz yz, found {}", body, values.size());
     }
     std::copy(values.begin(), values.end(), v);
-  } else if (r.is_old()) {
+  } else if (r.is_old(node)) {
     const char* names[6] = {"inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy", "inertia_xz", "inertia_yz"};
     for (int k = 0; k < 6; ++k) {
       v[k] = r.xml.number(node, names[k], k < 3 ? 1.0 : 0.0);
@@ -221,7 +221,7 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     if (body.name.empty()) r.xml.fail(node, "a body has no name");
     if (body.name == "ground") continue;
     if (r.find_body(body.name)) r.xml.fail(node, "two bodies are named '{}'", body.name);
-    body.mass_kg = r.xml.number(node, "mass", r.is_old() ? 0.0 : std::nan(""));
+    body.mass_kg = r.xml.number(node, "mass", r.is_old(node) ? 0.0 : std::nan(""));
     if (!(body.mass_kg >= 0.0) || !std::isfinite(body.mass_kg)) {
       r.xml.fail(node, "body '{}': expected a mass of 0 or more in kg, found '{}'", body.name,
                  r.xml.word(node, "mass"));

@@ -56,7 +56,12 @@ struct OsimReading {
   [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
 
   /// Returns true for documents that have joints inside bodies and names of bodies instead of sockets.
-  [[nodiscard]] bool is_old() const { return xml.version() < 30500; }
+  [[nodiscard]] bool is_old() const { return xml.version() < kFirstWithSockets; }
+  /// The same for the file that holds an element.
+  [[nodiscard]] bool is_old(pugi::xml_node where) const { return xml.version(where) < kFirstWithSockets; }
+
+ private:
+  static constexpr int kFirstWithSockets = 30500;
 };
 
 /// A component of a model and its path in it.

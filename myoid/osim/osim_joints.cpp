@@ -296,7 +296,7 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
       joint.X_BM = joint.X_BM * pose_of(r, node, "location_in_child", "orientation_in_child");
   }
   // Before 30514 a joint could be declared to move its parent on its child.
-  if (r.xml.version() < 30514 && r.xml.flag(node, "reverse", false)) {
+  if (r.xml.version(node) < 30514 && r.xml.flag(node, "reverse", false)) {
     std::swap(joint.parent, joint.child);
     std::swap(joint.X_PF, joint.X_BM);
   }

@@ -162,7 +162,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   set("default_fiber_length", p.default_fiber_length_m);
   set("min_control", p.min_control);
   set("max_control", p.max_control);
-  if (r.xml.version() < 30513 && p.min_control == 0.0) p.min_control = class_min_control;
+  if (r.xml.version(node) < 30513 && p.min_control == 0.0) p.min_control = class_min_control;
   if (millard) {
     p.curves = millard_curves(r, node);
   } else if (schutte) {

@@ -56,7 +56,7 @@ std::string with_sensors(std::string_view text,
                          const std::vector<SensorPlace>& sensors) {
   const OsimXml source(std::string(text), path);
   pugi::xml_document document;
-  (void)document.load_buffer(text.data(), text.size(),
+  (void)document.load_buffer(source.text().data(), source.text().size(),
                              pugi::parse_default | pugi::parse_comments | pugi::parse_declaration);
   const auto model = document.child("OpenSimDocument").child("Model");
   for (const SensorPlace& sensor : sensors) {

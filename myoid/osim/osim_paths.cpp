@@ -1,3 +1,4 @@
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -51,6 +52,8 @@ void read_wraps_of(OsimReading& r, pugi::xml_node holder, const FixedFrame& fram
 
 PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
   PathPoint::Moving moving;
+  int named = -1;
+  std::array<bool, 3> has_function{};
   const char* axes[3] = {"x", "y", "z"};
   const char* old_axes[3] = {"XAttachment", "YAttachment", "ZAttachment"};
   const char* old_coordinates[3] = {"XCoordinate", "YCoordinate", "ZCoordinate"};
@@ -59,17 +62,17 @@ PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
     if (!function) function = function_at(r, OsimXml::first_element(node.child(old_axes[k])));
     if (!function) continue;
     moving.location[k] = *function;
+    has_function[k] = true;
     const std::string name = fmt::format("{}_coordinate", axes[k]);
     std::string target = socket(r, node, name, name.c_str());
     if (target.empty()) target = r.xml.word(node, old_coordinates[k]);
     if (target.empty()) continue;
-    const int coordinate = coordinate_named(r, node, target);
-    if (moving.coordinate >= 0 && coordinate != moving.coordinate) {
-      r.xml.fail(node, "moving point '{}' depends on two coordinates, '{}' and '{}'; one is expected",
-                 OsimXml::name_of(node), r.model.coordinates[at(moving.coordinate)].name, target);
-    }
-    moving.coordinate = coordinate;
+    moving.coordinates[k] = coordinate_named(r, node, target);
+    named = moving.coordinates[k];
   }
+  // A direction whose coordinate is not named follows that of the others.
+  for (std::size_t k = 0; k < 3; ++k)
+    if (moving.coordinates[k] < 0 && has_function[k]) moving.coordinates[k] = named;
   return moving;
 }
 

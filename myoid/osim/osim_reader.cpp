@@ -8,7 +8,6 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
-#include "myoid/files/named_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/osim/osim_frames.h"
@@ -40,41 +39,6 @@ void read_loose_components(OsimReading& r, pugi::xml_node model) {
   for (const auto& [node, path] : components_of(model, "", "")) read_component_force(r, node);
 }
 
-/// Returns the name of the file that holds a set in place of the model; empty if the model holds it.
-std::string file_of(pugi::xml_node set) {
-  std::string file = set.attribute("file").value();
-  std::replace(file.begin(), file.end(), '\\', '/');
-  return file == "Unassigned" ? std::string() : file;
-}
-
-/// Reads a set of markers or forces in the model or in a file that the set names, relative to the model.
-template <typename Read>
-void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
-  const std::string file = file_of(set);
-  if (file.empty()) return read(r, set);
-  const auto named = recording::find_named_file(r.xml.path().parent_path(), file);
-  if (!named.note.empty()) r.note("<{}>: {}", set.name(), named.note);
-  const std::filesystem::path& path = named.path;
-  const OsimXml xml(recording::read_text_file(path), path, OsimXml::Root::any);
-  const auto other = xml.root().child(set.name());
-  if (!other) xml.fail(xml.root(), "expected a <{}>", set.name());
-  OsimReading inner{xml, r.compat, std::move(r.model), r.frames};
-  read(inner, other);
-  r.model = std::move(inner.model);
-  for (const std::string& sentence : xml.defaulted()) r.note("{}: {}", path.string(), sentence);
-}
-
-/// Lists other sets in files of their own, so that their absence is reported.
-void list_external_sets(OsimReading& r, pugi::xml_node model) {
-  for (const auto node : model.children()) {
-    const std::string file = file_of(node);
-    const std::string_view set = node.name();
-    if (!file.empty() && set != "MarkerSet" && set != "ForceSet") {
-      r.leave_out("<{}> is in another file, '{}', which is not read", node.name(), file);
-    }
-  }
-}
-
 }  // namespace
 
 BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, const OsimOptions& options) {
@@ -93,19 +57,19 @@ BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, c
   r.model.document_version = xml.version();
   r.model.name = OsimXml::name_of(model);
   r.model.gravity_G = xml.vec3(model, "gravity", r.model.gravity_G);
-  list_external_sets(r, model);
+  for (const std::string& sentence : xml.ignored()) r.leave_out("{}", sentence);
   const auto skeleton = skeleton_of(model);
   if (components_of(skeleton, "BodySet", "Body").empty() && !skeleton.child("BodySet"))
     xml.fail(model, "the model has no <BodySet>, and no <Body> among its components");
   read_bodies(r, skeleton);
   read_joints(r, skeleton);
-  read_set(r, set_of(skeleton, model, "MarkerSet"), read_markers);
+  read_markers(r, set_of(skeleton, model, "MarkerSet"));
   read_wrap_objects(r, skeleton);
-  read_set(r, either_child(model, "ForceSet", "ActuatorSet"), read_forces);
+  read_forces(r, either_child(model, "ForceSet", "ActuatorSet"));
   read_constraints(r, set_of(skeleton, model, "ConstraintSet"));
   read_loose_components(r, model);
   note_classes(r.model);
-  for (const std::string& sentence : xml.defaulted()) r.model.notes.push_back(sentence);
+  for (const std::string& sentence : xml.repairs()) r.model.notes.push_back(sentence);
   try {
     return finalize(std::move(r.model));
   } catch (const ModelError& error) {
@@ -141,9 +105,10 @@ void require_lengths_in_m(const BodyModel& model, const std::filesystem::path& p
 
 BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {
   const OsimXml xml(recording::read_text_file(path), path);
-  const auto set = xml.root().child("ForceSet");
+  const auto set = either_child(xml.root(), "ForceSet", "ActuatorSet");
   if (!set) xml.fail(xml.root(), "expected a <ForceSet> in <OpenSimDocument>");
   OsimReading r{xml, model.compat, std::move(model), {}};
+  for (const std::string& sentence : xml.ignored()) r.note("{}: {}", path.string(), sentence);
   std::string repeated;
   for (const auto node : OsimXml::objects(set)) {
     const std::string name = OsimXml::name_of(node);

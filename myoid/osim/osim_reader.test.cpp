@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "myoid/arm/arm4.h"
@@ -327,6 +328,43 @@ TEST(RequireLengthsInM, RefusesAModelInMillimetersAndNamesTheSegments) {
     EXPECT_EQ(text.find("arm4.osim: the origin of the model's "), 0U) << text;
     EXPECT_NE(text.find("are the model's lengths in mm?"), std::string::npos) << text;
   }
+}
+
+// Both couplers of one coordinate hold: r = 2 e and r = 1 + f meet at f = 2 e - 1.
+TEST(ParseOsim, TwoCouplersOfOneCoordinateBothHold) {
+  const auto coupler = [](const char* name, const char* independent, const char* coefficients) {
+    return fmt::format(
+        "<CoordinateCouplerConstraint name=\"{}\"><coupled_coordinates_function><LinearFunction><coefficients>{}"
+        "</coefficients></LinearFunction></coupled_coordinates_function><independent_coordinate_names>{}"
+        "</independent_coordinate_names><dependent_coordinate_name>shoulder_rotation</dependent_coordinate_name>"
+        "</CoordinateCouplerConstraint>",
+        name, coefficients, independent);
+  };
+  const BodyModel m = parse_osim(
+      arm_replacing("</Model>", "<ConstraintSet><objects>" + coupler("one", "elbow_flexion", "2 0") +
+                                    coupler("two", "shoulder_flexion", "1 1") +
+                                    coupler("again", "elbow_flexion", "(2, 0)") + "</objects></ConstraintSet></Model>"),
+      "arm.osim");
+  EXPECT_EQ(m.couplers.size(), 1U);
+  EXPECT_EQ(m.constraints.size(), 1U);  // the third says what the first says
+  Eigen::VectorXd q = m.default_q();
+  q[m.coordinate_index("elbow_flexion")] = 0.6;
+  q[m.coordinate_index("shoulder_flexion")] = 0.1;
+  const AssemblyResult posed = assemble(m, q);
+  EXPECT_TRUE(posed.converged);
+  const double e = posed.q[m.coordinate_index("elbow_flexion")], f = posed.q[m.coordinate_index("shoulder_flexion")];
+  EXPECT_NEAR(posed.q[m.coordinate_index("shoulder_rotation")], 2.0 * e, 1e-9);
+  EXPECT_NEAR(f, 2.0 * e - 1.0, 1e-9);
+  // The nearest: (e - 0.6)^2 + (f - 0.1)^2 is least on that line, at e = 0.6 - 2 (0.1 / 5) = 0.56.
+  EXPECT_NEAR(e, 0.56, 1e-6);
+  // Rates and accelerations: e and f move as the line says.
+  BodyState state = make_state(m);
+  compute_poses(m, posed.q, state);
+  const Eigen::MatrixXd A = constraint_jacobian(m, state);
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(4);
+  rate[m.coordinate_index("elbow_flexion")] = 1.0;
+  rate[m.coordinate_index("shoulder_rotation")] = rate[m.coordinate_index("shoulder_flexion")] = 2.0;
+  EXPECT_LT((A * rate).norm(), 1e-12);
 }
 
 }  // namespace

@@ -230,9 +230,9 @@ pugi::xml_node append_frame(pugi::xml_node parent,
   return frame;
 }
 
-void update_parts(pugi::xml_node document, int version) {
+void update_parts(pugi::xml_node document, const std::function<int(pugi::xml_node)>& version) {
   for_each_element(document, [&](pugi::xml_node node) {
-    if (node.type() == pugi::node_element) update_object(node, version);
+    if (node.type() == pugi::node_element) update_object(node, version(node));
   });
 }
 

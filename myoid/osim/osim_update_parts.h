@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,9 +9,10 @@
 
 namespace myoid::model {
 
-/// Brings every element of a document of version `version` to its present form, as far as the form does not depend on
-/// other elements: names of classes and properties, switches, sockets of markers, path points, forces and constraints.
-void update_parts(pugi::xml_node document, int version);
+/// Brings every element of a document to its present form, as far as the form does not depend on other elements: names
+/// of classes and properties, switches, sockets of markers, path points, forces and constraints. `version` returns the
+/// version of an element's form.
+void update_parts(pugi::xml_node document, const std::function<int(pugi::xml_node)>& version);
 
 /// Visits an element (or document) and all elements below it; each before its children.
 template <typename Visit>

@@ -45,7 +45,7 @@ class ModelUpdate {
   }
 
  private:
-  [[nodiscard]] bool is_old() const { return source_.version() < 30500; }
+  [[nodiscard]] bool is_old(pugi::xml_node where) const { return source_.version(where) < 30500; }
 
   /// Takes the bodies out of the engine that holds them in documents before 10700.
   void leave_engine() {
@@ -69,10 +69,9 @@ class ModelUpdate {
   [[nodiscard]] std::string digits(const std::string& text) const {
     if (!options_.six_digits) return text;
     std::string result;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
+    for (const std::string_view word : list_items(text)) {
       char buffer[32];
-      std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(word.c_str(), nullptr));
+      std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(std::string(word).c_str(), nullptr));
       result += (result.empty() ? "" : " ") + std::string(buffer);
     }
     return result;
@@ -90,7 +89,7 @@ class ModelUpdate {
 
   void update_body(pugi::xml_node body) {
     const std::string name = OsimXml::name_of(body);
-    if (is_old() && !body.child("inertia")) {
+    if (is_old(body) && !body.child("inertia")) {
       std::string inertia;
       for (const char* part : {"xx", "yy", "zz", "xy", "xz", "yz"}) {
         const std::string property = std::string("inertia_") + part;
@@ -248,14 +247,13 @@ class ModelUpdate {
   }
 
   static std::string product(const std::string& a, const std::string& b) {
-    std::istringstream one(a.empty() ? "1 1 1" : a), two(b.empty() ? "1 1 1" : b);
+    const auto one = list_items(a), two = list_items(b);
+    const auto at = [](const std::vector<std::string_view>& items, std::size_t k) {
+      return k < items.size() ? recording::parse_number(items[k]).value_or(1.0) : 1.0;
+    };
     std::string result;
-    double x = 1.0, y = 1.0;
-    for (int k = 0; k < 3; ++k) {
-      one >> x;
-      two >> y;
-      result += (k == 0 ? "" : " ") + recording::format_number(x * y);
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      result += (k == 0 ? "" : " ") + recording::format_number(at(one, k) * at(two, k));
     return result;
   }
 
@@ -267,11 +265,12 @@ class ModelUpdate {
                        const std::string& scale) {
     auto holder = body;
     const std::string transform = child_text(shape, "transform");
-    std::istringstream words(transform);
     std::vector<std::string> w;
     bool placed = false;
-    for (std::string word; words >> word; w.push_back(word))
-      placed = placed || std::strtod(word.c_str(), nullptr) != 0.0;
+    for (const std::string_view word : list_items(transform)) {
+      w.emplace_back(word);
+      placed = placed || std::strtod(w.back().c_str(), nullptr) != 0.0;
+    }
     if (placed && w.size() == 6) {
       holder = append_frame(child_or_new(body, "components"), fmt::format("{}_geom_frame_{}", name, number), "..",
                             w[3] + " " + w[4] + " " + w[5], w[0] + " " + w[1] + " " + w[2]);
@@ -338,8 +337,12 @@ UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& pat
   const OsimXml source(std::string(text), path, OsimXml::Root::any);
   UpdatedOsim result;
   result.old_version = source.version();
+  for (const std::filesystem::path& file : source.files())
+    result.notes.push_back(fmt::format("the part in the file '{}' stands in the updated document itself", file.string()));
+  for (const auto* sentences : {&source.repairs(), &source.ignored()})
+    result.notes.insert(result.notes.end(), sentences->begin(), sentences->end());
   pugi::xml_document document;
-  (void)document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_comments);
+  (void)document.load_buffer(source.text().data(), source.text().size(), pugi::parse_default | pugi::parse_comments);
   auto root = document.child("OpenSimDocument");
   if (!root) {
     root = document.append_child("OpenSimDocument");
@@ -350,16 +353,10 @@ UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& pat
   }
   spread_defaults(root);
   for (const auto node : root.children()) spread_defaults(node);
-  update_parts(root, result.old_version);
+  update_parts(root, [&](pugi::xml_node node) { return source.version(node); });
   if (const auto model = root.child("Model")) {
     ModelUpdate(source, model, options).run();
     name_sets(model, result.old_version);
-    for (const auto node : model.children()) {
-      const std::string file = node.attribute("file").value();
-      if (!file.empty() && file != "Unassigned") {
-        result.notes.push_back(fmt::format("<{}> stays in its own file, '{}': update that, too", node.name(), file));
-      }
-    }
   }
   if (const int looks = drop_visible(root); looks > 0) {
     result.notes.push_back(

@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
+#include "myoid/osim/osim_document.h"
 #include "myoid/osim/osim_xml.h"
 
 namespace myoid::model {
@@ -26,61 +27,6 @@ std::string text_of(const std::vector<double>& values) {
   for (const double value : values) text += (text.empty() ? "" : " ") + recording::format_number(value);
   return text;
 }
-
-/// Returns the position after the '>' of the tag whose name begins at `at`.
-std::size_t after_tag(std::string_view text, std::size_t at) {
-  char quote = 0;
-  for (; at < text.size(); ++at) {
-    const char c = text[at];
-    if (quote != 0) {
-      if (c == quote) quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '>') {
-      return at + 1;
-    }
-  }
-  return text.size();
-}
-
-/// The place of an element's start tag in the text.
-struct StartTag {
-  std::size_t name = 0;   ///< Place of its first letter.
-  std::size_t after = 0;  ///< Place after its '>'.
-  bool is_whole = false;  ///< <x/>: the start tag is the whole element.
-};
-
-/// The objects of a set by their places in the bytes, whatever the file's character set: the same
-/// parser without conversion, so that its offsets count bytes.
-class RawText {
- public:
-  RawText(std::string_view text, const std::filesystem::path& path) : text_(text) {
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-      throw ModelError(
-          fmt::format("{}: a model in UTF-16 cannot be changed in place; save it as UTF-8", path.string()));
-    }
-    // The parser's offsets do not count the byte-order mark.
-    if (text.starts_with("\xEF\xBB\xBF")) mark_ = 3;
-    const auto parsed =
-        document_.load_buffer(text.data() + mark_, text.size() - mark_, pugi::parse_default, pugi::encoding_utf8);
-    if (!parsed) throw ReadError(path, 0, fmt::format("cannot be read again: {}", parsed.description()));
-  }
-  [[nodiscard]] pugi::xml_node root() const { return document_.child("OpenSimDocument"); }
-  [[nodiscard]] std::string_view text() const { return text_; }
-  [[nodiscard]] std::size_t offset(pugi::xml_node node) const {
-    return static_cast<std::size_t>(node.offset_debug()) + mark_;
-  }
-  [[nodiscard]] StartTag start_tag(pugi::xml_node element) const {
-    const std::size_t name = offset(element);
-    const std::size_t after = after_tag(text_, name);
-    return {name, after, text_[after - 2] == '/'};
-  }
-
- private:
-  std::string_view text_;
-  std::size_t mark_ = 0;
-  pugi::xml_document document_;
-};
 
 /// Number of the object in its set; the set is the model's or, in old documents, the root's.
 struct Place {
@@ -159,7 +105,7 @@ std::string changed_osim(std::string_view text,
                          const std::filesystem::path& path,
                          const std::vector<OsimChange>& changes) {
   const OsimXml xml(std::string(text), path);
-  const RawText raw(text, path);
+  const RawText raw(xml.text(), path);
   std::vector<Edit> edits;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const OsimChange& change = changes[i];
@@ -186,7 +132,7 @@ std::string changed_osim(std::string_view text,
     edits.push_back(element ? fill(raw, element, text_of(change.values))
                             : add(raw, object, change.property, text_of(change.values)));
   }
-  return with_edits(text, std::move(edits), path);
+  return with_edits(xml.text(), std::move(edits), path);
 }
 
 }  // namespace myoid::model

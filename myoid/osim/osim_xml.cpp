@@ -7,10 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/document_limits.h"
 #include "myoid/core/error.h"
-#include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
+#include "myoid/files/toml_table.h"
 
 namespace myoid::model {
 
@@ -21,49 +20,95 @@ using recording::trim;
 
 namespace {
 
-/// Returns true if there is neither text nor an element inside, nor a file that holds them.
-bool is_empty(pugi::xml_node node) {
-  return trim(node.text().get()).empty() && !OsimXml::first_element(node) && !node.attribute("file");
-}
+/// Returns true if there is neither text nor an element inside.
+bool is_empty(pugi::xml_node node) { return trim(node.text().get()).empty() && !OsimXml::first_element(node); }
 
-std::size_t line_at(std::string_view text, std::ptrdiff_t offset) {
-  const auto end = std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
-  return static_cast<std::size_t>(1 + std::count(text.begin(), text.begin() + end, '\n'));
+/// Returns true for an attribute that OpenSim or XML itself gives a meaning.
+bool is_known_attribute(std::string_view name) {
+  constexpr std::string_view kKnown[] = {"name", "file", "type", "Version", "version", "xmlns"};
+  return std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown) ||
+         name.find(':') != std::string_view::npos;
 }
 
 }  // namespace
 
 OsimXml::OsimXml(std::string text, std::filesystem::path path, Root root)
-    : text_(std::move(text)), path_(std::move(path)) {
-  if (const auto fault = xml_fault(text_)) {
-    throw ReadError(path_, line_at(text_, static_cast<std::ptrdiff_t>(fault->offset)), fault->message);
-  }
-  const auto parsed = document_.load_buffer(text_.data(), text_.size(), pugi::parse_default);
-  if (!parsed) {
-    using recording::FileFormat;
-    const std::string other =
-        recording::wrong_kind(path_, {FileFormat::model, FileFormat::set_up}, "a model (.osim) or a set-up (.xml)");
-    if (!other.empty()) throw ReadError(path_, 0, other);
-    throw ReadError(path_, line_at(text_, parsed.offset),
-                    fmt::format("not valid XML: {}; the file may be cut off", parsed.description()));
-  }
+    : path_(std::move(path)), whole_(whole_document(std::move(text), path_)) {
+  load_document(document_, whole_.text, path_);
   root_ = document_.child("OpenSimDocument");
   if (!root_ && root == Root::any) root_ = document_;
   if (!root_) {
     throw ReadError(path_, 1, "expected <OpenSimDocument> as the root; this is not an OpenSim file");
   }
   version_ = root_.attribute("Version").as_int();
+  repairs_ = whole_.found;
+  ignored_ = whole_.ignored;
+  list_attributes();
 }
 
-std::size_t OsimXml::line_of(pugi::xml_node where) const {
+void OsimXml::list_attributes() {
+  struct Unknown {
+    pugi::xml_node first;
+    std::size_t count = 0;
+  };
+  std::map<std::string, Unknown, std::less<>> unknown;
+  for (pugi::xml_node node = document_.first_child(); node;) {
+    for (const auto attribute : node.attributes()) {
+      if (node.type() != pugi::node_element || is_known_attribute(attribute.name())) continue;
+      Unknown& same = unknown[attribute.name()];
+      if (same.count++ == 0) same.first = node;
+    }
+    if (node.first_child()) {
+      node = node.first_child();
+      continue;
+    }
+    while (node && !node.next_sibling()) node = node.parent();
+    node = node.next_sibling();
+  }
+  for (const auto& [name, where] : unknown) {
+    const bool is_file = recording::nearest_word(name, {"file"}).has_value();
+    ignored_.push_back(
+        fmt::format("{}: <{}> has an attribute '{}'{}; OpenSim and this program ignore it{}", place_of(where.first),
+                    where.first.name(), name, is_file ? " (did you mean 'file'?)" : "",
+                    where.count > 1 ? fmt::format(", there and in {} more places", where.count - 1) : ""));
+  }
+}
+
+std::size_t OsimXml::offset_of(pugi::xml_node where) const {
   // Elements made while upgrading an old document have no place in the text: the place of a parent serves.
   std::ptrdiff_t offset = where.offset_debug();
   for (pugi::xml_node n = where; offset < 0 && n; n = n.parent()) offset = n.offset_debug();
-  return line_at(text_, offset);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, offset));
+}
+
+OsimXml::Place OsimXml::find(pugi::xml_node where) const {
+  const std::size_t offset = offset_of(where);
+  if (whole_.files.empty()) return {0, line_at(whole_.text, offset)};
+  const WholeDocument::Piece& piece = whole_.piece_at(offset);
+  return {piece.file, line_at(whole_.files[piece.file].text, piece.from + (offset - piece.at))};
+}
+
+int OsimXml::version(pugi::xml_node where) const {
+  if (whole_.files.empty()) return version_;
+  const int own = whole_.files[whole_.piece_at(offset_of(where)).file].version;
+  return own == 0 ? version_ : own;
+}
+
+std::vector<std::filesystem::path> OsimXml::files() const {
+  std::vector<std::filesystem::path> files;
+  for (std::size_t k = 1; k < whole_.files.size(); ++k) files.push_back(whole_.files[k].path);
+  return files;
+}
+
+std::string OsimXml::place_of(pugi::xml_node where) const {
+  const Place place = find(where);
+  return place.file == 0 ? fmt::format("line {}", place.line)
+                         : fmt::format("{}, line {}", whole_.files[place.file].path.string(), place.line);
 }
 
 void OsimXml::fail(pugi::xml_node where, const std::string& message) const {
-  throw ReadError(path_, line_of(where), message);
+  const Place place = find(where);
+  throw ReadError(place.file == 0 ? path_ : whole_.files[place.file].path, place.line, message);
 }
 
 void OsimXml::set_prototypes(pugi::xml_node defaults) {
@@ -79,9 +124,9 @@ pugi::xml_node OsimXml::property(pugi::xml_node object, const char* name) const 
 
 pugi::xml_node OsimXml::value_of(pugi::xml_node object, const char* name) const {
   if (const auto own = object.child(name); own && is_empty(own)) {
-    std::string sentence = fmt::format("line {}: <{}> is empty; its default holds", line_of(own), name);
-    if (std::find(defaulted_.begin(), defaulted_.end(), sentence) == defaulted_.end())
-      defaulted_.push_back(std::move(sentence));
+    std::string sentence = fmt::format("{}: <{}> is empty; its default holds", place_of(own), name);
+    if (std::find(repairs_.begin(), repairs_.end(), sentence) == repairs_.end())
+      repairs_.push_back(std::move(sentence));
   }
   return property(object, name);
 }
@@ -105,7 +150,7 @@ std::vector<std::string> OsimXml::words(pugi::xml_node object, const char* name)
 std::vector<double> OsimXml::numbers(pugi::xml_node node) const {
   std::vector<double> values;
   const std::string text = text_of(node);
-  for (const std::string_view w : split_words(text)) {
+  for (const std::string_view w : list_items(text)) {
     const auto value = parse_number(w);
     if (!value || std::isnan(*value)) fail(node, "<{}>: expected numbers, found '{}'", node.name(), w);
     values.push_back(*value);
@@ -157,6 +202,18 @@ pugi::xml_node OsimXml::first_element(pugi::xml_node parent, std::initializer_li
     return child;
   }
   return {};
+}
+
+std::vector<std::string_view> list_items(std::string_view text) {
+  text = trim(text);
+  if (text.starts_with('~')) text = trim(text.substr(1));
+  const bool in_brackets = text.size() > 1 && ((text.front() == '(' && text.back() == ')') ||
+                                               (text.front() == '[' && text.back() == ']'));
+  if (in_brackets) text = text.substr(1, text.size() - 2);
+  if (text.find(',') == std::string_view::npos) return split_words(text);
+  std::vector<std::string_view> items;
+  for (const std::string_view item : recording::split(text, ',')) items.push_back(trim(item));
+  return items;
 }
 
 pugi::xml_node either_child(pugi::xml_node parent, const char* name, const char* other) {

@@ -91,7 +91,7 @@ TEST(Bids, ResultsBecomeADerivativeThatIsReadAgain) {
   EXPECT_DOUBLE_EQ(motion.angles.column("elbow")[0], kPi / 2.0);
   EXPECT_NEAR(motion.angles.time_s()[1], 0.01, 1e-15);
   EXPECT_THROW(static_cast<void>(write_bids_derivative(folder / "none", folder / "x", "1")), ReadError);
-  EXPECT_THROW(static_cast<void>(write_bids_derivative(results, folder / "x", "--")), InvalidInput);
+  EXPECT_THROW(static_cast<void>(write_bids_derivative(results, folder / "x", "")), InvalidInput);
 }
 
 }  // namespace

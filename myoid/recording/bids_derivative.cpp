@@ -1,7 +1,6 @@
 #include "myoid/recording/bids_derivative.h"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,8 @@
 #include "myoid/core/json_text.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/name_ids.h"
+#include "myoid/files/result_record.h"
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -18,15 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-std::string label(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if ((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z')) result += c;
-  }
-  if (result.empty()) throw InvalidInput("'{}': a BIDS label needs at least one letter or digit", text);
-  return result;
-}
 
 std::string cell(std::string text) {
   std::replace(text.begin(), text.end(), '\t', ' ');
@@ -80,12 +72,13 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results, const fs::p
     write_file(path, text);
     written.push_back(path);
   };
-  const std::string sub = "sub-" + label(subject);
+  if (const std::string reason = name_refusal(subject); !reason.empty()) throw InvalidInput("the subject: {}", reason);
+  const std::string sub = "sub-" + ids_of({subject}, IdFor::label).front();
   const ordered_json description{{"Name", "Muscle parameters identified by Myoid"},
                                  {"BIDSVersion", "1.10.0"},
                                  {"DatasetType", "derivative"},
                                  {"GeneratedBy", ordered_json::array({{{"Name", "Myoid"}, {"Version", version()}}})}};
-  write(out / "dataset_description.json", json_text(description) + '\n');
+  write_unless_foreign(out / "dataset_description.json", json_text(description) + '\n');
   const std::string stem = sub + "_desc-identified_parameters";
   write(out / sub / (stem + ".tsv"), parameters_tsv(table));
   write(out / sub / (stem + ".json"), json_text(parameters_columns(table)) + '\n');
@@ -95,10 +88,12 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results, const fs::p
     if (entry.is_directory() && fs::exists(entry.path() / "ik.mot")) trials.push_back(entry.path());
   }
   std::sort(trials.begin(), trials.end());
-  std::set<std::string> tasks;
-  for (const fs::path& trial : trials) {
-    const std::string task = label(trial.filename().string());
-    if (!tasks.insert(task).second) throw InvalidInput("two trials become the BIDS task '{}'; rename one", task);
+  std::vector<std::string> names;
+  for (const fs::path& trial : trials) names.push_back(trial.filename().string());
+  const std::vector<std::string> tasks = ids_of(names, IdFor::label);
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    const fs::path& trial = trials[t];
+    const std::string& task = tasks[t];
     const Storage motion = read_storage(trial / "ik.mot");
     const auto base = out / sub / "motion";
     const std::string name = fmt::format("{}_task-{}_tracksys-model", sub, task);

@@ -8,20 +8,26 @@
 #include "myoid/c3d/c3d_frames.h"
 #include "myoid/c3d/c3d_reader.h"
 #include "myoid/files/byte_source.h"
+#include "myoid/recording/c3d_recording.h"
 
 namespace myoid::recording {
 namespace {
 
-/// Returns the largest force in rows of counts as stored.
-double largest_force_n(const PlateSetup& plate, const C3dFile& file, const C3dFile::Rows& counts, Eigen::Index rows) {
-  Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(plate.channels.size()));
-  for (std::size_t c = 0; c < plate.channels.size(); ++c) {
-    const C3dChannel& channel = file.channels[static_cast<std::size_t>(plate.channels[c])];
-    values.col(static_cast<Eigen::Index>(c)) =
-        channel.scale * (counts.col(plate.channels[c]).head(rows).cast<double>().array() - channel.offset);
+/// Takes the plates from the whole recording: their baselines need all samples.
+void survey_plates(const std::filesystem::path& path, C3dSurvey& survey) {
+  const C3dParameter* used = survey.file.find("FORCE_PLATFORM", "USED");
+  const C3dParameter* types = survey.file.find("FORCE_PLATFORM", "TYPE");
+  if (survey.file.channels.empty() || (used == nullptr && types == nullptr)) return;
+  Recording recording = read_c3d_plates(path);
+  survey.repairs = std::move(recording.repairs);
+  for (const PlateSetup& plate : recording.plates) {
+    const double largest = channel_forces(plate, recording.analog.as_written(plate.channels))
+                               .rowwise()
+                               .norm()
+                               .maxCoeff<Eigen::PropagateNumbers>();
+    survey.largest_force_n.push_back(std::isfinite(largest) ? largest : 0.0);
   }
-  const double largest = channel_forces(plate, std::move(values)).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
-  return std::isfinite(largest) ? largest : 0.0;
+  survey.plates = std::move(recording.plates);
 }
 
 }  // namespace
@@ -33,8 +39,6 @@ C3dSurvey survey_c3d(const std::filesystem::path& path) {
   survey.file = std::move(head.file);
   survey.frames = head.layout.frames;
   survey.repairs = survey.file.repairs;
-  survey.plates = plate_setups(survey.file, survey.repairs);
-  survey.largest_force_n.assign(survey.plates.size(), 0.0);
   survey.missing_frames.assign(head.layout.points, 0);
   const auto channels = static_cast<Eigen::Index>(head.layout.channels);
   const auto ratio = static_cast<Eigen::Index>(head.layout.analog_per_frame);
@@ -63,9 +67,6 @@ C3dSurvey survey_c3d(const std::filesystem::path& path) {
         }
       }
     }
-    for (std::size_t p = 0; p < survey.plates.size(); ++p)
-      survey.largest_force_n[p] =
-          std::max(survey.largest_force_n[p], largest_force_n(survey.plates[p], survey.file, counts, count * ratio));
   });
   survey.lowest.resize(channels);
   survey.highest.resize(channels);
@@ -76,6 +77,7 @@ C3dSurvey survey_c3d(const std::filesystem::path& path) {
     survey.lowest[c] = std::min(a, b);
     survey.highest[c] = std::max(a, b);
   }
+  survey_plates(path, survey);
   return survey;
 }
 

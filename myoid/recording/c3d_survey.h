@@ -17,12 +17,12 @@ struct C3dSurvey {
   std::vector<Eigen::Index> missing_frames;  ///< For each point.
   Eigen::VectorXd lowest, highest;           ///< For each channel, in the unit as written.
   std::vector<PlateSetup> plates;
-  std::vector<double> largest_force_n;  ///< For each plate.
+  std::vector<double> largest_force_n;  ///< For each plate, after its baseline.
   std::vector<Repair> repairs;          ///< Notes on the file and on its plates.
 };
 
-/// Looks through all samples, some frames at a time, with little memory and in one pass over the
-/// file. Throws like `read_c3d_head`.
+/// Looks through all samples, some frames at a time and with little memory. A file with force plates is then read
+/// whole. Throws like `read_c3d_head`.
 [[nodiscard]] C3dSurvey survey_c3d(const std::filesystem::path& path);
 
 }  // namespace myoid::recording

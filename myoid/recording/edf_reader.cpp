@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <type_traits>
@@ -16,134 +17,12 @@
 #include "myoid/files/byte_source.h"
 #include "myoid/files/event.h"
 #include "myoid/files/file_words.h"
+#include "myoid/recording/edf_header.h"
 #include "myoid/tables/table_layout.h"
+#include "myoid/tables/table_series.h"
 
 namespace myoid::recording {
 namespace {
-
-constexpr std::size_t kHead = 256;
-
-struct Signal {
-  std::string label, dimension;
-  double physical_min = 0.0, physical_max = 0.0, digital_min = 0.0, digital_max = 0.0;
-  std::size_t per_record = 0;
-  std::size_t offset = 0;  ///< Place of its samples in a record [bytes].
-  bool annotations = false;
-};
-
-struct Header {
-  bool bdf = false;
-  bool gaps = false;  ///< EDF+D: each record states its own time.
-  bool plus = false;
-  std::size_t bytes = 0;
-  std::int64_t records = -1;
-  double record_s = 0.0;
-  std::vector<Signal> signals;
-  std::size_t sample_bytes = 2;
-  std::uint64_t record_bytes = 0;
-};
-
-std::string field(std::span<const std::byte> bytes, std::size_t at, std::size_t length) {
-  std::string text;
-  for (const std::byte b : bytes.subspan(at, length)) text += static_cast<char>(b);
-  return to_utf8(text.substr(0, text.find('\0')));
-}
-
-/// Reads a number of the header and notes a decimal comma.
-std::optional<double> number(const std::string& text, std::vector<Repair>& repairs) {
-  if (const auto value = parse_number(text)) return value;
-  const auto value = parse_comma_number(text);
-  if (value) note(repairs, "'{}' in the header read with a decimal comma", text);
-  return value;
-}
-
-/// Reads the number in the header at this byte. Throws ReadError if the field holds none.
-double required_number(std::span<const std::byte> head,
-                       std::size_t at,
-                       std::size_t length,
-                       const char* what,
-                       const std::filesystem::path& path,
-                       std::vector<Repair>& repairs) {
-  const std::string text = field(head, at, length);
-  const auto value = number(text, repairs);
-  if (!value) throw ReadError(path, 0, "byte {}: {}: expected a number, found '{}'", at, what, text);
-  return *value;
-}
-
-/// Reads the fields of one signal. The header lists a field for all signals before the next field begins.
-Signal read_signal(std::span<const std::byte> head,
-                   std::size_t signals,
-                   std::size_t s,
-                   const std::filesystem::path& path,
-                   std::vector<Repair>& repairs) {
-  const auto of = [&](std::size_t before, std::size_t length) {
-    return field(head, kHead + before * signals + length * s, length);
-  };
-  Signal signal;
-  signal.label = of(0, 16);
-  signal.annotations = signal.label == "EDF Annotations" || signal.label == "BDF Annotations";
-  signal.dimension = of(96, 8);
-  const auto value = [&](std::size_t before, const char* what) {
-    const std::string text = of(before, 8);
-    const auto v = number(text, repairs);
-    if (!v || !std::isfinite(*v))
-      throw ReadError(path, 0, "signal '{}': {}: expected a number, found '{}'", signal.label, what, text);
-    return *v;
-  };
-  signal.physical_min = value(104, "physical minimum");
-  signal.physical_max = value(112, "physical maximum");
-  signal.digital_min = value(120, "digital minimum");
-  signal.digital_max = value(128, "digital maximum");
-  const double per_record = value(216, "samples in a record");
-  if (!(per_record >= 0.0 && per_record <= 1e7) || per_record != std::floor(per_record))
-    throw ReadError(path, 0, "signal '{}': {} samples in a record", signal.label, per_record);
-  signal.per_record = static_cast<std::size_t>(per_record);
-  return signal;
-}
-
-Header read_header(ByteSource& source, const std::filesystem::path& path, std::vector<Repair>& repairs) {
-  if (source.size() < 2 * kHead)
-    throw ReadError(path, 0, "the file has {} bytes, less than the header of one signal: it is cut off, or no EDF file",
-                    source.size());
-  Header header;
-  const auto view = source.view(0, kHead);
-  const std::vector<std::byte> head(view.begin(), view.end());
-  header.bdf = head[0] == std::byte{0xFF};
-  const std::string version = field(head, header.bdf ? 1 : 0, header.bdf ? 7 : 8);
-  if (header.bdf ? version != "BIOSEMI" : version != "0") {
-    throw ReadError(
-        path, 0,
-
-        "expected '0' (EDF) or 0xFF 'BIOSEMI' (BDF) in the first 8 bytes, found '{}'; this is another format", version);
-  }
-  header.sample_bytes = header.bdf ? 3 : 2;
-  const std::string kind = field(head, 192, 44);
-  header.plus = kind.starts_with("EDF+") || kind.starts_with("BDF+");
-  header.gaps = kind.starts_with("EDF+D") || kind.starts_with("BDF+D");
-  const double count = required_number(head, 252, 4, "number of signals", path, repairs);
-  header.record_s = required_number(head, 244, 8, "duration of a record [s]", path, repairs);
-  const double records = number(field(head, 236, 8), repairs).value_or(-1.0);
-  header.records = std::abs(records) < 1e15 ? static_cast<std::int64_t>(records) : -1;
-  if (!(count >= 1.0 && count <= 4096.0) || count != std::floor(count))
-    throw ReadError(path, 0, "byte 252: {} signals; expected 1 to 4096", count);
-  const auto signals = static_cast<std::size_t>(count);
-  header.bytes = kHead * (signals + 1);
-  if (source.size() < header.bytes)
-    throw ReadError(path, 0, "{} signals need a header of {} bytes, the file has {}: it is cut off", signals,
-                    header.bytes, source.size());
-  if (const double said = required_number(head, 184, 8, "bytes of the header", path, repairs);
-      said != static_cast<double>(header.bytes))
-    note(repairs, "the header says it has {} bytes; with {} signals it has {}", said, signals, header.bytes);
-  const auto rest = source.view(0, header.bytes);
-  for (std::size_t s = 0; s < signals; ++s) {
-    Signal signal = read_signal(rest, signals, s, path, repairs);
-    signal.offset = static_cast<std::size_t>(header.record_bytes);
-    header.record_bytes += signal.per_record * header.sample_bytes;
-    header.signals.push_back(std::move(signal));
-  }
-  if (header.record_bytes == 0) throw ReadError(path, 0, "the signals have no samples");
-  return header;
-}
 
 std::int32_t sample(const std::byte* p, bool bdf) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(p[i]); };
@@ -179,48 +58,48 @@ std::optional<double> read_annotations(std::string_view bytes, std::vector<Event
   return record_time;
 }
 
-/// Returns the signals of one rate.
-std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repairs) {
-  std::map<std::size_t, std::vector<std::size_t>> by_rate;
-  std::size_t best = 0;
-  bool best_in_volts = false;
+/// Returns the signals of each rate, the fastest first.
+std::vector<std::vector<std::size_t>> signals_by_rate(const EdfHeader& header, std::vector<Repair>& repairs) {
+  std::map<std::size_t, std::vector<std::size_t>, std::greater<>> by_rate;
   std::vector<std::string> broken;
   for (std::size_t s = 0; s < header.signals.size(); ++s) {
-    const Signal& signal = header.signals[s];
+    const EdfSignal& signal = header.signals[s];
     if (signal.annotations || signal.per_record == 0) continue;
     if (signal.digital_min == signal.digital_max || signal.physical_min == signal.physical_max) {
       broken.push_back(signal.label);
       continue;
     }
     by_rate[signal.per_record].push_back(s);
-    const auto unit = parse_file_unit(signal.dimension);
-    const bool volts = unit && unit->unit == Unit::volt;
-    if ((volts && !best_in_volts) || (volts == best_in_volts && signal.per_record > best)) {
-      best = signal.per_record;
-      best_in_volts = volts;
-    }
   }
   if (!broken.empty())
     note(repairs, "signals left out, since their least and largest values are the same in the header: {}",
          fmt::join(broken, ", "));
-  for (const auto& [per_record, list] : by_rate) {
-    if (per_record == best) continue;
-    note(repairs, "{} signals at {:.6g} Hz are left out, the first '{}'; those at {:.6g} Hz are taken", list.size(),
-         static_cast<double>(per_record) / header.record_s, header.signals[list[0]].label,
-         static_cast<double>(best) / header.record_s);
-  }
-  return by_rate[best];
+  std::vector<std::vector<std::size_t>> clocks;
+  for (auto& [per_record, list] : by_rate) clocks.push_back(std::move(list));
+  return clocks;
+}
+
+/// Returns the unit of a signal. A sign that no one can read before the V, which writers put for the Greek letter, can
+/// only be micro: the other prefixes are plain letters.
+std::optional<ScaledUnit> unit_of_signal(const std::string& dimension) {
+  if (const auto unit = parse_file_unit(dimension)) return unit;
+  const std::string word = dimension.starts_with("\xEF\xBF\xBD") ? "?" + dimension.substr(3) : dimension;
+  const bool micro = word.size() >= 2 && word.size() <= 4 && word.ends_with('V') &&
+                     std::ranges::none_of(word.substr(0, word.size() - 1), [](unsigned char c) {
+                       return c < 0x80 && std::string_view(".?_*").find(static_cast<char>(c)) == std::string_view::npos;
+                     });
+  return micro ? std::optional(ScaledUnit{Unit::volt, 1e-6}) : std::nullopt;
 }
 
 /// Returns storage for the samples: 16-bit samples stay 16 bits; a 32-bit real holds 24 bits.
-decltype(AnalogCounts::values) room_for(const Header& header, Eigen::Index rows, std::size_t signals) {
+decltype(AnalogCounts::values) room_for(const EdfHeader& header, Eigen::Index rows, std::size_t signals) {
   const auto columns = static_cast<Eigen::Index>(signals);
   if (header.bdf) return AnalogCounts::Columns<float>(rows, columns);
   return AnalogCounts::Columns<std::int16_t>(rows, columns);
 }
 
 /// Copies the samples of the chosen signals in a record, from row `first` on.
-void take_samples(const Header& header,
+void take_samples(const EdfHeader& header,
                   const std::vector<std::size_t>& chosen,
                   std::span<const std::byte> record,
                   Eigen::Index first,
@@ -229,7 +108,7 @@ void take_samples(const Header& header,
       [&](auto& values) {
         using Count = typename std::decay_t<decltype(values)>::Scalar;
         for (std::size_t c = 0; c < chosen.size(); ++c) {
-          const Signal& signal = header.signals[chosen[c]];
+          const EdfSignal& signal = header.signals[chosen[c]];
           const std::byte* p = record.data() + signal.offset;
           Count* out = &values(first, static_cast<Eigen::Index>(c));
           for (std::size_t i = 0; i < signal.per_record; ++i, p += header.sample_bytes)
@@ -239,18 +118,40 @@ void take_samples(const Header& header,
       counts.values);
 }
 
+/// Throws ReadError if a transfer as text explains why the file is longer than its header says.
+void refuse_returns(const EdfHeader& header, ByteSource& source, const std::filesystem::path& path) {
+  const std::uint64_t data = source.size() - header.bytes;
+  const std::uint64_t said = header.records >= 0 ? static_cast<std::uint64_t>(header.records) * header.record_bytes : 0;
+  const std::uint64_t more = header.records >= 0 && data > said ? data - said : data % header.record_bytes;
+  if (more == 0) return;
+  const TextMarks marks = text_marks(source, source.size());
+  const bool explained = header.records >= 0 ? marks.returned == more : marks.line_feeds >= 4;
+  if (marks.all_returned(1) && explained)
+    throw ReadError(
+        path, 0,
+        "the file is {} bytes longer than its header says, and a carriage return stands before each of its {} "
+        "line feeds: it was transferred as text; copy it again in binary mode",
+        more, marks.line_feeds);
+}
+
 /// Returns the number of records to read: the complete ones in the file, at most as many as the header states.
-std::int64_t record_count(const Header& header,
+std::int64_t record_count(const EdfHeader& header,
                           std::uint64_t file_bytes,
                           const std::filesystem::path& path,
                           std::vector<Repair>& repairs) {
   const std::uint64_t available = file_bytes - header.bytes;
   auto records = static_cast<std::int64_t>(available / header.record_bytes);
+  const std::uint64_t left = available % header.record_bytes;
   if (header.records >= 0 && header.records < records) {
     note(repairs, "the header says {} records, the file has {}; {} are taken", header.records, records, header.records);
     records = header.records;
-  } else if (header.records != records || available % header.record_bytes != 0) {
+  } else if (header.records != records) {
     note(repairs, "the header says {} records, the file has {} whole ones, which are taken", header.records, records);
+  } else if (left != 0) {
+    note(repairs,
+         "{} bytes behind the last record belong to no record; if bytes were inserted, the samples are wrong: "
+         "compare with the original",
+         left);
   }
   if (records <= 0) throw ReadError(path, 0, "the file holds no whole record of samples");
   return records;
@@ -263,22 +164,51 @@ struct Scaled {
   std::vector<bool> has_unit;
 };
 
-Scaled scaled_channels(const Header& header, const std::vector<std::size_t>& chosen, std::vector<Repair>& repairs) {
+/// Gives each signal that is read a name of its own.
+void name_signals(EdfHeader& header,
+                  const std::vector<std::vector<std::size_t>>& clocks,
+                  std::vector<Repair>& repairs) {
+  std::vector<std::size_t> order;
+  for (const auto& clock : clocks) order.insert(order.end(), clock.begin(), clock.end());
+  std::ranges::sort(order);
   std::vector<std::string> names;
-  for (const std::size_t s : chosen) {
+  for (const std::size_t s : order) {
     const std::string& label = header.signals[s].label;
     names.push_back(label.empty() ? fmt::format("signal_{}", s + 1) : label);
   }
   names = unique_names(names, "signal", 0, repairs);
+  for (std::size_t k = 0; k < order.size(); ++k) header.signals[order[k]].label = names[k];
+}
+
+/// Notes units that cannot be read as they stand.
+void state_units(const EdfHeader& header,
+                 const std::vector<std::vector<std::size_t>>& clocks,
+                 std::vector<Repair>& repairs) {
+  std::map<std::string, std::vector<std::string>> odd;
+  for (const auto& clock : clocks) {
+    for (const std::size_t s : clock) {
+      const EdfSignal& signal = header.signals[s];
+      if (!signal.dimension.empty() && !parse_file_unit(signal.dimension))
+        odd[signal.dimension].push_back(signal.label);
+    }
+  }
+  for (const auto& [unit, names] : odd)
+    note(repairs, "unit '{}' {}: {}", unit,
+         unit_of_signal(unit) ? "read as uV, since a sign that cannot be read stands before the V"
+                              : "is not known; the numbers are as in the file",
+         fmt::join(names, ", "));
+}
+
+Scaled scaled_channels(const EdfHeader& header, const std::vector<std::size_t>& chosen) {
   Scaled scaled;
-  for (std::size_t c = 0; c < chosen.size(); ++c) {
-    const Signal& signal = header.signals[chosen[c]];
-    const auto unit = parse_file_unit(signal.dimension);
+  for (const std::size_t s : chosen) {
+    const EdfSignal& signal = header.signals[s];
+    const auto unit = unit_of_signal(signal.dimension);
     const double to_si = unit ? unit->to_si : 1.0;
     const double gain = to_si * (signal.physical_max - signal.physical_min) / (signal.digital_max - signal.digital_min);
     scaled.scales.push_back({.scale = gain, .base = to_si * signal.physical_min - gain * signal.digital_min});
     scaled.has_unit.push_back(unit.has_value());
-    scaled.channels.push_back({names[c], unit ? unit->unit : Unit::dimensionless});
+    scaled.channels.push_back({signal.label, unit ? unit->unit : Unit::dimensionless});
   }
   return scaled;
 }
@@ -287,7 +217,7 @@ Scaled scaled_channels(const Header& header, const std::vector<std::size_t>& cho
 /// from the time stamps in the annotations.
 class RecordTimes {
  public:
-  RecordTimes(const Header& header, double interval_s, const std::filesystem::path& path)
+  RecordTimes(const EdfHeader& header, double interval_s, const std::filesystem::path& path)
       : header_(header), interval_s_(interval_s), path_(path) {}
 
   /// Returns the begin of record `r` (counted from 0), whose time stamp is `onset`.
@@ -321,7 +251,7 @@ class RecordTimes {
     return begin;
   }
 
-  const Header& header_;
+  const EdfHeader& header_;
   double interval_s_;
   const std::filesystem::path& path_;
   double zero_s_ = kNan;  ///< NaN before the first stamp.
@@ -330,11 +260,11 @@ class RecordTimes {
 };
 
 /// Adds the events of a record and returns its time stamp.
-std::optional<double> read_record_annotations(const Header& header,
+std::optional<double> read_record_annotations(const EdfHeader& header,
                                               std::span<const std::byte> record,
                                               std::vector<Event>& events) {
   std::optional<double> onset;
-  for (const Signal& signal : header.signals) {
+  for (const EdfSignal& signal : header.signals) {
     if (!signal.annotations) continue;
     const auto* text = reinterpret_cast<const char*>(record.data() + signal.offset);
     const auto stamp = read_annotations({text, signal.per_record * header.sample_bytes}, events);
@@ -343,30 +273,93 @@ std::optional<double> read_record_annotations(const Header& header,
   return onset;
 }
 
+/// Returns true if the annotations of a record begin with the sign of its time stamp, or if there are none.
+bool begins_with_stamp(const EdfHeader& header, std::span<const std::byte> record) {
+  const auto annotations =
+      std::ranges::find_if(header.signals, [](const EdfSignal& s) { return s.annotations && s.per_record > 0; });
+  if (annotations == header.signals.end()) return true;
+  const std::byte sign = record[annotations->offset];
+  return sign == std::byte{'+'} || sign == std::byte{'-'};
+}
+
+/// The signals of one rate while they are read.
+struct RateGroup {
+  std::vector<std::size_t> signals;
+  Scaled scaled;
+  AnalogCounts counts;
+};
+
+RateGroup room_for_group(const EdfHeader& header, const std::vector<std::size_t>& signals, std::int64_t records) {
+  RateGroup group{signals, scaled_channels(header, signals), {}};
+  const auto per_record = static_cast<Eigen::Index>(header.signals[signals[0]].per_record);
+  group.counts.scales = group.scaled.scales;
+  group.counts.values = room_for(header, records * per_record, signals.size());
+  group.counts.records =
+      RecordClock{.per_record = per_record, .interval_s = header.record_s / static_cast<double>(per_record)};
+  return group;
+}
+
+/// Puts the clock with the most EMG first and notes the clocks.
+void take_groups(std::vector<RateGroup> groups, EdfFile& file, const std::filesystem::path& path) {
+  std::vector<std::vector<Channel>> clocks;
+  std::vector<double> rates;
+  for (const RateGroup& group : groups) {
+    clocks.push_back(group.scaled.channels);
+    rates.push_back(1.0 / group.counts.records->interval_s);
+  }
+  const std::size_t first = first_clock(clocks);
+  std::rotate(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(first),
+              groups.begin() + static_cast<std::ptrdiff_t>(first) + 1);
+  std::rotate(clocks.begin(), clocks.begin() + static_cast<std::ptrdiff_t>(first),
+              clocks.begin() + static_cast<std::ptrdiff_t>(first) + 1);
+  std::rotate(rates.begin(), rates.begin() + static_cast<std::ptrdiff_t>(first),
+              rates.begin() + static_cast<std::ptrdiff_t>(first) + 1);
+  if (groups.size() > 1) file.repairs.push_back({0, clocks_text(clocks, rates)});
+  try {
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      EdfSignals signals{AnalogChannels(std::move(groups[g].scaled.channels), std::move(groups[g].counts)),
+                         std::move(groups[g].scaled.has_unit)};
+      if (g == 0)
+        static_cast<EdfSignals&>(file) = std::move(signals);
+      else
+        file.other_clocks.push_back(std::move(signals));
+    }
+  } catch (const InvalidInput& error) {
+    throw ReadError(path, 0, error.what());
+  }
+}
+
 EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   EdfFile file;
-  const Header header = read_header(source, path, file.repairs);
+  refuse_text_transfer(source, path);
+  EdfHeader header = read_edf_header(source, path, file.repairs);
+  refuse_returns(header, source, path);
   const std::int64_t records = record_count(header, source.size(), path, file.repairs);
-  const std::vector<std::size_t> chosen = choose(header, file.repairs);
-  if (chosen.empty()) throw ReadError(path, 0, "the file holds no signals with samples");
+  const auto clocks = signals_by_rate(header, file.repairs);
+  if (clocks.empty()) throw ReadError(path, 0, "the file holds no signals with samples");
   if (!(header.record_s > 0.0))
     throw ReadError(path, 0, "byte 244: a record lasts {} s, so there is no rate", header.record_s);
-  Scaled scaled = scaled_channels(header, chosen, file.repairs);
-  file.has_unit = std::move(scaled.has_unit);
-
-  const auto per_record = static_cast<Eigen::Index>(header.signals[chosen[0]].per_record);
-  const double dt = header.record_s / static_cast<double>(per_record);
-  AnalogCounts counts;
-  counts.scales = std::move(scaled.scales);
-  counts.values = room_for(header, records * per_record, chosen.size());
-  counts.records = RecordClock{.per_record = per_record, .interval_s = dt};
-  RecordTimes times(header, dt, path);
+  name_signals(header, clocks, file.repairs);
+  state_units(header, clocks, file.repairs);
+  std::vector<RateGroup> groups;
+  for (const auto& clock : clocks) groups.push_back(room_for_group(header, clock, records));
+  const bool odd_size = header.records != records || (source.size() - header.bytes) % header.record_bytes != 0;
+  RecordTimes times(header, groups[0].counts.records->interval_s, path);
   for (std::int64_t r = 0; r < records; ++r) {
     const auto record = source.view(header.bytes + static_cast<std::uint64_t>(r) * header.record_bytes,
                                     static_cast<std::size_t>(header.record_bytes));
     const auto onset = read_record_annotations(header, record, file.events);
-    counts.records->begin_s.push_back(times.begin_s(r, onset, file.repairs));
-    take_samples(header, chosen, record, r * per_record, counts);
+    if (odd_size && header.plus && !begins_with_stamp(header, record))
+      throw ReadError(
+          path, 0,
+          "record {} does not begin with its time, and the size of the file is not as its header says: bytes "
+          "are lost or inserted before it, as by a transfer as text; copy it again in binary mode",
+          r + 1);
+    const double begin_s = times.begin_s(r, onset, file.repairs);
+    for (RateGroup& group : groups) {
+      group.counts.records->begin_s.push_back(begin_s);
+      take_samples(header, group.signals, record, r * group.counts.records->per_record, group.counts);
+    }
   }
   if (const double zero_s = times.zero_s(); zero_s != 0.0) {
     for (Event& event : file.events) event.time_s -= zero_s;
@@ -375,11 +368,7 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
          "recording; here its first sample is at 0 s, and so count the events",
          zero_s);
   }
-  try {
-    file.data = AnalogChannels(std::move(scaled.channels), std::move(counts));
-  } catch (const InvalidInput& error) {
-    throw ReadError(path, 0, error.what());
-  }
+  take_groups(std::move(groups), file, path);
   return file;
 }
 

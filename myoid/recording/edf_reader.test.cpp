@@ -148,6 +148,74 @@ TEST(Edf, CountsThatDisagreeAndAFileCutOffAreMended) {
   EXPECT_THROW(static_cast<void>(parse(cut)), ReadError);
 }
 
+TEST(Edf, EachRateIsAClockAndTheClockOfTheEmgIsTheFirst) {
+  // The EMG is slower than the force: the clock with EMG is the first, as in tables.
+  const std::vector<TestSignal> signals{{"Force", "N", -1000, 1000, -1000, 1000, 8},
+                                        {"EMG BIC", "uV", -1000, 1000, -1000, 1000, 4},
+                                        {"EMG TRI", "uV", -1000, 1000, -1000, 1000, 2},
+                                        {"EMG BRA", "uV", -1000, 1000, -1000, 1000, 4}};
+  const EdfFile file =
+      parse(make_edf(false, "", signals, 2, 2, [](std::size_t s, int i) { return static_cast<int>(100 * s) + i; }));
+  ASSERT_EQ(file.data.channel_count(), 2);
+  EXPECT_EQ(file.data.channels()[1].name, "EMG BRA");
+  EXPECT_NEAR(file.data.series().values()(5, 1), 305e-6, 1e-18);
+  ASSERT_EQ(file.other_clocks.size(), 2U);
+  EXPECT_EQ(file.other_clocks[0].data.channels()[0], (Channel{"Force", Unit::newton}));
+  EXPECT_EQ(file.other_clocks[0].data.sample_count(), 16);
+  EXPECT_DOUBLE_EQ(file.other_clocks[0].data.time_s()[9], 9 / 16.0);
+  EXPECT_EQ(file.other_clocks[1].data.channels()[0].name, "EMG TRI");
+  EXPECT_NEAR(file.other_clocks[1].data.series().values()(3, 0), 203e-6, 1e-18);
+  EXPECT_EQ(file.other_clocks[1].has_unit, std::vector<bool>{true});
+}
+
+TEST(Edf, ASignThatCannotBeReadBeforeTheVoltIsMicro) {
+  for (const char* unit : {".V", "?V", "\xB5V", "\xC2\xB5V", "\xE6V", "uV"}) {
+    const EdfFile file = parse(make_edf(false, "", {{"A", unit, -1000, 1000, -1000, 1000, 4}}, 2, 2, ramp));
+    EXPECT_EQ(file.data.channels()[0].unit, Unit::volt) << unit;
+    EXPECT_NEAR(file.data.series().values()(0, 0), -30e-6, 1e-18) << unit;
+  }
+  const EdfFile file = parse(make_edf(false, "", {{"A", "a.u.", -1000, 1000, -1000, 1000, 4}}, 2, 2, ramp));
+  EXPECT_FALSE(file.has_unit[0]);
+  ASSERT_EQ(file.repairs.size(), 1U);
+  EXPECT_NE(file.repairs[0].message.find("'a.u.' is not known"), std::string::npos);
+}
+
+/// Puts a carriage return before every line feed, as a transfer as text does.
+std::string with_returns(const std::string& bytes) {
+  std::string text;
+  for (const char c : bytes) text += c == '\n' ? "\r\n" : std::string(1, c);
+  return text;
+}
+
+TEST(Edf, ATransferAsTextIsRefusedWhateverTheNumberOfItsLineFeeds) {
+  // Counts of 10 are line feeds: two, and some hundred.
+  for (const int records : {1, 100}) {
+    for (const int said : {records, -1}) {
+      const std::string good =
+          make_edf(false, "", kTwo, records, said, [](std::size_t s, int i) { return s == 1 && i % 4 < 2 ? 10 : 50; });
+      EXPECT_NO_THROW((void)parse(good));
+      if (records == 1 && said < 0) continue;  // two line feeds alone prove nothing where no size is stated
+      EXPECT_THROW((void)parse(with_returns(good)), ReadError) << records << " " << said;
+    }
+  }
+  std::string longer = make_edf(false, "", kTwo, 3, 3, ramp) + "abc";
+  const EdfFile file = parse(longer);
+  EXPECT_EQ(file.data.sample_count(), 12);
+  EXPECT_NE(file.repairs[0].message.find("3 bytes behind the last record"), std::string::npos);
+}
+
+TEST(Edf, LostBytesAreFoundByTheStampsOfTheRecords) {
+  using namespace std::string_literals;
+  auto signals = kTwo;
+  signals.push_back({"EDF Annotations", "", -1, 1, -32768, 32767, 20});
+  const std::vector<std::string> notes{"+0\x14\x14\0"s, "+0.5\x14\x14\0"s, "+1\x14\x14\0"s};
+  std::string bytes = make_edf(false, "EDF+C", signals, 3, 3, ramp, notes);
+  EXPECT_EQ(parse(bytes).data.sample_count(), 12);
+  EXPECT_EQ(parse(bytes.substr(0, bytes.size() - 7)).data.sample_count(), 8);  // cut off, not shifted
+  bytes.erase(256 * 5 + 3, 1);
+  EXPECT_THROW((void)parse(bytes), ReadError);
+}
+
 TEST(Edf, NoBytesWhateverMakeAnythingButAReadError) {
   const std::string good = make_edf(false, "EDF+C", kTwo, 3, 3, ramp);
   std::mt19937_64 random(11);

@@ -123,7 +123,7 @@ CsvSeries with_named_units(Storage storage) {
   Eigen::MatrixXd values = storage.data.values();
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const auto named = storage.units.find(channels[c].name);
-    const auto unit = named == storage.units.end() ? std::nullopt : parse_unit(named->second);
+    const auto unit = named == storage.units.end() ? std::nullopt : parse_file_unit(named->second);
     series.has_unit.push_back(unit.has_value());
     if (!unit) continue;
     channels[c].unit = unit->unit;
@@ -188,7 +188,10 @@ std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool v
     }
     case FileFormat::edf: {
       EdfFile file = read_edf(path);
-      return CsvSeries{file.data.series(), std::move(file.has_unit), std::move(file.repairs)};
+      CsvSeries series{{file.data.series(), std::move(file.has_unit)}, std::move(file.repairs)};
+      for (EdfSignals& other : file.other_clocks)
+        series.other_clocks.push_back({other.data.series(), std::move(other.has_unit)});
+      return series;
     }
     case FileFormat::bids_motion:
       throw ReadError(path, 0, "this is a motion of BIDS and holds no EMG; give its _emg file");

@@ -1,6 +1,8 @@
 #include "myoid/recording/force_plate.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -60,6 +62,42 @@ bool is_quadrangle(const Eigen::Matrix<double, 3, 4>& corners_m) {
   return a.cross(b).norm() > 1e-3 * (a.squaredNorm() + b.squaredNorm()) && a.norm() > 0.01 && b.norm() > 0.01;
 }
 
+std::string_view unit_of_factor(double factor) { return factor > 1.0 ? "m" : "mm"; }
+
+/// Takes corners in m where POINT:UNITS is mm, or the other way round: no plate is below 2 mm or above 100 m long.
+void mend_corner_unit(PlateSetup& d, std::vector<Repair>& repairs) {
+  const double length_m =
+      std::max((d.corners_m.col(0) - d.corners_m.col(1)).norm(), (d.corners_m.col(0) - d.corners_m.col(3)).norm());
+  const double factor = length_m > 1e-4 && length_m < 2e-3 ? 1e3 : length_m > 100.0 && length_m < 5e3 ? 1e-3 : 1.0;
+  if (factor == 1.0) return;
+  note(repairs,
+       "force plate {}: FORCE_PLATFORM:CORNERS would make it {:.3g} m long; they are taken in {}, not in POINT:UNITS",
+       d.number, length_m, unit_of_factor(factor));
+  d.corners_m *= factor;
+}
+
+/// Likewise the ORIGIN: it is not further from the surface than the plate is long, and no plate states hundredths of a
+/// millimeter. The sensors of type 3 are under the surface.
+void mend_origin_unit(PlateSetup& d, std::vector<Repair>& repairs) {
+  const double size_m = (d.corners_m.col(0) - d.corners_m.col(2)).norm();
+  double factor = 1.0;
+  if (d.type == 3) {
+    const double reach_m = d.origin_m.head<2>().cwiseAbs().maxCoeff();
+    if (reach_m > 10.0 * size_m && 1e-3 * reach_m <= size_m) factor = 1e-3;
+    if (reach_m > 0.0 && reach_m < 0.01 * size_m && 1e3 * reach_m <= size_m) factor = 1e3;
+  } else {
+    const double length_m = d.origin_m.norm();
+    const double depth_m = std::abs(d.origin_m.z());
+    const bool tiny = depth_m >= 5e-6 && depth_m <= 2e-4 && d.origin_m.head<2>().cwiseAbs().maxCoeff() <= 5e-5;
+    if (length_m > std::max(1.0, 3.0 * size_m) && 1e-3 * length_m <= size_m) factor = 1e-3;
+    if (tiny && d.type != 1) factor = 1e3;
+  }
+  if (factor == 1.0) return;
+  note(repairs, "force plate {}: FORCE_PLATFORM:ORIGIN is {:.3g} m from the surface; taken in {}, not in POINT:UNITS",
+       d.number, d.origin_m.norm(), unit_of_factor(factor));
+  d.origin_m *= factor;
+}
+
 /// Returns the origin of a plate; type 3 has the distances a, b in its first two numbers.
 Vec3 plate_origin_m(const PlateParameters& parameters, const PlateSetup& d, std::vector<Repair>& repairs) {
   const auto stated = parameters.matrix<3, 1>("ORIGIN");
@@ -87,14 +125,17 @@ std::optional<PlateSetup> describe(const C3dFile& file, std::size_t plate, doubl
   PlateSetup d;
   d.number = static_cast<int>(plate) + 1;
   d.to_m = to_m;
+  d.calibrated_to_nm = to_m;
   d.type = parameters.type();
   if (d.type < 1 || d.type > 4)
     return refuse(fmt::format("FORCE_PLATFORM:TYPE is {}, types 1 to 4 are understood", d.type));
   const auto corners = parameters.matrix<3, 4>("CORNERS");
   if (!corners) return refuse("FORCE_PLATFORM:CORNERS is missing or too short");
   d.corners_m = to_m * *corners;
+  mend_corner_unit(d, repairs);
   if (!is_quadrangle(d.corners_m)) return refuse("FORCE_PLATFORM:CORNERS are no quadrangle");
   d.origin_m = plate_origin_m(parameters, d, repairs);
+  mend_origin_unit(d, repairs);
   for (const double channel : parameters.channels(channels_of_type(d.type))) {
     if (!(channel >= 1.0 && channel <= static_cast<double>(file.channels.size())))
       return refuse(
@@ -155,9 +196,6 @@ Wrench surface_wrench(const PlateSetup& d, const Eigen::MatrixXd& v) {
     w.col(4) = a * (-v.col(4) + v.col(5) + v.col(6) - v.col(7));
     w.col(5) = b * (v.col(1) - v.col(0)) + a * (v.col(2) - v.col(3));
     o = Vec3(0.0, 0.0, d.origin_m[2]);
-  } else if (d.type == 4) {
-    w = v * d.calibration.transpose();
-    w.rightCols<3>() *= d.to_m;
   } else {
     w = v;
   }
@@ -191,6 +229,9 @@ std::vector<PlateSetup> plate_setups(const C3dFile& file, std::vector<Repair>& r
     find_factors(file, *d, repairs);
     plates.push_back(*std::move(d));
   }
+  if (!plates.empty() && file.find("FORCE_PLATFORM", "FPCOPPOLY") != nullptr)
+    note(repairs,
+         "FORCE_PLATFORM:FPCOPPOLY, the maker's correction of the center of pressure (millimeters), is not applied");
   return plates;
 }
 
@@ -211,12 +252,21 @@ void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs) {
   setup.origin_m = -setup.origin_m;
 }
 
+Eigen::MatrixXd plate_channels_si(const PlateSetup& setup, Eigen::MatrixXd channel_values) {
+  Eigen::MatrixXd& v = channel_values;
+  if (setup.baseline.size() > 0) v.rowwise() -= setup.baseline.transpose();
+  for (std::size_t c = 0; c < setup.factors.size(); ++c) v.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
+  if (setup.type == 4) {
+    v = (v * setup.calibration.transpose()).eval();
+    v.rightCols<3>() *= setup.calibrated_to_nm;
+  }
+  return channel_values;
+}
+
 ForcePlate force_plate(const PlateSetup& setup, Eigen::VectorXd time_s, Eigen::MatrixXd channel_values) {
-  for (std::size_t c = 0; c < setup.factors.size(); ++c)
-    channel_values.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
   ForcePlate plate{setup};
   plate.time_s = std::move(time_s);
-  const Wrench w = setup.side.turn * surface_wrench(setup, channel_values);
+  const Wrench w = setup.side.turn * surface_wrench(setup, plate_channels_si(setup, std::move(channel_values)));
   const Eigen::Index samples = w.rows();
   plate.force_n = w.leftCols<3>() * plate.R_GP.transpose();
   plate.moment_nm = w.rightCols<3>() * plate.R_GP.transpose();
@@ -238,9 +288,7 @@ ForcePlate force_plate(const PlateSetup& setup, Eigen::VectorXd time_s, Eigen::M
 }
 
 Eigen::MatrixX3d channel_forces(const PlateSetup& setup, Eigen::MatrixXd channel_values) {
-  Eigen::MatrixXd& v = channel_values;
-  for (std::size_t c = 0; c < setup.factors.size(); ++c) v.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
-  if (setup.type == 4) v = (v * setup.calibration.topRows<3>().transpose()).eval();
+  Eigen::MatrixXd v = plate_channels_si(setup, std::move(channel_values));
   if (setup.type == 3) {
     v.col(0) += v.col(1);
     v.col(1) = v.col(2) + v.col(3);

@@ -50,7 +50,10 @@ struct PlateSetup : PlateFrame {
   Vec3 origin_m = Vec3::Zero();
   std::vector<double> factors;  ///< For each channel: the factor from the unit as written to SI.
   Eigen::Matrix<double, 6, 6> calibration = Eigen::Matrix<double, 6, 6>::Identity();
-  double to_m = 1.0;  ///< Factor of POINT:UNITS to meters.
+  double to_m = 1.0;            ///< Factor of POINT:UNITS to meters.
+  double calibrated_to_nm = 1;  ///< Type 4: factor of the calibrated moments to N m.
+  /// For each channel its mean [as written] while the plate is empty, which is subtracted; no numbers: nothing is.
+  Eigen::VectorXd baseline;
 };
 
 inline constexpr double kLeastForce_n = 10.0;  ///< A smaller force has no center.
@@ -64,8 +67,12 @@ inline constexpr double kLeastForce_n = 10.0;  ///< A smaller force has no cente
 ///
 /// Other types and plates with impossible corners or channels are left out with a note; a and b
 /// below 0 are taken as positive with a note. Forces in volts or without a unit are taken as N, and
-/// moments as N times POINT:UNITS, with a note. Source: the C3D user guide, force plate types.
+/// moments as N times POINT:UNITS, with a note. Corners and ORIGIN that are 1,000 times too large or too small for a
+/// plate in POINT:UNITS are taken as mm or m, with a note. Source: the C3D user guide, force plate types.
 [[nodiscard]] std::vector<PlateSetup> plate_setups(const C3dFile& file, std::vector<Repair>& repairs);
+
+/// Returns the channels in SI after the baseline; those of type 4 are the calibrated forces and moments.
+[[nodiscard]] Eigen::MatrixXd plate_channels_si(const PlateSetup& setup, Eigen::MatrixXd channel_values);
 
 /// Inverts an ORIGIN that does not point from the transducer to the person's side of the surface, with a note.
 void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs);

@@ -21,6 +21,7 @@ constexpr double kAlong = 0.5;        ///< Cosine of 60 degrees: a person's mean
 constexpr double kOutweighs = 3.0;    ///< Least ratio of the floor's load to a wall's.
 constexpr double kClearly = 0.95;     ///< Share of the markers on one side.
 constexpr Eigen::Index kSeveral = 8;  ///< Fewer markers are no person.
+constexpr Eigen::Index kFew = 3;      ///< Fewer markers tell nothing.
 constexpr double kHigh_m = 0.3;       ///< Least median height of the markers.
 
 /// Returns the heights of the markers above a point along a direction, in some 200 frames.
@@ -33,6 +34,26 @@ std::vector<double> heights(const MarkerSeries& markers, const Vec3& from_m, con
     }
   }
   return found;
+}
+
+/// Faults of a direction taken as up, in units of one reversed convention of the plates.
+constexpr double kAgainstScreen = 2.0;  ///< Qualisys writes "-Z" for z up: two conventions outweigh the screen,
+constexpr double kDownwards = 3.5;      ///< and all three do not outweigh an axis that points up.
+constexpr double kPersonBelow = 10.0;   ///< A person does not walk below the floor.
+constexpr double kFewBelow = 2.0;
+constexpr double kPersonBelowOrigin = 2.0;  ///< The origin may be on a table.
+constexpr double kFewBelowOrigin = 1.0;
+
+/// Returns +1 or -1 if the markers are clearly on one side of a point along a direction; else 0.
+double clear_side(const MarkerSeries& markers, const Vec3& from_m, const Vec3& along) {
+  std::vector<double> h = heights(markers, from_m, along);
+  if (h.empty()) return 0.0;
+  const auto above = std::count_if(h.begin(), h.end(), [](double x) { return x > 0.0; });
+  const double share = static_cast<double>(above) / static_cast<double>(h.size());
+  const double middle = math::median(std::move(h));
+  if (share >= kClearly && middle >= kHigh_m) return 1.0;
+  if (share <= 1.0 - kClearly && middle <= -kHigh_m) return -1.0;
+  return 0.0;
 }
 
 /// Returns the axis along which a vector is longest.
@@ -77,24 +98,62 @@ class Evidence {
 
   [[nodiscard]] LaboratoryUp up() const {
     const std::optional<Vec3>& screen = recording_.screen_up_L;
-    if (loads_.empty()) return {screen, screen ? screen_text() : ""};
-    Vec3 axis = screen ? *screen : axis_of_plates();
-    require_floor(axis);
-    require_push(axis);
-    std::string because = (screen ? screen_text() + "; " : "") + plates_text(axis);
-    const double side = side_of_markers(axis);
-    if (side < 0.0 && screen)
-      contradict(screen_text(),
-                 fmt::format("the markers are on the other side of plate {}", number(floor_plate(axis))));
-    if (side < 0.0) axis = -axis;
-    if (side != 0.0) because += "; the markers are on that side of the plates";
-    return {axis, because};
+    if (loads_.empty() && !screen) return {};
+    const Vec3 axis = screen ? screen->cwiseAbs().eval() : axis_of_plates();
+    if (!loads_.empty()) {
+      require_floor(axis);
+      require_push(axis);
+    }
+    const Vec3 up = faults(-axis) < faults(axis) ? (-axis).eval() : axis;
+    std::vector<std::string> because;
+    if (screen) because.push_back(screen_text(up));
+    if (!loads_.empty()) because.push_back(plates_text(up));
+    if (side_of_markers(up) > 0.0)
+      because.emplace_back(loads_.empty() ? "the markers are on that side of the origin"
+                                          : "the markers are on that side of the plates");
+    return {up, fmt::format("{}", fmt::join(because, "; "))};
   }
 
  private:
-  [[nodiscard]] std::string screen_text() const {
-    return fmt::format("POINT:Y_SCREEN says that {} points up", axis_name(*recording_.screen_up_L));
+  [[nodiscard]] std::string screen_text(const Vec3& up) const {
+    const std::string said = axis_name(*recording_.screen_up_L);
+    if (*recording_.screen_up_L == up) return fmt::format("POINT:Y_SCREEN says that {} points up", said);
+    return fmt::format("POINT:Y_SCREEN names the axis, as {}", said);
   }
+
+  /// Returns the faults that the file has if a direction is up.
+  [[nodiscard]] double faults(const Vec3& up) const {
+    double sum = up.sum() < 0.0 ? kDownwards : 0.0;
+    if (recording_.screen_up_L && *recording_.screen_up_L != up) sum += kAgainstScreen;
+    if (side_of_markers(up) < 0.0) sum += weight_of_markers();
+    return sum + faults_of_plates(up);
+  }
+
+  [[nodiscard]] double weight_of_markers() const {
+    const bool person = recording_.markers.marker_count() >= kSeveral;
+    if (loads_.empty()) return person ? kPersonBelowOrigin : kFewBelowOrigin;
+    return person ? kPersonBelow : kFewBelow;
+  }
+
+  /// Returns the shares of the floor's plates that differ from the C3D guide, of 0 to 3 conventions.
+  [[nodiscard]] double faults_of_plates(const Vec3& up) const {
+    double floors = 0.0, reversed = 0.0, load = 0.0, pulling = 0.0, origins = 0.0, above = 0.0;
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      if (!is_floor(loads_[k], up)) continue;
+      const double side = loads_[k].normal_L.dot(up) < 0.0 ? -1.0 : 1.0;
+      floors += 1.0;
+      if (side > 0.0) reversed += 1.0;
+      load += loads_[k].rms_n;
+      if (side * loads_[k].along_n < 0.0) pulling += loads_[k].rms_n;
+      const PlateSetup& setup = recording_.plates[k];
+      if (setup.type == 1 || setup.origin_m.z() == 0.0) continue;
+      origins += 1.0;
+      if (side * setup.origin_m.z() < 0.0) above += 1.0;
+    }
+    const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
+    return share(reversed, floors) + share(pulling, load) + share(above, origins);
+  }
+
   [[nodiscard]] int number(std::size_t plate) const { return recording_.plates[plate].number; }
   [[nodiscard]] std::string facing(std::size_t plate) const {
     return std::string(1, "xyz"[longest_axis(loads_[plate].normal_L)]);
@@ -119,10 +178,11 @@ class Evidence {
     const bool any =
         std::any_of(loads_.begin(), loads_.end(), [&](const PlateLoad& load) { return is_floor(load, axis); });
     if (any || !recording_.screen_up_L) return;
-    contradict(screen_text(), fmt::format("by FORCE_PLATFORM:CORNERS the surface of {} faces {}",
-                                          loads_.size() == 1 ? fmt::format("plate {}", number(0))
-                                                             : fmt::format("all {} plates", loads_.size()),
-                                          facing(0)));
+    contradict(screen_text(*recording_.screen_up_L),
+               fmt::format("by FORCE_PLATFORM:CORNERS the surface of {} faces {}",
+                           loads_.size() == 1 ? fmt::format("plate {}", number(0))
+                                              : fmt::format("all {} plates", loads_.size()),
+                           facing(0)));
   }
 
   /// Returns the load [N] of the plates that face each axis.
@@ -210,8 +270,22 @@ class Evidence {
         most_n > 0.0 ? fmt::format(" and bear{} {:.0f} N along it", numbers.size() == 1 ? "s" : "", most_n) : "");
   }
 
-  [[nodiscard]] double side_of_markers(const Vec3& axis) const {
-    return markers_side(recording_.markers, recording_.plates[floor_plate(axis)].p_GP_m, axis);
+  /// Returns +1 or -1 if three or more markers are clearly above or below the floor's plates; without plates, the
+  /// origin of the laboratory. The lowest step of a stair is the floor.
+  [[nodiscard]] double side_of_markers(const Vec3& up) const {
+    if (recording_.markers.marker_count() < kFew) return 0.0;
+    if (loads_.empty()) return clear_side(recording_.markers, Vec3::Zero(), up);
+    Vec3 lowest = recording_.plates[floor_plate(up)].p_GP_m;
+    Vec3 highest = lowest;
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      if (!is_floor(loads_[k], up)) continue;
+      const Vec3& middle = recording_.plates[k].p_GP_m;
+      if (middle.dot(up) < lowest.dot(up)) lowest = middle;
+      if (middle.dot(up) > highest.dot(up)) highest = middle;
+    }
+    const bool above = clear_side(recording_.markers, lowest, up) > 0.0;
+    const bool below = clear_side(recording_.markers, highest, up) < 0.0;
+    return above == below ? 0.0 : above ? 1.0 : -1.0;
   }
 
   const Recording& recording_;
@@ -285,15 +359,7 @@ PlateLoad plate_load(const Recording& recording, const PlateSetup& setup, double
 }
 
 double markers_side(const MarkerSeries& markers, const Vec3& from_m, const Vec3& along) {
-  if (markers.marker_count() < kSeveral) return 0.0;
-  std::vector<double> h = heights(markers, from_m, along);
-  if (h.empty()) return 0.0;
-  const auto above = std::count_if(h.begin(), h.end(), [](double x) { return x > 0.0; });
-  const double share = static_cast<double>(above) / static_cast<double>(h.size());
-  const double middle = math::median(std::move(h));
-  if (share >= kClearly && middle >= kHigh_m) return 1.0;
-  if (share <= 1.0 - kClearly && middle <= -kHigh_m) return -1.0;
-  return 0.0;
+  return markers.marker_count() < kSeveral ? 0.0 : clear_side(markers, from_m, along);
 }
 
 bool is_floor(const PlateLoad& load, const Vec3& up_L) { return std::abs(load.normal_L.dot(up_L)) >= kFloor; }

@@ -31,7 +31,8 @@ struct LaboratoryUp {
 [[nodiscard]] Mat3 rotation_to_y_up(const Vec3& up_L);
 
 /// Returns the axis that points up on the screen: POINT:Y_SCREEN, or the second axis of
-/// POINT:SCREEN ("+X+Z"). Empty if neither is an axis or X_SCREEN is the same one.
+/// POINT:SCREEN ("+X+Z"). Empty if neither is an axis or X_SCREEN is the same one. Its sign is no
+/// evidence alone: Qualisys writes "-Z" where z points up.
 [[nodiscard]] std::optional<Vec3> screen_up(const C3dFile& file);
 
 /// The load of a plate by its channels alone. The size of the normal force weights the means, so
@@ -56,9 +57,14 @@ struct PlateLoad {
 /// Returns true for a plate within 60 degrees of horizontal, on which a person stands.
 [[nodiscard]] bool is_floor(const PlateLoad& load, const Vec3& up_L);
 
-/// Finds the upward axis from the file alone. The evidence is POINT:Y_SCREEN, the normals of the plates weighted with
-/// their normal load, the direction of that load, and the side of the floor's plates on which the markers are. Throws
-/// InvalidInput where two of these contradict each other, naming both.
+/// Finds the upward axis from the file alone; empty without a screen and plates.
+///
+/// The axis is that of POINT:Y_SCREEN, else that which the loaded plates face. Throws InvalidInput where the screen,
+/// the corners and the load name different axes, naming two of them. Of the two directions along the axis, the one with
+/// fewer faults is up. Faults are: the screen has the other sign (2); the axis points down (3.5); the plates' corners
+/// run the other way round than in the C3D guide, their loads pull down, their ORIGIN is above the surface (each the
+/// share of the plates, 0 to 1); eight or more markers lie below the floor's plates (10), three to seven (2); without
+/// plates, below the origin of the laboratory (2 and 1).
 [[nodiscard]] LaboratoryUp laboratory_up(const Recording& recording, const std::vector<PlateLoad>& loads);
 
 }  // namespace myoid::recording

@@ -300,14 +300,15 @@ TEST(ReadEmg, AUnitIsAppliedOnceWhoeverStatesIt) {
 
 TEST(ReadEmg, AnUnknownUnitIsNamedWithItsChannel) {
   const test::TemporaryFolder folder;
-  for (const std::string unit : {"mv", "MV", "kV"}) {
+  for (const std::string unit : {"kV", "V2"}) {
     write_file(folder / "e.csv", fmt::format("time,TRI [V],BIC [{}]\n0,1,2\n0.001,1,3\n", unit));
     const std::string said = refusal([&] { (void)read_emg(folder / "e.csv", "", false); });
     EXPECT_NE(said.find(fmt::format("unit '{}' of channel BIC is not known; known are V, mV, uV; give it", unit)),
               std::string::npos)
         << said;
   }
-  for (const std::string unit : {"millivolt", "millivolts", "Millivolt"}) {
+  // In small letters or capitals alone the usual unit is meant, as in a C3D file.
+  for (const std::string unit : {"millivolt", "millivolts", "Millivolt", "mv", "MV"}) {
     write_file(folder / "e.csv", fmt::format("time,BIC [{}]\n0,2\n0.001,3\n", unit));
     EXPECT_DOUBLE_EQ(read_emg(folder / "e.csv", "", false).data.column("BIC")[0], 2e-3) << unit;
   }

@@ -53,7 +53,7 @@ MarkerFile markers_of_bids(const std::filesystem::path& path) {
   BidsMotion motion = read_bids_motion(path);
   if (motion.markers.frame_count() == 0)
     throw ReadError(path, 0, "there are no positions (POS) among the channels, so no markers");
-  return {std::move(motion.markers), "m", std::move(motion.repairs), {}};
+  return {std::move(motion.markers), "m", std::move(motion.repairs)};
 }
 
 MarkerFile markers_of_c3d(const std::filesystem::path& path) {
@@ -62,7 +62,6 @@ MarkerFile markers_of_c3d(const std::filesystem::path& path) {
   if (file.markers.frame_count() == 0) throw ReadError(path, 0, "the C3D file holds no markers");
   result.markers = std::move(file.markers);
   result.repairs = std::move(file.repairs);
-  result.screen_up_L = file.screen_up_L;
   return result;
 }
 
@@ -80,6 +79,8 @@ template <typename File>
 Recording of_channels(File file) {
   Recording recording;
   recording.analog = std::move(file.data);
+  if constexpr (requires { file.other_clocks; })
+    for (auto& other : file.other_clocks) recording.other_clocks.push_back(std::move(other.data));
   if constexpr (requires { file.events; }) recording.events = std::move(file.events);
   recording.repairs = std::move(file.repairs);
   return recording;
@@ -110,6 +111,7 @@ MarkerFile read_markers(const std::filesystem::path& path) {
         break;
     }
   }
+  refuse_foreign_format(path);
   throw ReadError(path, 0, "markers are read from {}, not from '{}'; export the recording as one of these",
                   endings_text([](const FormatEntry& entry) { return entry.markers; }), extension_of(path));
 }
@@ -168,6 +170,7 @@ Recording read_recording(const std::filesystem::path& path) {
         break;
     }
   }
+  refuse_foreign_format(path);
   throw ReadError(path, 0, "recordings of kind '{}' are not known; known are {}", extension_of(path),
                   endings_text([](const FormatEntry& entry) { return is_recording(entry.format); }));
 }

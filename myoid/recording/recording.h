@@ -26,7 +26,7 @@ struct Recording {
   AnalogChannels analog;  ///< EMG and all other channels; a channel of unknown unit is dimensionless.
   std::vector<AnalogChannels> other_clocks;  ///< Channels with clocks of their own.
   std::vector<PlateSetup> plates;
-  std::optional<Vec3> screen_up_L;  ///< The upward axis by POINT:Y_SCREEN of a .c3d file.
+  std::optional<Vec3> screen_up_L;  ///< POINT:Y_SCREEN of a .c3d file; `laboratory_up` says which way is up.
   std::vector<Event> events;
   std::vector<Repair> repairs;
 

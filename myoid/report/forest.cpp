@@ -14,6 +14,8 @@
 namespace myoid::report {
 namespace {
 
+constexpr std::size_t kMostInRowWord = 100;  // characters
+
 constexpr double kEnd = 4.0;  // end of the scale, in standard deviations of the prior
 constexpr double k95 = 1.96;
 
@@ -36,7 +38,7 @@ std::string bar(const ForestRow& row) {
   const std::string sentence = fmt::format("{} {}: {} {}, 95 % interval {}, literature {}, {}", row.owner, row.name,
                                            number(row, row.estimate), row.unit, interval(row), prior(row), row.verdict);
   std::string svg = fmt::format("<svg class=\"bar\" width=\"100%\" height=\"22\" role=\"img\"><title>{}</title>",
-                                escape_xml(typographic(sentence)));
+                                escape_xml(typographic(recording::with_short_words(sentence, kMostInRowWord))));
   if (!row.prior_mean || !row.prior_sd || !(*row.prior_sd > 0.0))
     return svg + "<text x=\"50%\" y=\"15\" text-anchor=\"middle\" class=\"none\">no prior</text></svg>";
   const auto z = [&](double x) { return (x - *row.prior_mean) / *row.prior_sd; };

@@ -20,6 +20,7 @@ constexpr std::string_view kStyle = R"(
 * { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 1640px; padding: 28px 24px 60px; background: #fff; color: #22262b;
   font: 15px/1.5 Helvetica, Arial, sans-serif; }
+h1, h2, h3, p, li, figcaption { overflow-wrap: anywhere; }
 h1 { font-size: 26px; line-height: 1.2; margin: 0 0 2px; }
 h2 { font-size: 19px; margin: 38px 0 8px; padding-bottom: 4px; border-bottom: 1px solid #d5d9de; }
 h3 { font-size: 15px; margin: 22px 0 4px; }
@@ -90,6 +91,8 @@ code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
   .badge, .light, .forest, .grid { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   .forest tr, .grid tr { break-inside: avoid; } .save, details:not([open]) { display: none; } @page { size: A4; margin: 14mm; } }
 )";
+
+constexpr std::size_t kMostInTitle = 200;  // characters
 
 /// Longer cells may be broken into lines.
 constexpr std::size_t kShortCell = 30;
@@ -210,7 +213,7 @@ std::string head_html(const Report& report, bool live) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{}</title>\n{}<style>{}{}</style>\n</head>\n",
-      escape_xml(report.title),
+      escape_xml(recording::elided(report.title, kMostInTitle)),
       live ? fmt::format("<!-- The script below contains three.js:\n\n{}-->\n", bundle.license) : "", kStyle,
       live ? bundle.report : "");
 }
@@ -220,7 +223,7 @@ std::string head_html(const Report& report, bool live) {
 std::string html(const Report& report, const Workbench* workbench) {
   const bool live = workbench != nullptr && !workbench->trials.empty() && has_viewer();
   std::string text = head_html(report, live);
-  text += fmt::format("<body>\n<header>\n<h1>{}</h1>\n", escape_xml(report.title));
+  text += fmt::format("<body>\n<header>\n<h1>{}</h1>\n", escape_xml(recording::elided(report.title, kMostInTitle)));
   if (!report.subtitle.empty()) text += fmt::format("<div class=\"subtitle\">{}</div>\n", typeset(report.subtitle));
   if (!report.headline.empty()) {
     const bool next = std::ranges::any_of(report.sections, [](const Section& section) { return section.id == "next"; });
@@ -229,7 +232,7 @@ std::string html(const Report& report, const Workbench* workbench) {
   }
   text += light_html(report.gates);
   for (const Link& link : report.links)
-    text += fmt::format("<p><a href=\"{}\">{}</a></p>\n", escape_xml(link.file), typeset(link.text));
+    text += fmt::format("<p><a href=\"{}\">{}</a></p>\n", recording::url_path(link.file), typeset(link.text));
   text += "</header>\n<nav class=\"contents\">";
   if (!report.forest.empty()) text += "<a href=\"#numbers\">All numbers</a>";
   if (live) text += "<a class=\"live-only\" href=\"#workbench\" hidden>Workbench</a>";

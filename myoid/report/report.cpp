@@ -1,32 +1,17 @@
 #include "myoid/report/report.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/name_ids.h"
 
 namespace myoid::report {
 namespace {
-
-void check_id(const std::string& id, std::string_view kind, std::set<std::string>& used) {
-  bool plain = !id.empty();
-  for (const char c : id) {
-    plain = plain && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.');
-  }
-  if (!plain || id.front() == '.') {
-    throw InvalidInput(fmt::format(
-        "the {} id \"{}\" becomes the name of a file: expected letters, digits, '_', '-' or '.'", kind, id));
-  }
-  if (!used.insert(id).second) {
-    throw InvalidInput(fmt::format("two {}s have the id \"{}\"", kind, id));
-  }
-}
 
 void check_series(const Series& series, const std::string& figure) {
   const std::size_t n = series.x.size();
@@ -43,13 +28,8 @@ void check_series(const Series& series, const std::string& figure) {
 }  // namespace
 
 void validate(const Report& report) {
-  std::set<std::string> tables;
-  std::set<std::string> figures;
-  std::set<std::string> sections;
   for (const Section& section : report.sections) {
-    check_id(section.id, "section", sections);
     for (const Table& table : section.tables) {
-      check_id(table.id, "table", tables);
       for (const std::vector<Cell>& row : table.rows) {
         if (row.size() != table.columns.size() || row.empty()) {
           throw InvalidInput(fmt::format("table \"{}\": a row of {} cells under {} columns", table.id, row.size(),
@@ -58,7 +38,6 @@ void validate(const Report& report) {
       }
     }
     for (const StripGrid& grid : section.grids) {
-      check_id(grid.id, "table", tables);
       for (const StripRow& row : grid.rows) {
         if (row.cells.size() != grid.columns.size())
           throw InvalidInput(fmt::format("strip plot \"{}\": a row of {} cells under {} columns", grid.id,
@@ -66,11 +45,26 @@ void validate(const Report& report) {
       }
     }
     for (const Figure& figure : section.figures) {
-      check_id(figure.id, "figure", figures);
       for (const Panel& panel : figure.panels) {
         for (const Series& series : panel.series) check_series(series, figure.id);
       }
     }
+  }
+}
+
+void make_ids(Report& report) {
+  std::vector<std::string*> sections, tables, figures;
+  for (Section& section : report.sections) {
+    sections.push_back(&section.id);
+    for (Table& table : section.tables) tables.push_back(&table.id);
+    for (StripGrid& grid : section.grids) tables.push_back(&grid.id);
+    for (Figure& figure : section.figures) figures.push_back(&figure.id);
+  }
+  for (const auto& places : {sections, tables, figures}) {
+    std::vector<std::string> names;
+    for (const std::string* id : places) names.push_back(*id);
+    const std::vector<std::string> ids = recording::ids_of(names);
+    for (std::size_t i = 0; i < ids.size(); ++i) *places[i] = ids[i];
   }
 }
 

@@ -48,7 +48,7 @@ struct Panel {
 };
 
 struct Figure {
-  std::string id;  ///< Name of its files, "forces_flex_slow": letters, digits, '_' and '-'.
+  std::string id;  ///< Any text; `make_ids` makes the name of its files from it, "forces_flex_slow".
   std::string title;
   std::string caption;  ///< Description, one or two sentences.
   std::vector<Panel> panels{};
@@ -172,9 +172,11 @@ struct Report {
   std::vector<ProvenanceRow> provenance{};  ///< Version, inputs with hashes, options.
 };
 
-/// Throws InvalidInput, naming the figure or table, if series have unequal lengths, rows unequal
-/// numbers of cells, or ids are empty, odd or used twice.
+/// Throws InvalidInput, naming the figure or table, if series have unequal lengths or rows unequal numbers of cells.
 void validate(const Report& report);
+
+/// Makes the ids of sections, of tables and grids, and of figures unique names of files (`recording::ids_of`).
+void make_ids(Report& report);
 
 /// Returns the samples as a curve's values.
 [[nodiscard]] std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& samples);

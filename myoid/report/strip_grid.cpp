@@ -14,6 +14,10 @@
 namespace myoid::report {
 namespace {
 
+constexpr std::size_t kMostInName = 100;  // characters
+
+std::string shown_name(std::string_view name) { return escape_xml(recording::elided(name, kMostInName)); }
+
 bool is_told(const StripCell& cell) { return cell.value && (cell.badge == Badge::good || cell.badge == Badge::weak); }
 
 /// Widens a range so that it holds x.
@@ -27,8 +31,8 @@ double percent(const StripScale& scale, double x) {
 }
 
 std::string sentence(const StripRow& row, const StripColumn& column, const StripCell& cell) {
-  std::string text =
-      fmt::format("{}, {}: {}", row.person, column.name, format_beside(*cell.value, cell.lower, cell.upper));
+  std::string text = fmt::format("{}, {}: {}", recording::elided(row.person, kMostInName), column.name,
+                                 format_beside(*cell.value, cell.lower, cell.upper));
   if (!column.unit.empty()) text += ' ' + column.unit;
   if (cell.lower && cell.upper) text += fmt::format(", 95 % interval {}", format_interval(*cell.lower, *cell.upper));
   if (cell.truth) text += fmt::format(", truth {}", format_value(*cell.truth));
@@ -63,7 +67,7 @@ std::string interval_drawing(const StripCell& cell, const StripScale& scale) {
 std::string cell_html(const StripRow& row, const StripColumn& column, const StripCell& cell, const StripScale& scale) {
   std::string svg = "<td><svg class=\"strip\" role=\"img\">";
   if (!cell.value)
-    return svg + fmt::format("<title>{}, {}: none</title>{}</svg></td>", escape_xml(row.person),
+    return svg + fmt::format("<title>{}, {}: none</title>{}</svg></td>", shown_name(row.person),
                              escape_xml(column.name), background(column, scale));
   svg += fmt::format("<title>{}</title>", escape_xml(typographic(sentence(row, column, cell))));
   svg += background(column, scale);
@@ -152,10 +156,10 @@ std::string strip_grid_html(const StripGrid& grid) {
   }
   text += "</tr></thead>\n<tbody>\n";
   for (const StripRow& row : grid.rows) {
-    const std::string name = escape_xml(row.person);
-    text += row.page.empty()
-                ? fmt::format("<tr><td title=\"{0}\">{0}</td>", name)
-                : fmt::format("<tr><td title=\"{0}\"><a href=\"{1}\">{0}</a></td>", name, escape_xml(row.page));
+    const std::string name = shown_name(row.person);
+    text += row.page.empty() ? fmt::format("<tr><td title=\"{0}\">{0}</td>", name)
+                             : fmt::format("<tr><td title=\"{0}\"><a href=\"{1}\">{0}</a></td>", name,
+                                           recording::url_path(row.page));
     for (std::size_t c = 0; c < grid.columns.size(); ++c)
       text += cell_html(row, grid.columns[c], row.cells[c], scales[c]);
     text += "</tr>\n";

@@ -118,6 +118,12 @@ std::string axis_title(const Axis& axis) {
   return axis.label.empty() ? fmt::format("[{}]", axis.unit) : fmt::format("{} [{}]", axis.label, axis.unit);
 }
 
+/// Returns a title or name as short as a drawing has room for.
+std::string shown_in_drawing(std::string_view text) {
+  constexpr std::size_t kMostInWord = 60, kMostInText = 160;
+  return recording::elided(recording::with_short_words(text, kMostInWord), kMostInText);
+}
+
 std::string text(double x,
                  double y,
                  std::string_view content,
@@ -125,7 +131,7 @@ std::string text(double x,
                  double size = 11.0,
                  std::string_view more = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" {}>{}</text>\n", x, y, size,
-                     anchor, more, escape_xml(typographic(content)));
+                     anchor, more, escape_xml(typographic(shown_in_drawing(content))));
 }
 
 /// One panel, in a frame at (left, top) of the given size.
@@ -308,29 +314,6 @@ std::string legend_mark(Role role, double x, double y) {
 
 }  // namespace
 
-std::string escape_xml(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
-    }
-  }
-  return result;
-}
-
 std::vector<double> ticks(double lower, double upper, int count) {
   const double rough = (upper - lower) / std::max(count, 1);
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -409,7 +392,7 @@ std::string svg_plot(const Figure& figure) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:.0f}\" width=\"{0:g}\" "
       "height=\"{1:.0f}\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" "
       "fill=\"#22262b\">\n<title>{2}</title>\n<desc>{3}</desc>\n",
-      kWidth, height, escape_xml(figure.title), escape_xml(typographic(figure.caption)));
+      kWidth, height, escape_xml(shown_in_drawing(figure.title)), escape_xml(typographic(figure.caption)));
   svg += legend;
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const double left = static_cast<double>(k % columns) * cell_width + kLeft;

@@ -4,9 +4,12 @@
 #include <string_view>
 #include <vector>
 
+#include "myoid/files/quoted_text.h"
 #include "myoid/report/report.h"
 
 namespace myoid::report {
+
+using recording::escape_xml;
 
 /// Draws the figure as one SVG document that needs no style sheet, font file or network. The same input gives the same
 /// bytes. The color-blind can tell the colors apart; lines differ in their dashes too.
@@ -20,8 +23,5 @@ namespace myoid::report {
 /// `bins` equal stretches the first, the lowest, the highest and the last. All of them if there are no more than 4
 /// `bins`. Samples that are not finite stay where they part the curve.
 [[nodiscard]] std::vector<std::size_t> decimate(const std::vector<double>& y, std::size_t bins);
-
-/// Escapes & < > " for text in XML and HTML; characters that XML forbids become '?'.
-[[nodiscard]] std::string escape_xml(std::string_view text);
 
 }  // namespace myoid::report

@@ -6,27 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "myoid/files/quoted_text.h"
+
 namespace myoid::report {
 namespace {
 
-std::string csv_cell(std::string_view text) {
-  return text.find_first_of(",\"\n\r") == std::string_view::npos ? std::string(text) : csv_quoted(text);
-}
+using recording::csv_cell;
 
 std::string csv_number(const std::vector<double>& values, std::size_t k) {
   return k < values.size() && std::isfinite(values[k]) ? fmt::format("{}", values[k]) : std::string();
 }
 
 }  // namespace
-
-std::string csv_quoted(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
-}
 
 std::string table_csv(const Table& table) {
   std::string text;

@@ -8,9 +8,6 @@
 
 namespace myoid::report {
 
-/// Returns the text as a cell of a table of comma-separated values, in quotes, its quotes doubled.
-[[nodiscard]] std::string csv_quoted(std::string_view text);
-
 /// Returns the table as comma-separated values (RFC 4180: CRLF is not used, quotes where needed); a
 /// row of column names first. Badges are left out.
 [[nodiscard]] std::string table_csv(const Table& table);

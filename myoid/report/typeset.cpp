@@ -32,13 +32,17 @@ std::string typographic(std::string_view text) {
   return result;
 }
 
-std::string typeset(std::string_view text) {
+std::string typeset(std::string_view whole) {
+  constexpr std::size_t kMostInWord = 300, kMostInText = 4000;
+  const std::string shown = recording::elided(recording::with_short_words(whole, kMostInWord), kMostInText);
+  const auto set = [](std::string_view part) { return escape_xml(typographic(part)); };
+  std::string_view text = shown;
   std::string result;
   while (true) {
     const std::size_t open = text.find('`');
     const std::size_t close = open == std::string_view::npos ? open : text.find('`', open + 1);
-    if (close == std::string_view::npos) return result + escape_xml(typographic(text));
-    result += escape_xml(typographic(text.substr(0, open)));
+    if (close == std::string_view::npos) return result + set(text);
+    result += set(text.substr(0, open));
     result += "<code>" + escape_xml(text.substr(open + 1, close - open - 1)) + "</code>";
     text.remove_prefix(close + 1);
   }

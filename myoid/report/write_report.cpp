@@ -73,8 +73,9 @@ void write_figure(const Figure& figure, const std::filesystem::path& directory) 
   recording::write_file(directory / "figures" / (figure.id + ".csv"), figure_csv(figure));
 }
 
-void write_report(const Report& report, const std::filesystem::path& directory, const Workbench* workbench) {
+void write_report(Report report, const std::filesystem::path& directory, const Workbench* workbench) {
   validate(report);
+  make_ids(report);
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables)
       recording::write_file(directory / "tables" / (table.id + ".csv"), table_csv(table));

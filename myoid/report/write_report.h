@@ -18,6 +18,6 @@ void write_figure(const Figure& figure, const std::filesystem::path& directory);
 /// Writes report.html (one file that works offline: style, drawings and the workbench, if there is
 /// one, inside), figures/ID.svg and ID.csv, tables/ID.csv and report.json into the folder; each
 /// whole or not at all. Calls `validate`.
-void write_report(const Report& report, const std::filesystem::path& directory, const Workbench* workbench = nullptr);
+void write_report(Report report, const std::filesystem::path& directory, const Workbench* workbench = nullptr);
 
 }  // namespace myoid::report

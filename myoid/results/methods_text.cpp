@@ -115,7 +115,7 @@ void say_torque(const StudyResult& result, Writer& out) {
   add([](const TrialResult& t) { return t.spec.plates.has_value(); }, "forces of force plates");
   add([](const TrialResult& t) { return t.spec.load_cell.has_value(); }, "forces of a load cell");
   add([](const TrialResult& t) { return t.spec.external_loads.has_value(); }, "measured external forces");
-  add([](const TrialResult& t) { return t.spec.held_mass_kg > 0.0; }, "held masses");
+  add([](const TrialResult& t) { return t.spec.held_mass_kg.value_or(0.0) > 0.0; }, "held masses");
   out.say("The torque of the muscles about {} was found by inverse dynamics{}.", joints_of(result),
           from.empty() ? "" : fmt::format(" from {}", listed(from)));
 }

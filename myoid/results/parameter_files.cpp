@@ -12,6 +12,8 @@
 
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/quoted_text.h"
+#include "myoid/files/result_record.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/methods/prediction.h"
@@ -26,6 +28,8 @@ using identification::EstimateColumn;
 using identification::IdentificationResult;
 using identification::ParameterEstimate;
 using nlohmann::ordered_json;
+using recording::csv_cell;
+using recording::csv_quoted;
 using report::number_or_null;
 
 std::string number_or_empty(const std::optional<double>& value) {
@@ -90,7 +94,7 @@ std::string estimate_row(const ParameterEstimate& e, const MoreColumns& more) {
   for (const EstimateColumn& column : identification::estimate_columns()) {
     if (column.kind == EstimateColumn::Kind::json) continue;
     const std::string cell = cell_of(e, column, CsvCell{});
-    cells.push_back(column.kind == EstimateColumn::Kind::sentence ? report::csv_quoted(cell) : cell);
+    cells.push_back(column.kind == EstimateColumn::Kind::sentence ? csv_quoted(cell) : csv_cell(cell));
   }
   for (const std::string& route : more.routes) {
     const auto it = std::ranges::find(e.routes, route, &identification::RouteInterval::route);
@@ -273,7 +277,7 @@ std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
 
 std::string posterior_csv(const IdentificationResult& method) {
   std::string text = "weight";
-  for (const std::string& name : method.free_parameters) text += "," + name;
+  for (const std::string& name : method.free_parameters) text += "," + csv_cell(name);
   text += "\n";
   for (Eigen::Index i = 0; i < method.draws.cols(); ++i) {
     text += fmt::format("{:.6g}", method.draw_weights[i]);
@@ -289,7 +293,7 @@ std::string fold_parameters_csv(const std::vector<identification::Fold>& folds) 
   for (const identification::Fold& fold : folds) {
     for (const ParameterEstimate& e : fold.parameters) {
       // One fit predicts all joints of a trial.
-      const std::string row = fmt::format("{},{},{}", report::csv_quoted(fold.trial), e.muscle, e.parameter);
+      const std::string row = fmt::format("{},{},{}", csv_quoted(fold.trial), csv_cell(e.muscle), e.parameter);
       if (!written.insert(row).second) continue;
       text += fmt::format("{},{},{},{}\n", row, symbol(e.unit), number_or_empty(e.estimate),
                           identification::name(fold.lag));
@@ -338,11 +342,10 @@ void write_parameter_files(const std::vector<IdentificationResult>& methods,
   recording::write_file(folder / "parameters.json", parameters_json(methods, folds, provenance, context));
   recording::write_file(folder / "parameters.csv", parameters_csv(methods));
   const auto write_or_remove = [&](const char* name, bool there, const auto& text) {
-    std::error_code ignored;
     if (there)
       recording::write_file(folder / name, text());
     else
-      std::filesystem::remove(folder / name, ignored);  // from an earlier run
+      recording::remove_result(folder / name);  // from an earlier run
   };
   write_or_remove("fold_parameters.csv", !folds.empty(), [&] { return fold_parameters_csv(folds); });
   const auto drawn = std::ranges::find_if(methods, [](const auto& method) { return method.draws.size() > 0; });

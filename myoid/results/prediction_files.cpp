@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/result_names.h"
 #include "myoid/files/text_file.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
@@ -16,6 +17,19 @@
 #include "myoid/tables/storage_writer.h"
 
 namespace myoid {
+namespace {
+
+/// Returns each text of a member once, in the order in which the texts appear.
+std::vector<std::string> unique_values(const std::vector<identification::TrialFit>& predictions,
+                                       std::string identification::TrialFit::*member) {
+  std::vector<std::string> values;
+  for (const identification::TrialFit& each : predictions) {
+    if (std::ranges::find(values, each.*member) == values.end()) values.push_back(each.*member);
+  }
+  return values;
+}
+
+}  // namespace
 
 Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd) {
   if (sd.size() != mean.size()) return {};
@@ -23,8 +37,14 @@ Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd) {
   return {mean - reach * sd, mean + reach * sd};
 }
 
+recording::NameIds prediction_folders(const std::vector<identification::TrialFit>& predictions) {
+  return recording::NameIds(unique_values(predictions, &identification::TrialFit::trial), recording::IdFor::file,
+                            recording::result_names());
+}
+
 void write_prediction(const identification::TrialFit& prediction,
                       const std::vector<std::string>& muscles,
+                      const recording::NameIds& joints,
                       const std::filesystem::path& folder,
                       const std::vector<std::string>& comments) {
   SeriesColumns torque;
@@ -38,8 +58,8 @@ void write_prediction(const identification::TrialFit& prediction,
       torque.add(joint + "_low", Unit::newton_meter, std::move(band.low));
       torque.add(joint + "_high", Unit::newton_meter, std::move(band.high));
     }
-    recording::write_storage(folder / fmt::format("predicted_torque_{}.sto", joint), torque.series(prediction.time_s),
-                             {.title = "Predicted torque", .comments = comments});
+    recording::write_storage(folder / fmt::format("predicted_torque_{}.sto", joints.of(joint)),
+                             torque.series(prediction.time_s), {.title = "Predicted torque", .comments = comments});
   }
   SeriesColumns forces;
   for (std::size_t k = 0; k < muscles.size(); ++k) {
@@ -59,11 +79,10 @@ void write_predictions(const std::vector<identification::TrialFit>& predictions,
                        const Provenance& provenance,
                        const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
-  for (const identification::TrialFit& trial : predictions) {
-    std::string name = trial.trial;
-    std::ranges::replace(name, '/', '_');
-    write_prediction(trial, muscles, folder / name, comments);
-  }
+  const recording::NameIds folders = prediction_folders(predictions);
+  const recording::NameIds joints(unique_values(predictions, &identification::TrialFit::joint));
+  for (const identification::TrialFit& trial : predictions)
+    write_prediction(trial, muscles, joints, folder / folders.of(trial.trial), comments);
   recording::write_file(folder / "predictions.csv", predictions_csv(predictions));
 }
 

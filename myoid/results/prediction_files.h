@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "myoid/core/provenance.h"
+#include "myoid/files/name_ids.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
 
@@ -18,13 +19,18 @@ struct Band {
 [[nodiscard]] Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd);
 
 /// Writes predicted_torque_<joint>.sto (`<joint>_measured`, `_predicted`, and with a band `_low`, `_high` [N m]) and
-/// predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0 [N]) of one trial.
+/// predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0 [N]) of one trial. `joints` holds the id
+/// of each joint for the names of files.
 void write_prediction(const identification::TrialFit& prediction,
                       const std::vector<std::string>& muscles,
+                      const recording::NameIds& joints,
                       const std::filesystem::path& folder,
                       const std::vector<std::string>& comments);
 
-/// Writes each trial's `write_prediction` into a folder of the trial's name, and predictions.csv.
+/// Returns the folder of each predicted trial.
+[[nodiscard]] recording::NameIds prediction_folders(const std::vector<identification::TrialFit>& predictions);
+
+/// Writes each trial's `write_prediction` into the trial's folder, and predictions.csv.
 void write_predictions(const std::vector<identification::TrialFit>& predictions,
                        const std::vector<std::string>& muscles,
                        const Provenance& provenance,

@@ -1,5 +1,9 @@
 #include "myoid/results/prediction_files.h"
 
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "myoid/tables/storage_reader.h"
@@ -26,7 +30,7 @@ identification::TrialFit prediction() {
 
 TEST(PredictionFiles, HoldTheBandsAndNoForceBelowZero) {
   const test::TemporaryFolder folder;
-  write_prediction(prediction(), {"BIC"}, folder.path(), {});
+  write_prediction(prediction(), {"BIC"}, {}, folder.path(), {});
   const TimeSeries torque = recording::read_storage(folder.path() / "predicted_torque_elbow_flexion.sto").data;
   EXPECT_NEAR(torque.column("elbow_flexion_high")[1], 2.0 + 1.959964 * 0.5, 1e-6);
   EXPECT_NEAR(torque.column("elbow_flexion_low")[2], 3.0 - 1.959964 * 0.5, 1e-6);
@@ -34,6 +38,23 @@ TEST(PredictionFiles, HoldTheBandsAndNoForceBelowZero) {
   const TimeSeries forces = recording::read_storage(folder.path() / "predicted_forces.sto").data;
   EXPECT_EQ(forces.column("BIC_low")[0], 0.0);
   EXPECT_NEAR(forces.column("BIC_high")[2], 30.0 + 1.959964 * 3.0, 1e-5);
+}
+
+TEST(PredictionFiles, AnyNamesOfTrialsAndJointsHaveFilesOfTheirOwn) {
+  const test::TemporaryFolder folder;
+  std::vector<identification::TrialFit> predictions;
+  for (const char* trial : {"a/b", "a b", "..", "predictions.csv"}) {
+    for (const char* joint : {"knee r", "knee_r", "Knee_r"}) {
+      predictions.push_back(prediction());
+      predictions.back().trial = trial;
+      predictions.back().joint = joint;
+    }
+  }
+  write_predictions(predictions, {"BIC"}, Provenance{}, folder.path());
+  std::ptrdiff_t torques = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+    torques += entry.path().filename().string().starts_with("predicted_torque_");
+  EXPECT_EQ(torques, 12);
 }
 
 TEST(PredictionFiles, TheTableHasARowForEachTrialAndJoint) {

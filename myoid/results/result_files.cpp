@@ -1,8 +1,6 @@
 #include "myoid/results/result_files.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +17,7 @@
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/study_emg.h"
+#include "myoid/study/study_ids.h"
 #include "myoid/study/study_model.h"
 #include "myoid/tables/storage_writer.h"
 
@@ -90,8 +89,7 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
     muscles.push_back(std::move(muscle));
   }
   if (!any) return;
-  const std::string stem = study.model.file ? study.model.file->stem().string() : "arm4";
-  recording::write_file(folder / (stem + "_identified.osim"),
+  recording::write_file(folder / identified_model_name(study),
                         identified_model(study, result.source.model_text, muscles));
 }
 
@@ -105,8 +103,9 @@ ordered_json fault_json(const Remark& fault) {
           {"message", sentence(fault)}};
 }
 
-ordered_json trial_record(const TrialResult& trial) {
+ordered_json trial_record(const TrialResult& trial, const recording::NameIds& ids) {
   ordered_json record = {{"name", trial.spec.name},
+                         {"folder", ids.of(trial.spec.name)},
                          {"use", std::string(choice_name(trial.spec.use))},
                          {"failure", trial.failure()},
                          {"notes", sentences(trial.remarks)},
@@ -131,7 +130,8 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
   run["seconds"] = ordered_json::object();
   for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
   if (result.fit.force_loop) run["force_loop"] = force_loop_json(*result.fit.force_loop);
-  run["trials"] = array_of(result.trials, trial_record);
+  const recording::NameIds ids = trial_ids(result.source.study);
+  run["trials"] = array_of(result.trials, [&](const TrialResult& trial) { return trial_record(trial, ids); });
   const signals::EmgChain emg = emg_chain(result, nullptr);
   run["emg"] = {{"steps", emg.steps}, {"methods", emg.methods}};
   run["faults"] = array_of(result.level_faults, fault_json);
@@ -139,34 +139,6 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
 }
 
 }  // namespace
-
-void remove_results(const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
-  std::ifstream stream(folder / "run.json");
-  if (!stream) return;
-  const nlohmann::json run = parse_json(std::string(std::istreambuf_iterator<char>(stream), {}), false);
-  if (run.is_discarded() || !run.contains("trials")) return;
-  std::error_code ignored;
-  const auto remove_if = [&](const fs::path& place, const auto& is_ours) {
-    for (const auto& entry : fs::directory_iterator(place, ignored))
-      if (is_ours(entry.path().filename().string())) fs::remove(entry.path(), ignored);
-  };
-  for (const nlohmann::json& trial : run["trials"]) {
-    const std::string name = trial.value("name", "");
-    if (name.empty() || name.find('/') != std::string::npos || name == "..") continue;
-    remove_if(folder / name, [](const std::string& file) {
-      return file == "ik.mot" || file == "ik_marker_errors.sto" || file == "id.sto" || file == "activation.sto" ||
-             file == "identified_forces.sto" || file.starts_with("MuscleAnalysis_") ||
-             file.starts_with("EmgInformed_") || file.starts_with("StaticOptimization_");
-    });
-    fs::remove(folder / name, ignored);  // removes only an empty folder
-  }
-  for (const char* place : {"figures", "tables"}) {
-    remove_if(folder / place,
-              [](const fs::path& file) { return file.extension() == ".svg" || file.extension() == ".csv"; });
-  }
-  remove_if(folder, [](const std::string& file) { return file.ends_with("_identified.osim"); });
-}
 
 void write_results(const StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
@@ -176,8 +148,9 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
     return lines;
   };
   const std::vector<std::string> of_activation = with_emg(nullptr);
+  const recording::NameIds ids = trial_ids(result.source.study);
   for (const TrialResult& trial : result.trials) {
-    const std::filesystem::path place = folder / trial.spec.name;
+    const std::filesystem::path place = folder / ids.of(trial.spec.name);
     if (!trial.emg.activation.empty())
       recording::write_storage(place / "activation.sto", trial.emg.activation,
                                {.title = "Activation", .comments = of_activation});
@@ -192,12 +165,13 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
   for (const IdentificationResult& method : result.fit.methods) {
     if (method.method != "torque" && result.fit.methods.size() > 1) continue;
     for (const identification::TrialData& data : result.fit_input.data.trials) {
-      recording::write_storage(folder / data.name / "identified_forces.sto", identified_forces(result, data, method),
+      recording::write_storage(folder / ids.of(data.name) / "identified_forces.sto",
+                               identified_forces(result, data, method),
                                {.title = "Forces", .comments = with_emg(&method)});
     }
   }
   for (const identification::InformedForces& forces : result.fit.informed)
-    write_informed_forces(result, forces, folder / forces.trial, with_emg(torque_of(result.fit)));
+    write_informed_forces(result, forces, folder / ids.of(forces.trial), with_emg(torque_of(result.fit)));
   write_identified_model(result, folder);
   write_parameter_files(result.fit.methods, result.folds,
                         without_places(provenance, result.source.study.file.parent_path()), parameter_context(result),

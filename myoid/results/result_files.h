@@ -12,8 +12,4 @@ namespace myoid {
 /// identified model, methods.txt, methods.bib, run.json. Each file is written whole or not at all.
 void write_results(const StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder);
 
-/// Removes the files of an earlier run, known by its run.json, from the folder, so that files of
-/// two studies never stand side by side. Files of other names stay.
-void remove_results(const std::filesystem::path& folder);
-
 }  // namespace myoid

@@ -9,6 +9,7 @@
 #include "myoid/core/index.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/name_ids.h"
 #include "myoid/muscle/force_length.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/literature.h"
@@ -242,8 +243,11 @@ void write_simulation(const Simulation& s,
   write("MuscleAnalysis_FiberVelocity.sto", s.fiber_velocity, "FiberVelocity");
   write("MuscleAnalysis_TendonLength.sto", s.tendon_length, "TendonLength");
   const Eigen::Index n = s.fiber_length.channel_count();
+  std::vector<std::string> coordinates;
+  for (std::size_t k = 0; k < coordinate_count(s); ++k) coordinates.push_back(coordinate_name(s, k));
+  const std::vector<std::string> ids = recording::ids_of(coordinates);
   for (std::size_t k = 0; k < coordinate_count(s) && n > 0; ++k) {
-    write("MuscleAnalysis_MomentArm_" + coordinate_name(s, k) + ".sto",
+    write("MuscleAnalysis_MomentArm_" + ids[k] + ".sto",
           {s.moment_arm.time_s(), s.fiber_length.channels(),
            s.moment_arm.values().middleCols(static_cast<Eigen::Index>(k) * n, n)},
           "MomentArm_" + coordinate_name(s, k));

@@ -6,6 +6,7 @@
 
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/name_ids.h"
 #include "myoid/files/text_file.h"
 #include "myoid/tables/storage_writer.h"
 
@@ -63,8 +64,11 @@ void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles, const 
   recording::write_storage(folder / "MuscleAnalysis_Length.sto", muscles.length, {.title = "Length"});
   recording::write_storage(folder / "MuscleAnalysis_MuscleTendonVelocity.sto", muscles.velocity,
                            {.title = "MuscleTendonVelocity"});
+  std::vector<std::string> coordinates;
+  for (const auto& [coordinate, arms] : muscles.moment_arm) coordinates.push_back(coordinate);
+  const recording::NameIds ids(coordinates);
   for (const auto& [coordinate, arms] : muscles.moment_arm) {
-    recording::write_storage(folder / ("MuscleAnalysis_MomentArm_" + coordinate + ".sto"), arms,
+    recording::write_storage(folder / fmt::format("MuscleAnalysis_MomentArm_{}.sto", ids.of(coordinate)), arms,
                              {.title = "MomentArm_" + coordinate});
   }
 }

@@ -19,6 +19,7 @@
 #include "myoid/results/torque_report.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/study_emg.h"
+#include "myoid/study/study_ids.h"
 
 namespace myoid {
 namespace {
@@ -179,8 +180,9 @@ std::optional<Section> emg_section(const StudyResult& result) {
   const auto task = std::ranges::find_if(
       result.trials, [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
   if (task == result.trials.end()) return std::nullopt;
-  return Section{
-      .id = "emg", .heading = "EMG", .figures = {emg_figure(*task, signals::header_lines(emg_chain(result, nullptr)))}};
+  report::Figure figure = emg_figure(*task, signals::header_lines(emg_chain(result, nullptr)));
+  figure.id = "emg_" + trial_ids(result.source.study).of(task->spec.name);
+  return Section{.id = "emg", .heading = "EMG", .figures = {std::move(figure)}};
 }
 
 Section trials_section(const StudyResult& result) {

@@ -16,6 +16,7 @@
 #include "myoid/results/prediction_files.h"
 #include "myoid/results/study_scene.h"
 #include "myoid/run/prediction_gates.h"
+#include "myoid/study/study_ids.h"
 
 namespace myoid {
 namespace {
@@ -44,7 +45,11 @@ const IdentificationResult* fit_of(const StudyResult& result) {
 /// Adds the series of a trial, thinned to the samples that a plot may have.
 class TrialPlots {
  public:
-  TrialPlots(WorkbenchTrial& trial, Eigen::Index most) : trial_(trial), most_(most) {}
+  TrialPlots(WorkbenchTrial& trial, std::string folder, Eigen::Index most)
+      : trial_(trial), folder_(std::move(folder)), most_(most) {}
+
+  /// Folder of the trial's files, relative to the page.
+  [[nodiscard]] const std::string& folder() const { return folder_; }
 
   /// Returns every k-th value, so that at most `most` are left.
   [[nodiscard]] Eigen::VectorXd thinned(const Eigen::Ref<const Eigen::VectorXd>& values) const {
@@ -82,6 +87,7 @@ class TrialPlots {
 
  private:
   WorkbenchTrial& trial_;
+  std::string folder_;
   Eigen::Index most_;
 };
 
@@ -119,7 +125,7 @@ void add_angles(const StudyResult& result, const TrialResult& trial, TrialPlots&
                .title = report::spelled(name),
                .unit = "deg",
                .lines = {plots.line("angle", Role::reference, q.time_s(), q.values().col(*column) / kDegree)},
-               .file = trial.spec.name + "/ik.mot"});
+               .file = plots.folder() + "/ik.mot"});
   }
 }
 
@@ -158,7 +164,7 @@ void add_torques(const StudyResult& result,
                   .title = report::spelled(joints[j]),
                   .unit = "N m",
                   .joint = static_cast<int>(j),
-                  .file = trial.spec.name + "/id.sto"};
+                  .file = plots.folder() + "/id.sto"};
     const auto fitted = [&]() -> const identification::TrialFit* {
       if (fit == nullptr) return nullptr;
       for (const identification::TrialFit& t : fit->trials)
@@ -212,7 +218,7 @@ void add_emg(const TrialResult& trial, TrialPlots& plots) {
   const TimeSeries& activation = trial.emg.activation;
   if (activation.empty()) return;
   TimePlot plot{
-      .kind = "activation", .title = "activation by EMG", .unit = "", .file = trial.spec.name + "/activation.sto"};
+      .kind = "activation", .title = "activation by EMG", .unit = "", .file = plots.folder() + "/activation.sto"};
   for (Eigen::Index c = 0; c < activation.channel_count(); ++c)
     plot.lines.push_back(plots.line(activation.channels()[at(c)].name, Role::reference, activation.time_s(),
                                     activation.values().col(c)));
@@ -229,7 +235,7 @@ void add_fitted_forces(const StudyResult& result,
                   .title = result.fit_input.data.muscles[m].name,
                   .unit = "N",
                   .muscle = static_cast<int>(m),
-                  .file = data.name + "/identified_forces.sto"};
+                  .file = plots.folder() + "/identified_forces.sto"};
     if (data.force_n.cols() > c)
       plot.lines.push_back(plots.line("shared", Role::reference, data.time_s, data.force_n.col(c)));
     if (fit.literature_force_n.cols() > c)
@@ -253,7 +259,7 @@ void add_shared_forces(const TrialResult& trial, TrialPlots& plots) {
                .title = force.channels()[at(c)].name,
                .unit = "N",
                .lines = {plots.line("shared", Role::reference, force.time_s(), force.values().col(c))},
-               .file = trial.spec.name + "/StaticOptimization_force.sto"});
+               .file = plots.folder() + "/StaticOptimization_force.sto"});
   }
 }
 
@@ -359,9 +365,10 @@ WorkbenchTrial shown_trial(const StudyResult& result,
                            const IdentificationResult* fit,
                            const std::vector<OutlyingFold>& outlying,
                            const TrialResult& trial,
+                           const std::string& folder,
                            Eigen::Index most) {
   WorkbenchTrial shown{.name = trial.spec.name, .use = std::string(choice_name(trial.spec.use))};
-  TrialPlots plots(shown, most);
+  TrialPlots plots(shown, folder, most);
   const auto& all = result.fit_input.data.trials;
   const auto data = std::ranges::find(all, trial.spec.name, &identification::TrialData::name);
   const identification::TrialFit* fitted = nullptr;
@@ -403,9 +410,10 @@ report::Workbench study_workbench(const StudyResult& result, const std::filesyst
   const Eigen::Index most = std::max(
       kLeastSamples, kMostSamples / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(result.trials.size())));
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
+  const recording::NameIds ids = trial_ids(result.source.study);
   int scene = 0;
   for (const TrialResult& trial : result.trials) {
-    WorkbenchTrial shown = shown_trial(result, fit, outlying, trial, most);
+    WorkbenchTrial shown = shown_trial(result, fit, outlying, trial, ids.of(trial.spec.name), most);
     if (trial.has_motion()) shown.scene = scene++;
     if (trial.spec.video) shown.video = path_from(folder, *trial.spec.video);
     shown.video_offset_s = trial.spec.video_offset_s;

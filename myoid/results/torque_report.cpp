@@ -231,7 +231,7 @@ Table trials_table(const StudyResult& result) {
       }
       const auto& clock = t.motion.joints.q.time_s();
       row.insert(row.end(), {{fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])},
-                             {fmt::format("{} kg", format_value(t.spec.held_mass_kg))},
+                             {fmt::format("{} kg", format_value(t.spec.held_mass_kg.value_or(0.0)))},
                              {fmt::format("{} deg", fmt::join(angles, "; "))},
                              {fmt::format("{} N m", fmt::join(torques, "; "))}});
     } else {

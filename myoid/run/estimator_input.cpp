@@ -55,7 +55,10 @@ identification::TrialData trial_data(const Study& study,
                                 .resting_nm = resting_torque_nm(resting, name, trial.motion.joints.q.column(name))});
   }
   data.activation = activation;
-  if (trial.forces.uncarried) data.excluded = trial.forces.uncarried->stretches;
+  data.excluded = trial.spec.exclude.windows;
+  if (trial.forces.uncarried)
+    data.excluded.insert(data.excluded.end(), trial.forces.uncarried->stretches.begin(),
+                         trial.forces.uncarried->stretches.end());
   // Times without EMG are not fitted.
   const Rows rows = rows_with_emg(trial.motion.joints.q.time_s(), activation.time_s());
   return identification::part(data, rows.first, rows.count());

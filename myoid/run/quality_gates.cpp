@@ -12,11 +12,12 @@
 #include <fmt/ranges.h>
 
 #include "myoid/beliefs/beliefs.h"
-#include "myoid/checks/trial_plausibility.h"
+#include "myoid/checks/stated_loads.h"
 #include "myoid/core/counted.h"
 #include "myoid/core/units.h"
 #include "myoid/dynamics/ground_support.h"
-#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/dynamics/torque_plausibility.h"
+#include "myoid/forces/sharing_plausibility.h"
 #include "myoid/intake/limits.h"
 #include "myoid/report/typeset.h"
 #include "myoid/run/effort_prior.h"
@@ -83,23 +84,26 @@ MissingMuscles missing_muscles(const StudyResult& result) {
 
 /// Returns a gate for a trial whose torque exceeds any joint's capacity; empty if there is none.
 std::optional<Gate> torque_gate(const StudyResult& result) {
-  const Capacities capacities = joint_capacities(result.source.study, *result.source.model);
   for (const TrialResult& t : result.trials) {
     if (!t.has_motion()) continue;
-    for (const auto& [name, capacity] : capacities) {
-      const auto c = static_cast<std::size_t>(result.source.model->coordinate_index(name));
-      const auto column =
-          t.forces.muscle_torque.find(dynamics::generalized_force_name(result.source.model->coordinates[c]));
-      if (!column) continue;
-      const double greatest = capacity.greatest_nm();
-      const std::string text = too_much_torque(name, usual_peak(t.forces.muscle_torque.values().col(*column)), greatest,
-                                               fmt::format("the torque in '{}'", t.spec.name), TorqueSource::computed);
-      if (text.empty()) continue;
-      return Gate{"Torques that a joint can make", GateStatus::fail, text, fmt::format("at most {:.3g} N m", greatest),
-                  "Masses, loads or their units are wrong, or the clock of the motion is."};
-    }
+    const std::vector<Remark> found = dynamics::implausible(*result.source.model, t.forces.muscle_torque,
+                                                            result.source.study.subject.mass_kg.value_or(0.0));
+    if (found.empty()) continue;
+    return Gate{"Torques that a joint can make", GateStatus::fail,
+                fmt::format("'{}': {}", t.spec.name, found.front().says), "none beyond",
+                "Masses, loads or their units are wrong, or the clock of the motion is."};
   }
   return std::nullopt;
+}
+
+/// Returns the gate of the loads that act on the person beside gravity.
+Gate loads_gate(const std::vector<TrialResult>& trials) {
+  std::vector<TrialSpec> specs;
+  for (const TrialResult& t : trials) specs.push_back(t.spec);
+  const std::optional<Remark> silent = unstated_loads(specs);
+  return {"External loads stated", silent ? GateStatus::warn : GateStatus::pass,
+          silent ? sentence(*silent) : std::string("in every trial"), "in every trial that is fitted or predicted",
+          "A mass that was held and not stated makes every muscle weaker than it is."};
 }
 
 /// Returns a gate for a trial in which, at some times or always, no force carries a body whose
@@ -257,13 +261,13 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
     reserves += t.forces.shared.frames_with_reserve;
   }
   std::vector<Gate> list;
-  list.push_back({"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
+  list.push_back({std::string(kSharingGate), unsolved == 0 ? GateStatus::pass : GateStatus::fail,
                   fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
                   "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
-  const double share = sharing_frames > 0 ? 100.0 * reserves / sharing_frames : 0.0;
+  const double share = sharing_frames > 0 ? static_cast<double>(reserves) / sharing_frames : 0.0;
   list.push_back({"Muscles strong enough for the torque",
-                  share < kGateLimits.reserve_percent ? GateStatus::pass : GateStatus::warn,
-                  fmt::format("reserve used in {:.1f} % of frames", share), "below 5 %",
+                  share < forces::kReserveShare ? GateStatus::pass : GateStatus::warn, forces::reserve_words(share),
+                  fmt::format("below {:g} %", 100.0 * forces::kReserveShare),
                   "Where a reserve acts, the literature's muscles could not provide the torque."});
   return list;
 }
@@ -302,7 +306,7 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
 }
 
 Gate loop_gate(const identification::ForceLoop& loop) {
-  return {"Forces and parameters agree in their loop",
+  return {std::string(kLoopGate),
           loop.end == identification::LoopEnd::converged  ? GateStatus::pass
           : loop.end == identification::LoopEnd::diverged ? GateStatus::fail
                                                           : GateStatus::warn,
@@ -340,6 +344,7 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
                     "The others are reported; the failures are listed under the trials."});
   }
   list.push_back(recordings_gate(result));
+  list.push_back(loads_gate(result.trials));
   const auto add = [&list](std::vector<Gate> gates) { std::ranges::move(gates, std::back_inserter(list)); };
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));
@@ -400,28 +405,6 @@ report::Section recordings_section(const StudyResult& result) {
 bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials) {
   const std::vector<Gate> gates = motion_gates(study, trials);
   return std::ranges::any_of(gates, [](const Gate& gate) { return gate.status == GateStatus::fail; });
-}
-
-std::vector<IdentificationResult> judged(std::vector<IdentificationResult> methods,
-                                         const StudyValidation& validation,
-                                         const Study& study,
-                                         const std::vector<TrialResult>& trials,
-                                         const std::optional<identification::ExchangedElectrodes>& exchanged) {
-  const char* reason = motion_is_unreliable(study, trials)
-                           ? "The motion it rests on failed its quality gate: mend that first."
-                       : exchanged ? "Two electrodes seem to be exchanged: mend that first."
-                                   : nullptr;
-  for (IdentificationResult& method : methods) {
-    if (method.method == "torque")
-      method.warnings.insert(method.warnings.end(), validation.warnings.begin(), validation.warnings.end());
-    if (reason == nullptr) continue;
-    for (identification::ParameterEstimate& e : method.estimates) {
-      if (e.verdict != Verdict::identified) continue;
-      e.verdict = Verdict::weak;
-      e.reason = reason;
-    }
-  }
-  return methods;
 }
 
 }  // namespace myoid

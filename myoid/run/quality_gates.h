@@ -1,12 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "myoid/core/remark.h"
 #include "myoid/report/report.h"
 #include "myoid/run/study_result.h"
-#include "myoid/run/study_validation.h"
 
 namespace myoid {
 
@@ -26,13 +26,8 @@ namespace myoid {
 /// is at most as good as the motion it is computed from.
 [[nodiscard]] bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials);
 
-/// Returns the methods with the warnings of the validation. If the motion is unreliable, or
-/// electrodes are exchanged, every `identified` parameter becomes `weak` for this reason.
-[[nodiscard]] std::vector<identification::IdentificationResult> judged(
-    std::vector<identification::IdentificationResult> methods,
-    const StudyValidation& validation,
-    const Study& study,
-    const std::vector<TrialResult>& trials,
-    const std::optional<identification::ExchangedElectrodes>& exchanged);
+/// Names of gates that concern one method: the loop's own numbers, and the reference forces of method paper.
+inline constexpr std::string_view kLoopGate = "Forces and parameters agree in their loop";
+inline constexpr std::string_view kSharingGate = "Force sharing certified optimal";
 
 }  // namespace myoid

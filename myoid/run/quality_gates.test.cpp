@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
-#include "myoid/run/study_validation.h"
+#include "myoid/intervals/verdict_cap.h"
+#include "myoid/run/verdict_caps.h"
 
 namespace myoid {
 namespace {
@@ -39,11 +40,15 @@ StudyResult some_result(double error_m, int frames_not_converged, double range_d
   return result;
 }
 
-std::vector<identification::IdentificationResult> judged_of(const StudyResult& result) {
-  return judged(result.fit.methods, {}, result.source.study, result.trials, result.fit.exchanged);
+/// The method with the caps that follow from the result.
+identification::ParameterEstimate capped(const StudyResult& result, const std::string& method = "torque") {
+  identification::IdentificationResult fit = result.fit.methods[0];
+  fit.method = method;
+  identification::apply(verdict_caps(result, quality_gates(result)), fit);
+  return fit.estimates[0];
 }
 
-identification::Verdict verdict_of(const StudyResult& result) { return judged_of(result)[0].estimates[0].verdict; }
+identification::Verdict verdict_of(const StudyResult& result) { return capped(result).verdict; }
 
 GateStatus status_of(const StudyResult& result, std::string_view name) {
   const std::vector<Gate> gates = quality_gates(result);
@@ -109,18 +114,92 @@ TEST(QualityGates, NothingIsIdentifiedFromAMotionThatFailed) {
   EXPECT_EQ(verdict_of(some_result(0.01, 0, 90.0)), identification::Verdict::identified);
   const StudyResult bad = some_result(0.05, 0, 90.0);
   EXPECT_EQ(verdict_of(bad), identification::Verdict::weak);
-  EXPECT_NE(judged_of(bad)[0].estimates[0].reason.find("quality gate"), std::string::npos);
+  EXPECT_NE(capped(bad).reason.find("quality gate"), std::string::npos);
 }
 
-TEST(QualityGates, TheWarningsOfTheValidationGoToMethodTorque) {
-  const StudyResult result = some_result(0.01, 0, 90.0);
-  std::vector<identification::IdentificationResult> methods(2);
-  methods[0].method = "paper";
-  methods[1].method = "torque";
-  methods =
-      judged(std::move(methods), {.folds = {}, .warnings = {"one trial"}}, result.source.study, result.trials, {});
-  EXPECT_TRUE(methods[0].warnings.empty());
-  EXPECT_EQ(methods[1].warnings, std::vector<std::string>{"one trial"});
+using identification::Verdict;
+
+/// A study of BIC and TRI with a channel each, whose EMG has its greatest effort in the trial "mvc".
+StudyResult with_emg() {
+  StudyResult result = some_result(0.01, 0, 90.0);
+  for (const char* name : {"BIC", "TRI"}) {
+    MuscleSpec muscle;
+    muscle.name = name;
+    muscle.emg = std::string("emg ") + name;
+    result.source.study.muscles.push_back(muscle);
+    result.emg.normalisation.push_back(
+        {.channel = muscle.emg, .reference_v = 1e-3, .source_trial = "mvc", .from_mvc = true});
+  }
+  TrialResult mvc;
+  mvc.spec.name = "mvc";
+  mvc.spec.use = Use::mvc;
+  result.trials.push_back(std::move(mvc));
+  return result;
+}
+
+TEST(VerdictCaps, EmgThatIsCutOffInTheMaximalContractionCapsTheStrengthThatRestsOnIt) {
+  StudyResult result = with_emg();
+  EXPECT_EQ(verdict_of(result), Verdict::identified);
+  result.trials[1].faults = {{.code = RemarkCode::emg_clipped, .where = "mvc", .about = "emg BIC"}};
+  EXPECT_EQ(verdict_of(result), Verdict::weak);
+  EXPECT_NE(capped(result).reason.find("emg BIC in mvc"), std::string::npos) << capped(result).reason;
+  // Not that of the other channel, and no length.
+  result.fit.methods[0].estimates[0].muscle = "TRI";
+  EXPECT_EQ(verdict_of(result), Verdict::identified);
+  result.fit.methods[0].estimates[0].muscle = "BIC";
+  result.fit.methods[0].estimates[0].parameter = "optimal_fiber_length";
+  EXPECT_EQ(verdict_of(result), Verdict::identified);
+  // In a fitted trial every number of the muscle rests on it.
+  result.trials[0].faults = {
+      {.code = RemarkCode::emg_saturated, .where = "t", .about = "emg BIC", .when = Stretch{0.2, 0.4}}};
+  EXPECT_EQ(verdict_of(result), Verdict::weak);
+  result.trials[0].spec.exclude.windows = {{0.1, 0.5}};
+  EXPECT_EQ(verdict_of(result), Verdict::identified);
+}
+
+TEST(VerdictCaps, AFaultThatIsMendedOrANoteCapsNothing) {
+  StudyResult result = with_emg();
+  result.trials[1].faults = {
+      {.code = RemarkCode::emg_hum, .where = "mvc", .about = "emg BIC"},
+      {.code = RemarkCode::emg_clipped, .severity = Severity::note, .where = "mvc", .about = "emg BIC"}};
+  EXPECT_EQ(verdict_of(result), Verdict::identified);
+}
+
+TEST(VerdictCaps, ALateClockAndAnotherFootCapAllAndAnExcludedFootNothing) {
+  StudyResult result = with_emg();
+  result.fit.shifted.emplace();
+  EXPECT_EQ(verdict_of(result), Verdict::weak);
+  result.fit.shifted.reset();
+  result.trials[0].remarks = {{.code = RemarkCode::foreign_contact, .says = "another's foot"}};
+  EXPECT_EQ(verdict_of(result), Verdict::weak);
+  result.trials[0].remarks[0].severity = Severity::note;  // its times are left out
+  EXPECT_EQ(verdict_of(result), Verdict::identified);
+}
+
+TEST(VerdictCaps, AGateThatFailedCapsTheMethodsThatItConcerns) {
+  StudyResult result = with_emg();
+  result.trials[0].forces.shared.status.resize(100);
+  result.trials[0].forces.shared.frames_not_solved = 1;
+  EXPECT_EQ(status_of(result, kSharingGate), GateStatus::fail);
+  EXPECT_EQ(capped(result, "torque").verdict, Verdict::identified);
+  EXPECT_EQ(capped(result, "paper").verdict, Verdict::weak);
+  result.fit.methods[0].termination = math::Termination::iteration_limit;
+  EXPECT_EQ(status_of(result, "Fit converged"), GateStatus::fail);
+  EXPECT_EQ(capped(result, "torque").verdict, Verdict::weak);
+}
+
+TEST(QualityGates, ExternalLoadsAreStatedByAnyOfTheirKeysAlsoAsNothing) {
+  const char* gate = "External loads stated";
+  StudyResult result = some_result(0.01, 0, 90.0);
+  EXPECT_EQ(status_of(result, gate), GateStatus::warn);
+  result.trials[0].spec.held_mass_kg = 0.0;
+  EXPECT_EQ(status_of(result, gate), GateStatus::pass);
+  result.trials[0].spec.held_mass_kg.reset();
+  result.trials[0].spec.external_loads = "grf.xml";
+  EXPECT_EQ(status_of(result, gate), GateStatus::pass);
+  result.trials[0].spec.external_loads.reset();
+  result.trials[0].spec.use = Use::mvc;  // no torque of it is fitted
+  EXPECT_EQ(status_of(result, gate), GateStatus::pass);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "myoid/run/study_forces.h"
 #include "myoid/run/study_validation.h"
 #include "myoid/run/trial_motion.h"
+#include "myoid/run/verdict_caps.h"
 
 namespace myoid {
 namespace {
@@ -100,6 +101,7 @@ std::vector<TrialResult> joined(const Study& study,
                          [&](const Remark& remark) { return remark.where == trial.spec.name; });
     if (trial.emg.stages) add_notes(trial.emg.stages->findings, remarks);
     add_notes(trial.motion.notes, remarks);
+    remarks.insert(remarks.end(), trial.motion.remarks.begin(), trial.motion.remarks.end());
     remarks.insert(remarks.end(), trial.forces.remarks.begin(), trial.forces.remarks.end());
   }
   require_one(trials);
@@ -117,7 +119,8 @@ std::optional<DesignStudyResult> next_recording(const StudySource& source,
   options.catalogue.dynamometer = false;
   std::vector<double> masses{0.0};
   for (const TrialSpec& trial : study.trials) {
-    if (std::ranges::find(masses, trial.held_mass_kg) == masses.end()) masses.push_back(trial.held_mass_kg);
+    const double held_kg = trial.held_mass_kg.value_or(0.0);
+    if (std::ranges::find(masses, held_kg) == masses.end()) masses.push_back(held_kg);
   }
   if (masses.size() > 1) options.catalogue.held_masses_kg = masses;
   options.progress.stop = progress.stop;
@@ -177,9 +180,14 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   if (study.identify.next_movements > 0 && wants_torque(study))
     result.next = stages.run("next recording", 0.95, 1.0,
                              [&](const Progress& progress) { return next_recording(result.source, fit, progress); });
-  fit.methods = judged(std::move(fit.methods), validation, study, result.trials, fit.exchanged);
+  for (IdentificationResult& method : fit.methods) {
+    if (method.method == "torque")
+      method.warnings.insert(method.warnings.end(), validation.warnings.begin(), validation.warnings.end());
+  }
   result.fit = std::move(fit);
   result.folds = std::move(validation.folds);
+  const std::vector<identification::VerdictCap> caps = verdict_caps(result, quality_gates(result));
+  for (IdentificationResult& method : result.fit.methods) identification::apply(caps, method);
 }
 
 /// Runs all stages behind the reading.

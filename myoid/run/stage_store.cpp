@@ -1,7 +1,6 @@
 #include "myoid/run/stage_store.h"
 
 #include <cstring>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -41,11 +40,18 @@ json to_json(const TimeSeries& series) {
           {"values", packed(series.values().data(), series.values().size())}};
 }
 
+/// Returns the enumerator of a number. Throws InvalidInput for a number that is none's.
+template <typename Enumeration>
+Enumeration enumerator(int number, Enumeration last) {
+  if (number < 0 || number > static_cast<int>(last)) throw InvalidInput("the stored enumerator is unknown");
+  return static_cast<Enumeration>(number);
+}
+
 TimeSeries series_from(const json& value) {
   const Eigen::VectorXd time = unpacked(value.at("time"));
   std::vector<Channel> channels;
   for (const json& c : value.at("channels"))
-    channels.push_back({c.at(0).get<std::string>(), static_cast<Unit>(c.at(1).get<int>())});
+    channels.push_back({c.at(0).get<std::string>(), enumerator(c.at(1).get<int>(), Unit::volt)});
   const Eigen::VectorXd flat = unpacked(value.at("values"));
   const auto columns = static_cast<Eigen::Index>(channels.size());
   if (flat.size() != time.size() * columns) throw InvalidInput("the stored size is wrong");
@@ -63,15 +69,15 @@ void StageStore::mark_used(const std::string& key) {
 }
 
 std::optional<kinematics::IkResult> StageStore::find(const std::string& key) {
-  std::ifstream stream(file(key), std::ios::binary);
-  if (!stream) return std::nullopt;
+  const std::optional<std::string> bytes = recording::recorded_content(file(key));
+  if (!bytes) return std::nullopt;
   try {
-    const json stored = json::from_cbor(stream);
+    const json stored = json::from_cbor(*bytes);
     kinematics::IkResult result;
     result.q = series_from(stored.at("q"));
     result.errors = series_from(stored.at("errors"));
     for (const int status : stored.at("status").get<std::vector<int>>())
-      result.status.push_back(static_cast<kinematics::FrameStatus>(status));
+      result.status.push_back(enumerator(status, kinematics::FrameStatus::no_markers));
     const Eigen::VectorXd objective = unpacked(stored.at("objective"));
     result.objective.assign(objective.data(), objective.data() + objective.size());
     result.frames_not_converged = stored.at("frames_not_converged");
@@ -85,6 +91,10 @@ std::optional<kinematics::IkResult> StageStore::find(const std::string& key) {
   } catch (const InvalidInput&) {
     return std::nullopt;
   }
+}
+
+bool StageStore::is_damaged(const std::string& key) const {
+  return recording::standing_of(file(key)) == recording::Standing::changed;
 }
 
 void StageStore::keep(const std::string& key, const kinematics::IkResult& result) {
@@ -111,12 +121,8 @@ void StageStore::keep(const std::string& key, const kinematics::IkResult& result
 }
 
 void StageStore::remove_unused() {
-  std::error_code error;
-  std::vector<std::filesystem::path> unused;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
-    if (!used_.contains(entry.path().filename().string())) unused.push_back(entry.path());
-  }
-  for (const std::filesystem::path& path : unused) std::filesystem::remove(path, error);
+  recording::remove_results(folder_, used_);
+  record_.finish();
 }
 
 std::string ik_key(const Study& study, std::string_view model_text, const recording::MarkerSeries& markers) {

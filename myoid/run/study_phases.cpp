@@ -73,12 +73,14 @@ identification::StudyData plain_data(const FitSource& source, identification::St
     uses.push_back(study.trials[i].use);
     plain.push_back(std::move(stages.envelope));
   }
-  std::vector<signals::TrialEnvelope> envelopes;
+  ComparedEnvelopes envelopes;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (uses[i] != Use::validation)
-      envelopes.push_back({trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg.stages->bandwidth_hz});
+      envelopes.add({trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg.stages->bandwidth_hz,
+                     Eigen::VectorXd()},
+                    trials[i]->spec.exclude.windows);
   }
-  const auto normalisation = signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
+  const auto normalisation = signals::find_normalisation(envelopes.trials, {.window_s = study.emg.normalise_window_s});
   for (identification::TrialData& trial : data.trials) {
     for (std::size_t i = 0; i < trials.size(); ++i) {
       if (trials[i]->spec.name == trial.name) trial.activation = signals::normalise(plain[i], normalisation);

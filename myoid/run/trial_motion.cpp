@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "myoid/core/error.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/intake/trial_markers.h"
+#include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/signals/resample.h"
 #include "myoid/study/study_model.h"
 
@@ -41,9 +43,9 @@ std::shared_ptr<const model::BodyModel> trial_model(const StudySource& source,
   std::optional<model::BodyModel> own;
   const auto changed = [&]() -> model::BodyModel& { return own ? *own : own.emplace(*source.model); };
   if (input.markers) own = arm_of_markers(study, *input.markers);
-  if (spec.held_mass_kg > 0.0) {
+  if (spec.held_mass_kg.value_or(0.0) > 0.0) {
     const HeldMassSpec held = held_mass_place(study);
-    own = dynamics::with_held_mass(std::move(changed()), held.body, held.p_BP_m, spec.held_mass_kg);
+    own = dynamics::with_held_mass(std::move(changed()), held.body, held.p_BP_m, *spec.held_mass_kg);
   }
   if (input.markers && study.ik.calibrate) calibrate(*study.ik.calibrate, *input.markers, changed());
   return own ? std::make_shared<const model::BodyModel>(std::move(*own)) : source.model;
@@ -58,6 +60,7 @@ void solve_ik(const StudySource& source,
   if (store != nullptr) motion.ik = store->find(key);
   motion.ik_reused = motion.ik.has_value();
   if (motion.ik_reused) return;
+  motion.ik_was_damaged = store != nullptr && store->is_damaged(key);
   kinematics::IkOptions options;
   options.marker_weights = source.study.markers.weight;
   motion.ik = kinematics::inverse_kinematics(*motion.model, markers, options);
@@ -95,6 +98,9 @@ TrialMotion trial_motion(const StudySource& source, const TrialSpec& spec, const
   if (input.markers) {
     solve_ik(source, *input.markers, store, motion);
     motion.notes = motion.ik->notes;
+    motion.remarks = kinematics::implausible(motion.ik->q);
+    std::ranges::move(kinematics::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(motion.remarks));
+    for (Remark& remark : motion.remarks) remark.where = spec.name;
     add_joint_motion(source.study, motion.ik->q, motion);
   } else if (input.motion) {
     add_joint_motion(source.study, *input.motion, motion);

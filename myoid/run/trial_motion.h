@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/remark.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/model/body_model.h"
@@ -20,10 +21,12 @@ struct TrialMotion {
   std::shared_ptr<const model::BodyModel> model = std::make_shared<const model::BodyModel>();
   std::optional<kinematics::IkResult> ik;  ///< For a trial with markers.
   bool ik_reused = false;                  ///< Read from an earlier run with the same input.
+  bool ik_was_damaged = false;             ///< An earlier run kept it, and its bytes changed since.
   kinematics::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
                                            ///< motion.
   std::vector<std::string> notes;
-  std::string failure;  ///< Reason why the motion is missing; empty: none.
+  std::vector<Remark> remarks;  ///< What no movement does, in the solution of inverse kinematics.
+  std::string failure;          ///< Reason why the motion is missing; empty: none.
 };
 
 /// Computes the motion of one trial from its markers or coordinates. Reads inverse kinematics of the same input from

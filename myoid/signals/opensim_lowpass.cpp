@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -26,6 +28,14 @@ Eigen::VectorXd padded(const Eigen::Ref<const Eigen::VectorXd>& x) {
   }
   y.segment(pad, n) = x;
   return y;
+}
+
+/// Returns the times first, first + interval, ..., each the sum of the one before and the interval: the last digit
+/// decides which rows lie in a range.
+Eigen::VectorXd added_times(double first_s, double last_s, double interval_s) {
+  std::vector<double> times;
+  for (double t = first_s; t <= last_s; t += interval_s) times.push_back(t);
+  return Eigen::Map<const Eigen::VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()));
 }
 
 /// Third-order filter w^3 / ((s + w)(s^2 + w s + w^2)) with s = (z - 1)/(z + 1).
@@ -68,15 +78,16 @@ TimeSeries opensim_lowpass(const TimeSeries& motion, double cutoff_hz) {
         "there rows of nearly the same time?",
         interval_s, intervals);
   }
-  const auto count = static_cast<Eigen::Index>(std::floor(intervals)) + 1;
-  Eigen::VectorXd even(count);
-  for (Eigen::Index i = 0; i < count; ++i) even[i] = t[0] + interval_s * static_cast<double>(i);
+  const bool is_even =
+      (t[t.size() - 1] - t[0]) / static_cast<double>(t.size() - 1) - interval_s <= std::numeric_limits<double>::epsilon();
+  Eigen::VectorXd even = is_even ? t : added_times(t[0], t[t.size() - 1], interval_s);
   const ThirdOrder filter = design(std::min(cutoff_hz, 0.49 / interval_s), interval_s);
-  Eigen::MatrixXd values(count, motion.channel_count());
+  Eigen::MatrixXd values(even.size(), motion.channel_count());
   const math::SplineKnots knots(t);
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
-    const math::Spline spline = knots.interpolate(padded(motion.values().col(c)));
-    values.col(c) = pass(filter, pass(filter, spline.evaluate(even).value));
+    Eigen::VectorXd samples = padded(motion.values().col(c));
+    if (!is_even) samples = knots.interpolate(samples).evaluate(even).value;
+    values.col(c) = pass(filter, pass(filter, samples));
   }
   return {std::move(even), motion.channels(), std::move(values)};
 }

@@ -57,5 +57,23 @@ TEST(OpensimLowpass, RefusesWhatItCannotFilter) {
   EXPECT_THROW((void)opensim_lowpass(TimeSeries(t, {{"q", Unit::radian}}, Eigen::MatrixXd(t)), 6.0), InvalidInput);
 }
 
+// Rows of a range are chosen by comparing times: the last digit decides whether the first row belongs to it.
+TEST(OpensimLowpass, TimesAreTheFilesOrSumsOfTheInterval) {
+  // Powers of two have no rounding: nothing is resampled, and the padded times stay.
+  Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(33, 0.0, 0.5);
+  const TimeSeries kept = opensim_lowpass({even, {{"q", Unit::radian}}, Eigen::MatrixXd(even)}, 6.0);
+  ASSERT_EQ(kept.sample_count(), 65);
+  for (Eigen::Index i = 0; i < 33; ++i) EXPECT_EQ(kept.time_s()[i + 16], even[i]);
+  // Otherwise each time is the sum of the time before and the smallest interval.
+  Eigen::VectorXd uneven(7);
+  uneven << 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7000001;
+  const TimeSeries summed = opensim_lowpass({uneven, {{"q", Unit::radian}}, Eigen::MatrixXd(uneven)}, 1.0);
+  // Half a record, three rows, is added at each end: 2 x 0.1 - 0.4 is the first time.
+  EXPECT_EQ(summed.time_s()[0], 2.0 * 0.1 - 0.4);
+  const double interval = summed.time_s()[1] - summed.time_s()[0];
+  double t = summed.time_s()[1];
+  for (Eigen::Index i = 2; i < summed.sample_count(); ++i) EXPECT_NEAR(summed.time_s()[i], t += interval, 1e-15);
+}
+
 }  // namespace
 }  // namespace myoid::signals

@@ -84,12 +84,20 @@ void check_pressure(const ForcePlate& plate,
                     .remedy = "check the corners, the origin and the order of the channels in the file"});
 }
 
+std::string plate_name(const ForcePlate& plate) { return fmt::format("plate {}", plate.number); }
+
 }  // namespace
+
+std::vector<Remark> check_plate_pressure(const ForcePlate& plate) {
+  std::vector<Remark> faults;
+  if (plate.time_s.size() >= 2) check_pressure(plate, plate.force_n * plate.side.out_L, plate_name(plate), faults);
+  return faults;
+}
 
 std::vector<Remark> check_force_plate(const ForcePlate& plate) {
   std::vector<Remark> faults;
   if (plate.time_s.size() < 2) return faults;
-  const std::string channel = fmt::format("plate {}", plate.number);
+  const std::string channel = plate_name(plate);
   const Eigen::VectorXd normal_n = plate.force_n * plate.side.out_L;
   check_offset(plate, normal_n, channel, faults);
   if (plate.side.turn < 0.0) {

@@ -16,4 +16,7 @@ namespace myoid::signals {
 /// - center of pressure outside the corners under load.
 [[nodiscard]] std::vector<Remark> check_force_plate(const recording::ForcePlate& plate);
 
+/// Checks the center of pressure alone, for a command whose reader tells the rest.
+[[nodiscard]] std::vector<Remark> check_plate_pressure(const recording::ForcePlate& plate);
+
 }  // namespace myoid::signals

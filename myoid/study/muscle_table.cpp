@@ -11,6 +11,7 @@
 #include "myoid/core/units.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/muscle/hill_parameters.h"
+#include "myoid/study/study_ids.h"
 
 namespace myoid {
 
@@ -61,6 +62,7 @@ void visit_start(std::map<std::string, double>& start, SettingVisitor& v) {
 void visit(MuscleSpec& muscle, SettingVisitor& v) {
   v.text("name", muscle.name,
          {.says = "Its name in the results.", .required = "a short name for the results, name = \"BIC\""});
+  must_be_name(v, "name", muscle.name);
   const bool stated = v.texts("osim", muscle.osim,
                               {.says = "Muscles of the model that act as this one, lumped by their F_max.",
                                .otherwise = "the one of this name"});
@@ -72,6 +74,7 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
            "EMG channel; `{ same_as = \"MUSCLE\" }`: another muscle's channel, of a deep muscle without an electrode.",
        .required = "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode",
        .table = "same_as"});
+  if (!muscle.same_as) must_be_name(v, "emg", muscle.emg);
   v.table("start", !muscle.start.empty(), {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
           [&muscle](SettingVisitor& inside) { visit_start(muscle.start, inside); });
   v.texts("fixed", muscle.fixed,

@@ -12,6 +12,7 @@
 #include "myoid/core/provenance.h"
 #include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
+#include "myoid/osim/osim_document.h"
 #include "myoid/study/study_text.h"
 
 namespace myoid {
@@ -84,7 +85,7 @@ void compare_subjects(const RunIdentity& here, const RunIdentity& there, std::ve
 
 RunIdentity identity_of(const Study& study) {
   RunIdentity identity = identity_of(parse_json(study_json(study)));
-  if (study.model.file) identity.model_sha256 = sha256(recording::read_text_file(*study.model.file));
+  if (study.model.file) identity.model_sha256 = sha256(model::read_whole_text(*study.model.file));
   return identity;
 }
 

@@ -156,6 +156,16 @@ bool SettingVisitor::numbers(std::string_view key, std::vector<double>& value, c
              set_as<std::vector<double>>(value));
 }
 
+bool SettingVisitor::stretches(std::string_view key, std::vector<Stretch>& value, bool& worded, const About& about) {
+  const bool empty = value.empty() && !worded;
+  return met({key, SettingKind::stretches, about},
+             empty ? SettingValue() : SettingValue(WordedStretches{value, worded}), [&](SettingValue given) {
+               auto& list = std::get<WordedStretches>(given);
+               value = std::move(list.stretches);
+               worded = list.worded;
+             });
+}
+
 bool SettingVisitor::texts_by_name(std::string_view key,
                                    std::map<std::string, std::string>& value,
                                    const About& about) {

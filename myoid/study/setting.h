@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "myoid/core/choice.h"
+#include "myoid/core/stretch.h"
+#include "myoid/study/equal_stretches.h"
 
 namespace myoid {
 
@@ -44,7 +46,7 @@ struct About {
   bool silent = false;              ///< Not written: another setting is in force, and both together are refused.
 };
 
-enum class SettingKind { flag, number, count, text, path, texts, numbers, texts_by_name, numbers_by_name };
+enum class SettingKind { flag, number, count, text, path, texts, numbers, stretches, texts_by_name, numbers_by_name };
 
 /// A setting: its key in the file and the facts about it.
 struct Setting {
@@ -57,6 +59,15 @@ struct Setting {
 [[nodiscard]] std::string refusal(const Setting& setting, double value);
 [[nodiscard]] std::string refusal(const Setting& setting, const std::string& word);
 
+/// Stretches of time and, of a setting that allows a word among them, the word.
+struct WordedStretches {
+  std::vector<Stretch> stretches;
+  bool worded = false;
+  bool operator==(const WordedStretches& other) const {
+    return worded == other.worded && equal_stretches(stretches, other.stretches);
+  }
+};
+
 /// The value of a setting as a file holds it; monostate: absent.
 using SettingValue = std::variant<std::monostate,
                                   bool,
@@ -64,6 +75,7 @@ using SettingValue = std::variant<std::monostate,
                                   std::string,
                                   std::vector<std::string>,
                                   std::vector<double>,
+                                  WordedStretches,
                                   std::map<std::string, std::string>,
                                   std::map<std::string, double>>;
 
@@ -97,6 +109,8 @@ class SettingVisitor {
   /// Visits a list; an empty one stands for `about.word`, if there is one.
   bool texts(std::string_view key, std::vector<std::string>& value, const About& about);
   bool numbers(std::string_view key, std::vector<double>& value, const About& about);
+  /// Visits a list of stretches [begin, end]; `about.word` among them sets `worded`.
+  bool stretches(std::string_view key, std::vector<Stretch>& value, bool& worded, const About& about);
   bool texts_by_name(std::string_view key, std::map<std::string, std::string>& value, const About& about);
   bool numbers_by_name(std::string_view key, std::map<std::string, double>& value, const About& about);
 

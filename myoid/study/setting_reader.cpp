@@ -64,6 +64,30 @@ SettingValue SettingReader::numbers(const Setting& setting) {
   return value;
 }
 
+SettingValue SettingReader::stretches(const Setting& setting) {
+  WordedStretches value;
+  const std::vector<TomlTable::NumbersOrText> list = *table_->numbers_or_texts(setting.key);
+  for (const TomlTable::NumbersOrText& each : list) {
+    const std::string expected =
+        fmt::format("expected pairs of times [begin, end] in s{}",
+                    setting.about.word.empty() ? "" : fmt::format(" or \"{}\"", setting.about.word));
+    if (each.text) {
+      if (*each.text != setting.about.word)
+        table_->fail(setting.key, fmt::format("found \"{}\", {}", *each.text, expected));
+      value.worded = true;
+      continue;
+    }
+    if (each.numbers.size() != 2)
+      table_->fail(setting.key, fmt::format("found a list of {} numbers, {}", each.numbers.size(), expected));
+    const Stretch stretch{each.numbers[0], each.numbers[1]};
+    if (!(stretch.begin_s < stretch.end_s))
+      table_->fail(setting.key,
+                   fmt::format("found [{}, {}], expected the begin before the end", stretch.begin_s, stretch.end_s));
+    value.stretches.push_back(stretch);
+  }
+  return value;
+}
+
 SettingValue SettingReader::by_name(const Setting& setting) {
   TomlTable inner = *table_->table(setting.key);
   std::map<std::string, std::string> texts;
@@ -102,6 +126,9 @@ bool SettingReader::met(const Setting& setting, const SettingValue& /*now*/, con
       break;
     case SettingKind::numbers:
       set(numbers(setting));
+      break;
+    case SettingKind::stretches:
+      set(stretches(setting));
       break;
     case SettingKind::texts_by_name:
     case SettingKind::numbers_by_name:

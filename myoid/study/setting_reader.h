@@ -27,6 +27,7 @@ class SettingReader : public SettingVisitor {
   [[nodiscard]] SettingValue number(const Setting& setting);
   [[nodiscard]] SettingValue texts(const Setting& setting);
   [[nodiscard]] SettingValue numbers(const Setting& setting);
+  [[nodiscard]] SettingValue stretches(const Setting& setting);
   [[nodiscard]] SettingValue by_name(const Setting& setting);
   /// Throws ReadError at the setting's line if there is a reason to refuse the setting.
   void refuse(const Setting& setting, const std::string& reason) const;

@@ -8,14 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/json_text.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/study/study_settings.h"
 
 namespace myoid {
 namespace {
 
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
-
-std::string in_quotes(const std::string& text) { return fmt::format("\"{}\"", text); }
 
 std::string words_of(const Setting& setting) {
   std::vector<std::string> words;
@@ -56,6 +55,8 @@ std::string type_of(const Setting& setting, bool option) {
     case SettingKind::numbers:
       return fmt::format("{}numbers{}", several,
                          about.limits.unit.empty() ? "" : fmt::format(" [{}]", about.limits.unit));
+    case SettingKind::stretches:
+      return "list of [begin, end] [s]";
     case SettingKind::texts_by_name:
       return "table of texts";
     case SettingKind::numbers_by_name:
@@ -68,7 +69,8 @@ std::string allowed(const Setting& setting, bool option) {
   std::string text = type_of(setting, option);
   const About& about = setting.about;
   if (setting.kind == SettingKind::texts && about.count > 0) text = fmt::format("{} texts", about.count);
-  if (!about.word.empty()) text += fmt::format(", or `\"{}\"`", about.word);
+  if (!about.word.empty())
+    text += fmt::format(", {} `\"{}\"`", setting.kind == SettingKind::stretches ? "and" : "or", about.word);
   if (!about.table.empty()) text += fmt::format(", or `{{ {} = … }}`", about.table);
   return text;
 }
@@ -80,10 +82,10 @@ std::string default_of(const Setting& setting, const SettingValue& value, bool o
   if (const auto* flag = std::get_if<bool>(&value)) return option ? (*flag ? "on" : "off") : (*flag ? "true" : "false");
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string>(&value); text != nullptr && !text->empty())
-    return code(option ? *text : in_quotes(*text));
+    return code(option ? *text : recording::toml_text(*text));
   if (const auto* list = std::get_if<std::vector<std::string>>(&value); list != nullptr && !list->empty()) {
     std::vector<std::string> quoted;
-    std::transform(list->begin(), list->end(), std::back_inserter(quoted), in_quotes);
+    std::transform(list->begin(), list->end(), std::back_inserter(quoted), recording::toml_text);
     return list->size() == 1 ? code(quoted.front()) : code(fmt::format("[{}]", fmt::join(quoted, ", ")));
   }
   if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)

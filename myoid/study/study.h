@@ -8,11 +8,13 @@
 
 #include "myoid/core/choice.h"
 #include "myoid/core/geometry.h"
+#include "myoid/core/stretch.h"
 #include "myoid/forces/sharing_objective.h"
 #include "myoid/identification/estimator_settings.h"
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/phases/phases.h"
+#include "myoid/study/equal_stretches.h"
 
 namespace myoid {
 
@@ -173,6 +175,15 @@ struct PlateSpec {
   bool operator==(const PlateSpec&) const = default;
 };
 
+/// Times of a trial that are predicted, but neither fitted nor scored, and from which no EMG reference is taken.
+struct ExcludeSpec {
+  std::vector<Stretch> windows;   ///< On the clock of the motion.
+  bool foreign_contacts = false;  ///< Adds the times in which another foot stands on a plate (checks/foreign_contacts).
+  bool operator==(const ExcludeSpec& other) const {
+    return foreign_contacts == other.foreign_contacts && equal_stretches(windows, other.windows);
+  }
+};
+
 struct TrialSpec {
   std::string name;
   std::optional<std::filesystem::path> markers;
@@ -183,7 +194,8 @@ struct TrialSpec {
   std::optional<std::filesystem::path> load_cell;        ///< File of the load cell's channels.
   std::optional<PlateSpec> plates;
   Use use = Use::calibration;
-  double held_mass_kg = 0.0;
+  std::optional<double> held_mass_kg;    ///< Empty: the study does not say what was held.
+  ExcludeSpec exclude;
   std::string condition;                 ///< Trials of one condition are left out together by folds = "condition".
   std::optional<double> start_s, end_s;  ///< On the clock of the motion.
   std::optional<std::filesystem::path> video;  ///< Film of the trial; the report shows it.

@@ -18,6 +18,7 @@
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/muscle/literature.h"
 #include "myoid/osim/muscle_laws.h"
+#include "myoid/osim/osim_document.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/osim/osim_writer.h"
 
@@ -132,7 +133,7 @@ std::vector<double> forearm_lengths_m(const recording::MarkerSeries& markers) {
 
 std::string model_text(const Study& study) {
   if (!study.model.text.empty()) return study.model.text;
-  if (study.model.file) return recording::read_text_file(*study.model.file);
+  if (study.model.file) return model::read_whole_text(*study.model.file);
   return model::arm4_osim(arm_options(study, nullptr));
 }
 

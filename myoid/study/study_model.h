@@ -12,7 +12,8 @@
 
 namespace myoid {
 
-/// Returns the study's model as text: its file, or the built-in arm made for the subject.
+/// Returns the study's model as text: its file with the sets that stand in files of their own, or the built-in arm made
+/// for the subject.
 [[nodiscard]] std::string model_text(const Study& study);
 
 /// Reads the model of that text, once for all trials of a study. Throws ReadError, or ModelError

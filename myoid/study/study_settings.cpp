@@ -12,6 +12,7 @@ namespace myoid {
 
 void visit(SubjectSpec& subject, SettingVisitor& v) {
   v.text("name", subject.name, {.says = "The person's name or number, for the report."});
+  must_be_name(v, "name", subject.name);
   v.number("mass_kg", subject.mass_kg,
            {.says = "Body mass, for the segments of the built-in arm.",
             .limits = within(10.0, 350.0, "kg"),

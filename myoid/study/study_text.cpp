@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/json_text.h"
-#include "myoid/files/toml_text.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/study/study_settings.h"
 
 namespace myoid {
@@ -29,7 +29,10 @@ class SettingWriter : public SettingVisitor {
   bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
     ordered_json& written = object_[std::string(setting.key)];
     if (setting.about.silent || std::holds_alternative<std::monostate>(now)) return false;
-    if (setting.kind == SettingKind::path && folder_) {
+    if (const auto* list = std::get_if<WordedStretches>(&now)) {
+      for (const Stretch& each : list->stretches) written.push_back(ordered_json::array({each.begin_s, each.end_s}));
+      if (list->worded) written.push_back(std::string(setting.about.word));
+    } else if (setting.kind == SettingKind::path && folder_) {
       written = from_folder(std::get<std::string>(now)).string();
     } else if (setting.kind == SettingKind::count) {
       written = static_cast<long>(std::get<double>(now));
@@ -64,6 +67,7 @@ class SettingWriter : public SettingVisitor {
     written = value;
   }
   static void write(std::monostate /*nothing*/, ordered_json& /*written*/) {}
+  static void write(const WordedStretches& /*handled above*/, ordered_json& /*written*/) {}
 
   [[nodiscard]] ordered_json written_by(const Inside& inside) const {
     SettingWriter writer(folder_);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/files/file_format.h"
+#include "myoid/study/study_ids.h"
 
 namespace myoid {
 
@@ -73,12 +74,10 @@ void visit(PlateSpec& plates, SettingVisitor& v) {
 namespace {
 
 void visit_name(TrialSpec& trial, SettingVisitor& v) {
-  v.text("name", trial.name, {.says = "Unique; becomes a folder.", .required = "a name that is unique in the study"});
-  const std::string& name = trial.name;
-  const bool folder = !name.empty() && name.find_first_of("/\\") == std::string::npos && !name.starts_with(".") &&
-                      name != "figures" && name != "tables";
-  v.must(folder, "name",
-         fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -", name));
+  v.text("name", trial.name,
+         {.says = "Unique, any text. The trial's [folder of results](run.md#what-comes-out) has an id made from it.",
+          .required = "a name that is unique in the study"});
+  must_be_name(v, "name", trial.name);
 }
 
 /// Visits the recordings of a trial.
@@ -92,7 +91,8 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
          "give either 'markers' or 'motion', not both: the motion is computed from the markers");
   v.path("emg", trial.emg, {.says = kEmgFiles, .otherwise = "required, but for `static` and `passive`"});
   v.path("external_torque", trial.external_torque,
-         {.says = "File with `<coordinate>_moment` [N m], where a dynamometer took part: the torque that the "
+         {.says = "File (`.sto`, `.mot`, a table) with `<coordinate>_moment` [N m], where a dynamometer took part: the "
+                  "torque that the "
                   "surroundings exert on the body, positive in the coordinate's direction. The muscles provide inverse "
                   "dynamics minus it. A coordinate without a column is acted on by nothing."});
   v.path("external_loads", trial.external_loads,
@@ -143,7 +143,19 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
   visit_name(trial, v);
   visit_files(trial, v);
   visit_use(trial, v);
-  v.number("held_mass_kg", trial.held_mass_kg, {.says = "Mass in the hand.", .limits = within(0.0, 100.0, "kg")});
+  v.number("held_mass_kg", trial.held_mass_kg,
+           {.says = "Mass in the hand; 0: the person held nothing. Without it, and without forces of the surroundings "
+                    "(`external_loads`, `force_plates`, `load_cell`, `external_torque`), the "
+                    "[gate](check.md#quality-gates-of-run) "
+                    "\"External loads stated\" stays at caution.",
+            .limits = within(0.0, 100.0, "kg"),
+            .otherwise = "not stated; nothing is computed to be held"});
+  v.stretches("exclude", trial.exclude.windows, trial.exclude.foreign_contacts,
+              {.says = "Times, in seconds of the motion, that are predicted, but neither fitted nor scored, and from "
+                       "which no activation 1 is taken: `[[0.66, 0.78], [2.1, 2.4]]`. `foreign_contacts`: also the "
+                       "times that [check](check.md) finds to be those of another foot on a plate.",
+               .otherwise = "none",
+               .word = "foreign_contacts"});
   v.text(
       "condition", trial.condition,
       {.says = "Trials of one name are left out together by `folds = \"condition\"`.", .otherwise = "the trial alone"});

@@ -38,11 +38,39 @@ TEST(TrialTable, AnEndBeforeTheStartIsRefused) {
   EXPECT_NE(trial_message(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"), std::string::npos);
 }
 
-TEST(TrialTable, ANameThatWouldLeaveTheResultsFolderIsRefused) {
-  for (const std::string name : {"../t", "a/b", ".", "", "figures"}) {
-    const std::string message = trial_message("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
-    EXPECT_NE(message.find("a trial's name becomes a folder"), std::string::npos) << name;
+TEST(TrialTable, AnyTextThatCanBeSeenIsAName) {
+  const auto message_for = [](const std::string& name) {
+    return trial_message("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
+  };
+  for (const char* name : {"../t", "a/b", ".", "figures", "slow 2 kg", "李", "run.json", "{a}", "-x"})
+    EXPECT_EQ(message_for(name), "(no error)") << name;
+  for (const char* name : {"", "  ", "a\\u0007", "a\\tb", "a\\nb", "\\u202e"})
+    EXPECT_NE(message_for(name).find("study.toml:1: "), std::string::npos) << message_for(name);
+}
+
+TEST(TrialTable, ExcludedWindowsArePairsOfTimesAndForeignContacts) {
+  const ExcludeSpec both = trial_of(kTrial + "exclude = [[0.66, 0.78], \"foreign_contacts\", [2, 2.5]]\n").exclude;
+  ASSERT_EQ(both.windows.size(), 2U);
+  EXPECT_EQ(both.windows[0].begin_s, 0.66);
+  EXPECT_EQ(both.windows[1].end_s, 2.5);
+  EXPECT_TRUE(both.foreign_contacts);
+  EXPECT_TRUE(trial_of(kTrial + "exclude = \"foreign_contacts\"\n").exclude.foreign_contacts);
+  EXPECT_EQ(trial_of(kTrial + "exclude = [1.0, 1.5]\n").exclude.windows.size(), 1U);
+  EXPECT_EQ(trial_of(kTrial).exclude, ExcludeSpec{});
+}
+
+TEST(TrialTable, WhatIsNoWindowIsRefusedWithItsLine) {
+  for (const std::string wrong : {"[[0.78, 0.66]]", "[[0.1, 0.2, 0.3]]", "[\"contacts\"]", "[[\"a\", 1]]", "3",
+                                  "[{ begin = 1 }]", "[[1, inf]]", "[[]]"}) {
+    const std::string message = trial_message(kTrial + "exclude = " + wrong + "\n");
+    EXPECT_NE(message.find("dir/study.toml:4"), std::string::npos) << wrong << ": " << message;
+    EXPECT_NE(message.find("exclude"), std::string::npos) << wrong << ": " << message;
   }
+}
+
+TEST(TrialTable, NothingHeldIsAnotherAnswerThanNone) {
+  EXPECT_FALSE(trial_of(kTrial).held_mass_kg.has_value());
+  EXPECT_EQ(trial_of(kTrial + "held_mass_kg = 0\n").held_mass_kg, 0.0);
 }
 
 TEST(TrialTable, OneFileHasOneClock) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/files/file_words.h"
@@ -17,37 +18,56 @@ namespace {
 
 using Kind = TableColumn::Kind;
 
-std::optional<ScaledUnit> unit_of(std::string_view word) {
-  word = trim(word);
-  if (lower(word) == "sec" || lower(word) == "seconds") return parse_unit("s");
-  if (const auto unit = parse_file_unit(word)) return unit;
-  return parse_unit(word);
+bool in_seconds(const TableColumn& column) { return column.unit && column.unit->unit == Unit::second; }
+
+/// Returns true for a column that is the clock of the channels behind it, as in tables with a clock for each channel:
+/// "X[s]", and "X[s].1" of programs that make names unique, or "EMG 1 Time Series (s)".
+bool is_time_of_channel(const TableColumn& column) {
+  const std::string name = lower(column.name);
+  if (name.starts_with("x[s]")) return true;
+  return in_seconds(column) && (name == "x" || name.ends_with("time series"));
 }
 
+/// Returns true for the name of a clock in seconds or in a stated unit of time.
 bool is_time(const TableColumn& column) {
-  std::string name = lower(column.name);
-  if (const std::size_t point = name.find('.'); point != std::string::npos && point > 0)
-    name.resize(point);  // "X[s].1" of programs that make names unique
   static const std::set<std::string> kWords{"time",       "t",    "times", "time_s", "time_ms",     "timestamp",
                                             "time stamp", "zeit", "temps", "tiempo", "time series", "abs time"};
-  if (kWords.contains(name)) return true;
-  const bool seconds = column.unit && column.unit->unit == Unit::second;
-  // "EMG 1 Time Series (s)": a time column for each channel.
-  if (name.ends_with("time series") && seconds) return true;
-  return (name == "x" || name.starts_with("x[s]")) && (!column.unit || seconds);
+  return kWords.contains(lower(column.name)) && (!column.unit || in_seconds(column));
 }
 
-Kind kind_by_name(const std::string& label) {
+/// Returns the unit of time that a column has for a name: "mSec".
+std::optional<ScaledUnit> time_unit_as_name(const TableColumn& column) {
+  static const std::set<std::string> kWords{"ms", "msec", "msecs", "millisec", "s", "sec", "secs", "seconds"};
+  return !column.unit && kWords.contains(lower(column.name)) ? parse_file_unit(column.name) : std::nullopt;
+}
+
+Kind kind_by_name(const TableColumn& column) {
+  if (column.unit) return Kind::channel;  // "marker [mm]", "index [N]"
   static const std::map<Kind, std::set<std::string>> kWords{
       {Kind::frame,
        {"frame", "frames", "frame#", "sample", "samples", "sample #", "sample number", "index", "#", "no", "no.",
         "nr"}},
       {Kind::sub_frame, {"sub frame", "subframe", "sub frame#"}},
       {Kind::remark, {"marker", "markers", "activity", "event", "events", "comment", "comments", "remark", "note"}}};
-  const std::string word = lower(label);
+  const std::string word = lower(column.name);
   for (const auto& [kind, words] : kWords)
     if (words.contains(word)) return kind;
   return Kind::channel;
+}
+
+/// A whole number in brackets at the end of a label: "C7[1]".
+struct LabelIndex {
+  std::string base;
+  std::string number;
+  bool against_name = false;  ///< No blank stands between name and bracket.
+};
+
+std::optional<LabelIndex> index_in(std::string_view label) {
+  const std::size_t open = label.find_last_of("[(");
+  if (open == std::string_view::npos || open == 0 || (label.back() != ']' && label.back() != ')')) return std::nullopt;
+  const std::string_view number = label.substr(open + 1, label.size() - open - 2);
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  return LabelIndex{std::string(trim(label.substr(0, open))), std::string(number), label[open - 1] != ' '};
 }
 
 /// Returns the letters from `at` on.
@@ -63,7 +83,7 @@ std::optional<ScaledUnit> unit_in_cell(std::string_view cell) {
   cell = trim(cell);
   if (cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
     cell = cell.substr(1, cell.size() - 2);
-  return unit_of(cell);
+  return parse_file_unit(cell);
 }
 
 std::optional<double> rate_in_cell(std::string_view cell) {
@@ -72,22 +92,35 @@ std::optional<double> rate_in_cell(std::string_view cell) {
   cell.remove_suffix(2);
   const bool kilo = cell.back() == 'k' || cell.back() == 'K';
   if (kilo) cell.remove_suffix(1);
-  const auto number = parse_number(trim(cell));
+  auto number = parse_number(trim(cell));
+  if (!number) number = parse_comma_number(trim(cell));
   if (!number) return std::nullopt;
   const double rate = kilo ? 1000.0 * *number : *number;
   return rate > 0.0 && rate <= 1e6 ? std::optional(rate) : std::nullopt;
 }
 
+std::optional<double> period_in_cell(std::string_view cell) {
+  cell = trim(cell);
+  const std::size_t end = std::min(cell.find_first_not_of("0123456789.,eE+-"), cell.size());
+  const auto unit = parse_file_unit(cell.substr(end));
+  auto number = parse_number(trim(cell.substr(0, end)));
+  if (!number) number = parse_comma_number(trim(cell.substr(0, end)));
+  if (!number || !unit || unit->unit != Unit::second) return std::nullopt;
+  const double period_s = *number * unit->to_si;
+  return period_s >= 1e-6 && period_s <= 1e3 ? std::optional(period_s) : std::nullopt;
+}
+
 TableColumn take_label_apart(const std::string& text) {
   TableColumn column;
   column.name = text;
+  if (const auto index = index_in(text); index && index->against_name) return column;
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const std::size_t begin = column.name.rfind(open);
     const std::size_t end = column.name.rfind(close);
     if (begin == std::string::npos || end == std::string::npos || end < begin) continue;
     const std::string inside = column.name.substr(begin + 1, end - begin - 1);
     const auto rate = rate_in_cell(inside);
-    const auto unit = rate ? std::nullopt : unit_of(inside);
+    const auto unit = rate ? std::nullopt : parse_file_unit(inside);
     if (!rate && !unit) continue;
     if (rate) column.rate_hz = packet_rate(*rate);
     if (unit) column.unit = unit;
@@ -95,7 +128,7 @@ TableColumn take_label_apart(const std::string& text) {
   }
   if (column.unit || column.rate_hz > 0.0) return column;
   if (const std::size_t comma = text.rfind(','); comma != std::string::npos && comma > 0) {
-    if (const auto unit = unit_of(std::string_view(text).substr(comma + 1))) {
+    if (const auto unit = parse_file_unit(std::string_view(text).substr(comma + 1))) {
       column.name = std::string(trim(text.substr(0, comma)));
       column.unit = unit;
     }
@@ -131,17 +164,54 @@ std::optional<StatedRate> rate_in_line(std::string_view line) {
   return std::nullopt;
 }
 
-void set_kinds(std::vector<TableColumn>& columns) {
-  std::optional<std::string> first;
-  for (TableColumn& column : columns) {
-    if (is_time(column) && (!first || *first == column.name || lower(column.name) != "t")) {
+std::vector<TableColumn> take_labels_apart(const std::vector<std::string>& texts) {
+  std::map<std::string, std::set<std::string>> numbers;
+  for (const std::string& text : texts)
+    if (const auto index = index_in(text)) numbers[index->base].insert(index->number);
+  std::vector<TableColumn> columns;
+  for (const std::string& text : texts) {
+    const auto index = index_in(text);
+    const bool counts = index && numbers[index->base].size() > 1;
+    columns.push_back(counts ? TableColumn{Kind::channel, text} : take_label_apart(text));
+  }
+  return columns;
+}
+
+std::optional<std::size_t> plain_clock(const std::vector<TableColumn>& columns) {
+  std::optional<std::size_t> found;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (!is_time(columns[c])) continue;
+    if (lower(columns[c].name) != "t") return c;
+    if (!found) found = c;
+  }
+  return found;
+}
+
+void set_kinds(TableLayout& layout) {
+  std::vector<TableColumn>& columns = layout.columns;
+  const auto plain = plain_clock(columns);
+  const bool of_channels = std::ranges::any_of(columns, is_time_of_channel);
+  std::vector<std::string> others;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    TableColumn& column = columns[c];
+    const bool repeats = plain && c > *plain + 1 && column.name == columns[*plain].name && is_time(column);
+    if ((plain && c == *plain) || is_time_of_channel(column) || repeats) {
       column.kind = Kind::time;
-      if (!first) first = column.name;
-      if (!column.unit && lower(column.name) == "time_ms") column.unit = parse_unit("ms");
     } else {
-      column.kind = kind_by_name(column.name);
+      column.kind = kind_by_name(column);
+      if (is_time(column)) others.push_back(column.name);
     }
   }
+  if (!plain && !of_channels && !columns.empty() && time_unit_as_name(columns[0])) {
+    columns[0].unit = time_unit_as_name(columns[0]);
+    columns[0].kind = Kind::time;
+  }
+  for (TableColumn& column : columns)
+    if (!column.unit && lower(column.name) == "time_ms") column.unit = parse_unit("ms");
+  if (!others.empty())
+    layout.repairs.push_back(
+        {layout.names_line + 1, fmt::format("a channel here, since the clock is '{}': {}",
+                                            plain ? columns[*plain].name : "X[s]", fmt::join(others, ", "))});
 }
 
 double packet_rate(double rate_hz) {

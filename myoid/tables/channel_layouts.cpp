@@ -10,7 +10,9 @@
 #include "myoid/core/error.h"
 #include "myoid/files/file_words.h"
 #include "myoid/tables/channel_labels.h"
+#include "myoid/tables/labchart_layout.h"
 #include "myoid/tables/nexus_section.h"
+#include "myoid/tables/opensignals_layout.h"
 
 namespace myoid::recording {
 namespace {
@@ -33,6 +35,24 @@ std::optional<TableLayout> nexus_devices(const TableText& text, const std::files
     if (c < section->units.size()) column.unit = unit_in_cell(section->units[c]);
   }
   put_devices_before_names(layout, section->groups);
+  return layout;
+}
+
+/// Finds angles, moments and powers of a model in Nexus' export: "PERSON:LKneeAngles" above X, Y and Z.
+std::optional<TableLayout> nexus_outputs(const TableText& text, const std::filesystem::path& path) {
+  const auto section = nexus_section(text, "Model Outputs", path);
+  if (!section) return std::nullopt;
+  TableLayout layout = section->layout;
+  layout.repairs.push_back(
+      {layout.names_line + 1, "the section 'Model Outputs' is read: results of Nexus, no markers"});
+  std::string output;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    TableColumn& column = layout.columns[c];
+    if (c < section->groups.size() && !section->groups[c].empty()) output = section->groups[c];
+    if (column.kind != Kind::channel) continue;
+    column.name = c < section->labels.size() ? fmt::format("{} {}", output, section->labels[c]) : output;
+    if (c < section->units.size()) column.unit = unit_in_cell(section->units[c]);
+  }
   return layout;
 }
 
@@ -76,9 +96,9 @@ std::optional<TableLayout> qualisys_channels(const TableText& text, const std::f
   const std::size_t header = head.empty() ? *first : layout.names_line;
   layout.read_header(text, header, {{"frequency"}, {"no_of_samples"}, {"total_no_of_channels", "no_of_channels"}});
   const bool named = !head.empty();
-  for (const std::string& name : named ? head : names) layout.columns.push_back(take_label_apart(name));
+  layout.columns = take_labels_apart(named ? head : names);
   if (named) {
-    set_kinds(layout.columns);
+    set_kinds(layout);
   } else {
     layout.repairs.push_back({layout.names_line + 1, "the names come from CHANNEL_NAMES"});
   }
@@ -146,8 +166,8 @@ std::optional<TableLayout> bts_tracks(const TableText& text, const std::filesyst
     layout.set_rows_below(text, n, '\t');
     layout.read_header(text, n, {{"frequency"}, {"frames"}, {"tracks"}});
     const auto unit = unit_in_cell(stated_text(text, n, '\t', "measure unit"));
-    for (const std::string& cell : cells) layout.columns.push_back(take_label_apart(cell));
-    set_kinds(layout.columns);
+    layout.columns = take_labels_apart(cells);
+    set_kinds(layout);
     if (!unit) layout.repairs.push_back({0, "the header states no unit ('Measure unit')"});
     for (TableColumn& column : layout.columns) {
       if (column.kind == Kind::channel && !column.unit) column.unit = unit;
@@ -159,11 +179,12 @@ std::optional<TableLayout> bts_tracks(const TableText& text, const std::filesyst
 
 }  // namespace
 
-std::optional<TableLayout> makers_layout(const TableText& text, const std::filesystem::path& path) {
-  for (const auto& known : {nexus_devices, qualisys_channels, biopac_channels, bts_tracks}) {
+std::optional<TableLayout> makers_layout(TableText& text, const std::filesystem::path& path) {
+  for (const auto& known :
+       {nexus_devices, qualisys_channels, biopac_channels, bts_tracks, opensignals_layout, nexus_outputs}) {
     if (auto layout = known(text, path)) return layout;
   }
-  return std::nullopt;
+  return labchart_layout(text, path);
 }
 
 }  // namespace myoid::recording

@@ -10,6 +10,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/tables/blank_columns.h"
 #include "myoid/tables/channel_labels.h"
 
 namespace myoid::recording {
@@ -18,7 +19,13 @@ namespace {
 using Kind = TableColumn::Kind;
 
 char separator_of(std::string_view head) {
-  const auto count = [&](char c) { return std::ranges::count(head, c); };
+  std::string bare;  // without texts in quotes
+  bool quoted = false;
+  for (const char c : head) {
+    quoted = quoted != (c == '"');
+    if (!quoted) bare += c;
+  }
+  const auto count = [&](char c) { return std::ranges::count(bare, c); };
   return count(';') > 0 && count(';') >= count(',') ? ';' : count('\t') > count(',') ? '\t' : ',';
 }
 
@@ -29,22 +36,11 @@ struct Head {
 };
 
 Head head_of(const TableText& text, const std::filesystem::path& path) {
+  refuse_other_kinds(text, path);
   const std::size_t line = next_line(text, 0);
   if (line == text.lines.size()) throw ReadError(path, 0, "there is no header row");
   const char separator = separator_of(text.lines[line]);
   return {line, separator, filled_cells(text.lines[line], separator)};
-}
-
-/// Splits "name [unit]" or "name (unit)".
-TableColumn take_apart(const std::string& label) {
-  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-    const std::size_t begin = label.rfind(open);
-    const std::size_t end = label.rfind(close);
-    if (begin == std::string::npos || end == std::string::npos || end < begin) continue;
-    if (auto unit = parse_unit(std::string_view(label).substr(begin + 1, end - begin - 1)))
-      return {Kind::channel, std::string(trim(std::string_view(label).substr(0, begin))), unit};
-  }
-  return {Kind::channel, label};
 }
 
 /// Reads a row of units ("s", "mV", ...) for the columns that have none; false if the row holds numbers.
@@ -68,13 +64,15 @@ TableLayout plain_layout(const TableText& text, const std::filesystem::path& pat
   layout.plain = true;
   layout.separator = head.separator;
   layout.names_line = head.line;
-  for (const std::string& name : head.names) layout.columns.push_back(take_apart(name));
+  layout.columns = take_labels_apart(head.names);
   layout.first_row = next_line(text, head.line + 1);
   layout.end_row = text.lines.size();
   if (layout.first_row < text.lines.size() &&
       take_units_row(cells_of(text.lines[layout.first_row], layout.separator), layout.columns))
     ++layout.first_row;
-  const auto time = std::ranges::find_if(layout.columns, names_plain_time, &TableColumn::name);
+  auto time = std::ranges::find_if(layout.columns, names_plain_time, &TableColumn::name);
+  if (const auto clock = plain_clock(layout.columns); clock && names_plain_time(layout.columns[*clock].name))
+    time = layout.columns.begin() + static_cast<std::ptrdiff_t>(*clock);
   if (time == layout.columns.end()) {
     throw ReadError(
         path, head.line + 1,
@@ -130,6 +128,12 @@ CsvTable read_csv_table(const std::filesystem::path& path) { return parse_csv_ta
 
 CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& path) {
   const TableText table(text);
+  if (const auto tabs = tabs_for_blanks(table)) {
+    const TableText columns(*tabs);
+    CsvSeries series = channels_of_table(columns, plain_layout(columns, path), path);
+    series.repairs.insert(series.repairs.begin(), {0, std::string(kBlanksSeparate)});
+    return series;
+  }
   return channels_of_table(table, plain_layout(table, path), path);
 }
 

@@ -15,8 +15,10 @@
 #include "myoid/core/error.h"
 #include "myoid/core/numbers.h"
 #include "myoid/files/file_words.h"
+#include "myoid/tables/blank_columns.h"
 #include "myoid/tables/channel_labels.h"
 #include "myoid/tables/channel_layouts.h"
+#include "myoid/tables/discover_events.h"
 
 namespace myoid::recording {
 namespace {
@@ -61,6 +63,12 @@ std::optional<TableColumn> label_line(std::string_view line) {
   return column;
 }
 
+/// Returns cell `c` of a line.
+std::string cell_at(std::string_view line, char separator, std::size_t c) {
+  const Cells cells = cells_of(line, separator);
+  return c < cells.size() ? cells[c] : "";
+}
+
 /// Looks for a table with one given separator.
 class TableFinder {
  public:
@@ -71,22 +79,29 @@ class TableFinder {
     above_ = layout_.first_row;
     if (!previous()) return std::nullopt;
     Cells names = row(above_);
-    const Cells rates = take_row(names, [](const std::string& cell) { return rate_in_cell(cell).has_value(); });
-    const Cells units = take_row(names, [](const std::string& cell) {
+    Cells rates, units, periods;
+    const auto is_rate = [](const std::string& cell) { return rate_in_cell(cell).has_value(); };
+    const auto is_period = [](const std::string& cell) { return period_in_cell(cell).has_value(); };
+    const auto is_unit = [](const std::string& cell) {
       const TableColumn label = take_label_apart(cell);
       return unit_in_cell(cell) || (label.name.empty() && label.unit);
-    });
+    };
+    // Rows of rates, sample periods and units stand below the names in any order. Some units may be unknown.
+    for (bool more = true; more;)
+      more = take_row(names, rates, is_rate) || take_row(names, periods, is_period) ||
+             take_row(names, units, is_unit, 0.5);
+    state_unknown_units(units);
     layout_.names_line = above_;
     layout_.end_row = text_.lines.size();
     names.resize(std::max(filled(names), width_));
-    make_columns(names, units, rates);
+    make_columns(names, units, rates, periods);
     read_head();
     return std::move(layout_);
   }
 
  private:
   [[nodiscard]] Cells row(std::size_t n) const { return cells_of(text_.lines[n], layout_.separator); }
-  [[nodiscard]] bool blank(std::size_t n) const { return trim(text_.lines[n]).empty(); }
+  [[nodiscard]] bool blank(std::size_t n) const { return is_rule(text_.lines[n]); }
   [[nodiscard]] bool numbers(const Cells& cells) const { return is_numbers(cells, layout_.separator); }
 
   bool find_first_row() {
@@ -135,33 +150,52 @@ class TableFinder {
     return true;
   }
 
-  /// Takes the row `names` if `is` holds for all its cells (units, rates); `names` becomes the row above it.
+  /// Takes the row `names` as `taken`, once, if `is` holds for all its cells; `names` becomes the row above it. With a
+  /// `share` below 1 the rule need hold only for this share of the cells, where the row above has a name for each.
   template <typename Is>
-  Cells take_row(Cells& names, const Is& is) {
-    std::size_t count = 0;
-    for (const std::string& cell : names) {
-      if (cell.empty()) continue;
-      if (!is(cell)) return {};
-      ++count;
-    }
+  bool take_row(Cells& names, Cells& taken, const Is& is, double share = 1.0) {
+    if (!taken.empty()) return false;
+    const auto filled_in = [](const Cells& cells) {
+      return cells.size() - static_cast<std::size_t>(std::ranges::count(cells, ""));
+    };
+    const std::size_t count = filled_in(names);
+    const auto fitting = static_cast<std::size_t>(
+        std::ranges::count_if(names, [&](const std::string& cell) { return !cell.empty() && is(cell); }));
     const std::size_t here = above_;
-    if (count == 0 || !previous()) {
+    const bool all = fitting == count;
+    const bool enough = all || (fitting > 1 && static_cast<double>(fitting) >= share * static_cast<double>(count));
+    if (fitting == 0 || !enough || !previous() || (!all && filled_in(row(above_)) < count)) {
       above_ = here;
-      return {};
+      return false;
     }
-    return std::exchange(names, row(above_));
+    taken = std::exchange(names, row(above_));
+    return true;
   }
 
-  void make_columns(const Cells& names, const Cells& units, const Cells& rates) {
+  void state_unknown_units(const Cells& units) {
+    std::set<std::string> unknown;
+    for (const std::string& cell : units) {
+      const TableColumn label = take_label_apart(cell);
+      if (!cell.empty() && !unit_in_cell(cell) && !(label.name.empty() && label.unit)) unknown.insert(cell);
+    }
+    if (!unknown.empty())
+      layout_.repairs.push_back({above_ + 2, fmt::format("units that are not known: {}", fmt::join(unknown, ", "))});
+  }
+
+  void make_columns(const Cells& names, const Cells& units, const Cells& rates, const Cells& periods) {
     std::set<double> rounded;
+    const std::vector<TableColumn> labels = take_labels_apart(names);
     for (std::size_t c = 0; c < names.size(); ++c) {
-      TableColumn column = take_label_apart(names[c]);
+      TableColumn column = labels[c];
       if (column.rate_hz != std::floor(column.rate_hz)) rounded.insert(column.rate_hz);
       if (!column.unit && c < units.size()) column.unit = unit_in_cell(units[c]);
       if (c < rates.size()) column.rate_hz = rate_in_cell(rates[c]).value_or(column.rate_hz);
+      if (c < periods.size() && !(column.rate_hz > 0.0))
+        if (const auto period_s = period_in_cell(periods[c])) column.rate_hz = 1.0 / *period_s;
       layout_.columns.push_back(std::move(column));
     }
-    set_kinds(layout_.columns);
+    set_kinds(layout_);
+    keep_numbers();
     if (!rounded.empty())
       layout_.repairs.push_back(
           {layout_.names_line + 1,
@@ -172,13 +206,27 @@ class TableFinder {
     if (const auto devices = device_row()) put_devices_before_names(layout_, *devices);
   }
 
-  /// Drops frame numbers that do not count the rows: they are no clock.
+  /// Makes a channel of a column of remarks ("event") that holds a number in every row.
+  void keep_numbers() {
+    for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
+      TableColumn& column = layout_.columns[c];
+      if (column.kind != Kind::remark) continue;
+      const auto number = [&](std::string_view line) {
+        return has_no_cell(line, layout_.separator) || line.starts_with('#') ||
+               cell_number(cell_at(line, layout_.separator, c), layout_.separator).has_value();
+      };
+      const auto first = text_.lines.begin() + static_cast<std::ptrdiff_t>(layout_.first_row);
+      if (std::all_of(first, text_.lines.end(), number)) column.kind = Kind::channel;
+    }
+  }
+
+  /// Drops frame numbers that do not count the rows: they are no clock. Other numbers under such a name ("index") are
+  /// a channel.
   void leave_out_counters(bool several_clocks) {
     const Cells first = row(layout_.first_row);
     const std::size_t next = layout_.first_row + 1;
     const Cells second = next < text_.lines.size() ? row(next) : Cells();
     const bool with_sub_frames = layout_.count(Kind::sub_frame) > 0;
-    std::vector<std::string> left_out;
     bool taken = false;
     for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
       TableColumn& column = layout_.columns[c];
@@ -186,20 +234,16 @@ class TableFinder {
       const auto number = [&](const Cells& cells) {
         return c < cells.size() ? parse_number(cells[c]).value_or(kNan) : kNan;
       };
-      const double begin = number(first);
-      const bool counts = number(second) == begin + 1.0 && column.kind == Kind::frame;
+      const double begin = number(first), then = number(second);
+      const bool counts = then == begin + 1.0 && column.kind == Kind::frame;
       if (!several_clocks && !with_sub_frames && counts && !taken) {
         taken = true;
         layout_.first_frame = begin == 0.0 ? 0.0 : 1.0;
         continue;
       }
-      column.kind = Kind::left_out;
-      left_out.push_back(column.name);
+      const bool measures = std::floor(begin) != begin || std::floor(then) != then || then < begin;
+      column.kind = measures && !with_sub_frames && std::isfinite(begin + then) ? Kind::channel : Kind::left_out;
     }
-    if (!left_out.empty())
-      layout_.repairs.push_back(
-          {layout_.names_line + 1,
-           fmt::format("columns of numbers of frames or samples are left out: {}", fmt::join(left_out, ", "))});
   }
 
   /// Returns the row of sensor names, which stands above the row of their modes.
@@ -295,9 +339,19 @@ void refuse_other_rates(const TableText& text, const TableLayout& layout, const 
 }  // namespace
 
 CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& path) {
-  const TableText table(text);
+  TableText table(text);
+  refuse_other_kinds(table, path);
   if (const auto layout = makers_layout(table, path)) return channels_of_table(table, *layout, path);
-  const auto layout = find_table(table);
+  std::vector<Event> events = take_discover_events(table);
+  auto layout = find_table(table);
+  if (layout) layout->events = std::move(events);
+  if (!layout) {
+    if (const auto tabs = tabs_for_blanks(table)) {
+      CsvSeries series = parse_emg_table(*tabs, path);
+      series.repairs.insert(series.repairs.begin(), {0, std::string(kBlanksSeparate)});
+      return series;
+    }
+  }
   if (layout) {
     refuse_two_commas(table, *layout, path);
     refuse_other_rates(table, *layout, path);

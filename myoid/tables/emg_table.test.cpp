@@ -34,6 +34,17 @@ TEST(EmgTable, ATimeColumnForEachChannelGivesAClockForEachRate) {
   EXPECT_EQ(s.repairs.size(), 2U);  // two clocks, cut to the shortest
 }
 
+TEST(EmgTable, AnUnknownUnitBesideKnownOnesMakesNoNamesOfTheUnits) {
+  const CsvSeries s = parse_emg_table(
+      "BioWare\nRate:\t100\n\nabs time (s)\tFx\tFz\tMx\tQ\n\tN\tN\tN.m\td.u.\n0\t1\t2\t3\t4\n0.01\t1\t2\t3\t4\n",
+      "a.txt");
+  ASSERT_EQ(s.data.channel_count(), 4);
+  EXPECT_EQ(s.data.channels()[2], (Channel{"Mx", Unit::newton_meter}));
+  EXPECT_EQ(s.data.channels()[3], (Channel{"Q", Unit::dimensionless}));
+  EXPECT_EQ(s.has_unit, (std::vector<bool>{true, true, true, false}));
+  EXPECT_EQ(s.repairs.size(), 1U);
+}
+
 TEST(EmgTable, ATimeThatIsMissingBeforeOthersIsNoEndOfItsChannel) {
   const auto read = [](const std::string& row) {
     return parse_emg_table("X [s],A [V],X [s],B [V]\n0,1,0,2\n" + row + "0.2,1,0.2,2\n", "a.csv");

@@ -46,8 +46,8 @@ bool named_as_no_emg(std::string_view name) {
   static const std::regex kForce(
       "(force|moment|torque|grf|amti|bertec|kistler|forceplate|plate|fp|[0-9])*"
       "(f|m|cop|p)[0-9]*[xyz][0-9]*");
-  static constexpr std::array<std::string_view, 8> kInstruments{"sync",  "trig",  "footsw", "heelsw",
-                                                                "gonio", "accel", "gyro",   "loadcell"};
+  static constexpr std::array<std::string_view, 9> kInstruments{"sync",  "trig", "footsw",   "heelsw",   "gonio",
+                                                                "accel", "gyro", "loadcell", "timestamp"};
   const std::string plain = plain_label(name);
   std::string_view without_side = plain;
   for (const std::string_view side : {"left", "right"}) {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "myoid/core/geometry.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/files/text_file.h"
 
@@ -15,7 +13,6 @@ struct MarkerFile {
   MarkerSeries markers;
   std::string unit;  ///< As written.
   std::vector<Repair> repairs;
-  std::optional<Vec3> screen_up_L;  ///< As in `Recording`.
 };
 
 }  // namespace myoid::recording

@@ -40,11 +40,11 @@ char separator_behind_frame(std::string_view line) {
 }
 
 /// Notes the titles of sections that no reader takes.
-void state_other_sections(const TableText& text, std::vector<Repair>& repairs) {
+void state_other_sections(const TableText& text, std::string_view read, std::vector<Repair>& repairs) {
   std::vector<std::string> others;
   for (std::size_t n = 0; n + 1 < text.lines.size(); ++n) {
     const std::string_view title = lone_word(text.lines[n]);
-    if (title.empty() || parse_number(title) || title == "Devices" || title == "Trajectories" ||
+    if (title.empty() || parse_number(title) || title == read || title == "Devices" || title == "Trajectories" ||
         !lone_number(text.lines[n + 1]))
       continue;
     others.emplace_back(title);
@@ -90,7 +90,7 @@ std::optional<NexusSection> nexus_section(const TableText& text,
     }
   }
   layout.end_row = end_of_block(text, layout.first_row, layout.separator);
-  state_other_sections(text, layout.repairs);
+  state_other_sections(text, title, layout.repairs);
   layout.columns.resize(std::max(section.labels.size(), section.units.size()));
   layout.columns[0] = {TableColumn::Kind::frame, "Frame"};
   if (section.labels.size() > 1) {

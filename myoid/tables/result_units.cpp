@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "myoid/files/text_file.h"
+
 namespace myoid::recording {
 namespace {
 
@@ -12,7 +14,23 @@ bool is_translation(const std::string& coordinate) {
   return std::ranges::any_of(kEnds, [&](std::string_view end) { return coordinate.ends_with(end); });
 }
 
+bool speaks_of_other(const std::string& name) {
+  const std::string text = small_letters(name);
+  constexpr std::string_view kOthers[] = {"force",      "torque",     "moment",    "emg",
+                                          "electromyo", "activation", "excitation"};
+  return std::ranges::any_of(kOthers, [&](std::string_view word) { return text.find(word) != std::string::npos; });
+}
+
 }  // namespace
+
+bool may_hold_angles(const Storage& file) {
+  return !speaks_of_other(file.title) &&
+         !std::ranges::all_of(file.data.channels(), [&](const Channel& c) { return speaks_of_other(c.name); });
+}
+
+bool is_angle_in_degrees(const Storage& file, const std::string& channel) {
+  return file.in_degrees && may_hold_angles(file) && !is_translation(channel) && !speaks_of_other(channel);
+}
 
 std::string result_unit(const std::string& series, const std::string& channel, bool in_degrees) {
   if (series == "ik") return is_translation(channel) ? "m" : in_degrees ? "deg" : "rad";

@@ -6,7 +6,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
-#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/emg_table.h"
 #include "myoid/tables/storage_reader.h"
 #include "myoid/tables/storage_writer.h"
 
@@ -14,7 +14,7 @@ namespace myoid::recording {
 
 SeriesFile read_series(const std::filesystem::path& path) {
   if (format_of(path) == FileFormat::text_table) {
-    CsvSeries file = read_csv_series(path);
+    CsvSeries file = parse_emg_table(read_text_file(path), path);
     return {std::move(file.data), std::move(file.repairs)};
   }
   Storage file = read_storage(path);

@@ -16,7 +16,8 @@ struct SeriesFile {
 };
 
 /// Reads a series from a table (.csv, .tsv, .txt) or a storage file (any other name), in the file's
-/// units. Throws as `read_csv_series` and `read_storage`.
+/// units, or in SI where a table states them. Of a table with several clocks, the first is taken. Throws as
+/// `parse_emg_table` and `read_storage`.
 [[nodiscard]] SeriesFile read_series(const std::filesystem::path& path);
 
 /// Writes a series in the format of the file's extension. A .csv becomes a table ("name [V]" in the

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/emg_table.h"
 #include "myoid/tables/storage_reader.h"
 #include "myoid/tables/storage_writer.h"
 
@@ -140,6 +143,44 @@ TEST(ReadStorage, EveryResultFileOfTheSharedDataReads) {
     ++count;
   }
   EXPECT_GT(count, 50);
+}
+
+TEST(ParseStorage, LabelsMayMixTabsAndBlanks) {
+  for (const char* labels :
+       {"time\t\tq1\ttx", "time  q1\ttx", "time \t q1 \t\t tx\t", "time q1  tx", "time\t\tq1   tx", "time q1\ttx"}) {
+    const Storage s =
+        parse_storage("x\nversion=1\nendheader\n" + std::string(labels) + "\n0\t1\t2\n1\t3\t4\n", "f.sto");
+    ASSERT_EQ(s.data.channel_count(), 2) << labels;
+    EXPECT_EQ(s.data.column("q1"), Eigen::Vector2d(1, 3)) << labels;
+    EXPECT_EQ(s.data.column("tx"), Eigen::Vector2d(2, 4)) << labels;
+  }
+}
+
+TEST(ParseStorage, ASpreadsheetsSeparatorsAreNoPartOfTheHeader) {
+  const std::string commas =
+      "Coordinates,,\nversion=1,,\nnRows=2,,\nnColumns=3,,\ninDegrees=yes,,\nendheader,,\ntime,q1,tx\n0,90,1\n0.1,180,"
+      "2\n";
+  std::string semicolons = commas;
+  std::ranges::replace(semicolons, ',', ';');
+  std::ranges::replace(semicolons, '.', ',');
+  for (const std::string& text : {commas, semicolons}) {
+    const Storage s = parse_storage(text, "f.mot");
+    EXPECT_TRUE(s.in_degrees);
+    EXPECT_EQ(s.title, "Coordinates");
+    EXPECT_EQ(s.data.column("q1"), Eigen::Vector2d(90, 180));
+    EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.1);
+    // Under the name of a table the header would be lost, and with it the degrees.
+    EXPECT_THROW((void)parse_emg_table(text, "f.csv"), ReadError);
+    EXPECT_THROW((void)parse_csv_series(text, "f.csv"), ReadError);
+    EXPECT_THROW((void)parse_csv_table(text, "f.csv"), ReadError);
+  }
+}
+
+TEST(ParseStorage, ACompleteLastRowNeedsNoLineEnd) {
+  const std::string head = "x\nversion=1\nendheader\ntime\tq1\n0\t1.25\n1\t2.25\n";
+  EXPECT_EQ(parse_storage(head + "2\t3.25", "f.sto").data.sample_count(), 3);
+  EXPECT_EQ(parse_storage(head + "2\t3.2", "f.sto").data.sample_count(), 2);
+  EXPECT_EQ(parse_storage(head + "2", "f.sto").data.sample_count(), 2);
 }
 
 TEST(ParseStorage, CommasBetweenCellsAreSeparatorsAndInsideThemDecimals) {

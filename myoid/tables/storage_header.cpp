@@ -56,6 +56,15 @@ std::optional<Pair> channel_unit(std::string_view line) {
   return Pair(name, unit);
 }
 
+/// Returns a line without the separators and quotes that a spreadsheet puts around its text.
+std::string_view without_empty_cells(std::string_view line) {
+  line = trim(line);
+  while (!line.empty() && std::string_view(",; \t\r\"").find(line.back()) != std::string_view::npos)
+    line.remove_suffix(1);
+  while (line.starts_with('"')) line.remove_prefix(1);
+  return line;
+}
+
 bool yes_or_no(const std::string& value, const std::filesystem::path& path, std::size_t line) {
   if (is_one_of(value, {"yes", "y", "true", "1"})) return true;
   if (is_one_of(value, {"no", "n", "false", "0"})) return false;
@@ -95,7 +104,7 @@ StorageHeader read_storage_header(const std::vector<std::string_view>& lines, co
   const std::size_t most = std::min(lines.size(), kMostLines);
   for (std::size_t line = 0;; ++line) {
     if (line == most) refuse_without_end(path);
-    const std::string_view content = trim(lines[line]);
+    const std::string_view content = without_empty_cells(lines[line]);
     if (equal_ignoring_case(content, "endheader")) {
       header.end = line;
       break;

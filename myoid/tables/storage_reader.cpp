@@ -66,6 +66,11 @@ bool are_comma_labels(std::string_view line) {
          split(line, ',').size() >= std::max<std::size_t>(2, split_words(line).size());
 }
 
+/// Returns true for labels that semicolons separate, as spreadsheets with decimal commas write them.
+bool are_semicolon_labels(std::string_view line) {
+  return line.find('\t') == std::string_view::npos && line.find(';') != std::string_view::npos;
+}
+
 /// Returns true for a row of `width` numbers that commas separate.
 bool is_comma_row(std::string_view line, std::size_t width) {
   if (line.find('\t') != std::string_view::npos) return false;
@@ -91,14 +96,30 @@ struct Columns {
   [[nodiscard]] std::size_t width() const { return channels.size() + 1; }
 };
 
-std::vector<std::string> labels_of(std::string_view line, bool comma_cells) {
-  std::vector<std::string> names;
-  for (const std::string_view label : line.find('\t') != std::string_view::npos ? split(trim(line), '\t')
-                                      : comma_cells                             ? split(trim(line), ',')
-                                                                                : split_words(line))
-    names.emplace_back(trim(label));
-  while (!names.empty() && names.back().empty()) names.pop_back();
-  return names;
+/// Splits the line of labels. Where tabs and blanks are mixed ("time <tab><tab> a b"), the labels are those that are as
+/// many as the numbers of the first row: the cells between tabs, these without the empty ones, the cells between tabs
+/// or two blanks, or the words. A label that is empty stays only where none of these fits.
+std::vector<std::string> labels_of(std::string_view line, bool comma_cells, std::size_t numbers) {
+  const auto trimmed = [](std::vector<std::string_view> cells) {
+    for (std::string_view& cell : cells) cell = trim(cell);
+    while (!cells.empty() && cells.back().empty()) cells.pop_back();
+    return std::vector<std::string>(cells.begin(), cells.end());
+  };
+  if (line.find('\t') == std::string_view::npos)
+    return trimmed(comma_cells ? split(trim(line), ',') : split_words(line));
+  const std::vector<std::string> cells = trimmed(split(trim(line), '\t'));
+  std::vector<std::string> filled = cells, wide;
+  std::erase(filled, "");
+  if (filled.size() == numbers) return filled;
+  for (std::string_view cell : filled) {
+    for (std::size_t end = 0; !cell.empty(); cell = trim(cell.substr(end))) {
+      end = std::min(cell.find("  "), cell.size());
+      wide.emplace_back(cell.substr(0, end));
+    }
+  }
+  if (wide.size() == numbers) return wide;
+  const std::vector<std::string> words = trimmed(split_words(line));
+  return words.size() == numbers && cells.size() != numbers ? words : cells;
 }
 
 Columns read_columns(const std::vector<std::string_view>& lines,
@@ -109,7 +130,9 @@ Columns read_columns(const std::vector<std::string_view>& lines,
   Columns columns;
   columns.line = at + 1;
   columns.comma_cells = header.elements == 1 && are_comma_labels(lines[at]);
-  std::vector<std::string> names = labels_of(lines[at], columns.comma_cells);
+  columns.first_row = next_filled(lines, at + 1);
+  const std::size_t numbers = columns.first_row < lines.size() ? split_words(lines[columns.first_row]).size() : 0;
+  std::vector<std::string> names = labels_of(lines[at], columns.comma_cells, numbers);
   columns.labels = names.size();
   if (names.empty() || !equal_ignoring_case(names[0], "time")) {
     throw ReadError(path, columns.line,
@@ -127,7 +150,6 @@ Columns read_columns(const std::vector<std::string_view>& lines,
   }
   if (header.elements == 1)
     compare_count(header.count({"nColumns", "datacolumns"}), columns.labels, "columns", columns.repairs);
-  columns.first_row = next_filled(lines, at + 1);
   if (header.elements == 1 && columns.first_row < lines.size() &&
       is_comma_row(lines[columns.first_row], columns.width()))
     columns.comma_cells = true;
@@ -153,7 +175,7 @@ class StorageRows {
     values_.resize(static_cast<Eigen::Index>(most), static_cast<Eigen::Index>(width_ - 1));
     for (std::size_t line = columns_.first_row; line < lines.size(); ++line) {
       if (trim(lines[line]).empty()) continue;
-      if (line + 1 == lines.size() && !text.ends_with_line && !keeps_last(text)) break;
+      if (line + 1 == lines.size() && !text.ends_with_line && !keeps_last(text, lines[line])) break;
       read_row(lines[line], line + 1);
       keep_row(line + 1);
     }
@@ -172,9 +194,11 @@ class StorageRows {
  private:
   [[nodiscard]] std::size_t count() const { return time_.size() + repeated_; }
 
-  bool keeps_last(const TableText& text) {
-    const LastRow last =
-        last_row_without_end(text, rows_said_ && *rows_said_ == static_cast<double>(count() + 1), time_.empty());
+  bool keeps_last(const TableText& text, std::string_view row) {
+    const bool counted = !rows_said_ || *rows_said_ == static_cast<double>(count() + 1);
+    const std::size_t cells = elements_ > 1 || columns_.comma_cells ? split(row, ',').size() : split_words(row).size();
+    const std::size_t whole = elements_ > 1 ? width_ - columns_.labels + 1 : width_;
+    const LastRow last = last_row_without_end(text, counted && cells >= whole, time_.empty());
     repairs_.push_back(last.note);
     return last.kept;
   }
@@ -279,6 +303,14 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   const TableText table(text);
   if (table.lines.empty()) throw ReadError(path, 0, "the file has no lines; export it again");
   StorageHeader header = read_storage_header(table.lines, path);
+  const std::size_t labels = next_filled(table.lines, header.end + 1);
+  if (labels < table.lines.size() && are_semicolon_labels(table.lines[labels])) {
+    std::string tabs(text);
+    std::ranges::replace(tabs, ';', '\t');
+    Storage storage = parse_storage(tabs, path);
+    storage.repairs.push_back({labels + 1, "separated by semicolons instead of tabs"});
+    return storage;
+  }
   const Columns columns = read_columns(table.lines, header, path);
   StorageRows rows(columns, header, path);
   rows.read(table, text.size());

@@ -6,6 +6,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/quoted_text.h"
 
 namespace myoid::recording {
 namespace {
@@ -87,8 +88,8 @@ void write_csv(const std::filesystem::path& path, const RowSource& source, const
   for (const std::string& remark : remarks) head += "# " + remark + "\n";
   head += "time_s";
   for (const Channel& channel : source.channels) {
-    head += "," + channel.name;
-    if (channel.unit != Unit::dimensionless) head += fmt::format(" [{}]", symbol(channel.unit));
+    const std::string unit = channel.unit == Unit::dimensionless ? "" : fmt::format(" [{}]", symbol(channel.unit));
+    head += "," + csv_cell(channel.name + unit);
   }
   FileInParts file(path);
   file.append(head + "\n");

@@ -137,14 +137,16 @@ class RowClock {
 
   [[nodiscard]] Eigen::VectorXd of_time_column() {
     const TableColumn& column = first_of(layout_, Kind::time);
-    const Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * numbers_.clock.col(*time_);
+    Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * numbers_.clock.col(*time_);
+    if (!layout_.blocks.empty())
+      for (Eigen::Index i = 0; i < time.size(); ++i) time[i] += layout_.blocks[block_of(i)].begin_s;
     for (Eigen::Index i = 0; i < time.size(); ++i) {
       if (!std::isfinite(time[i])) throw ReadError(path_, line(i), "the time is missing");
       if (i > 0 && time[i] <= time[i - 1])
         throw ReadError(path_, line(i), fmt::format("time does not increase: {} s after {} s", time[i], time[i - 1]));
     }
     const Eigen::Index last = time.size() - 1;
-    if (last < 1) return time;
+    if (last < 1 || layout_.blocks.size() > 1) return time;
     if (!frame_) state_uneven_step(time, numbers_.lines, column.name, repairs_);
     const double steps = frame_ ? place(last, per_frame()) - place(0, per_frame()) : static_cast<double>(last);
     const double rate = steps / (time[last] - time[0]);
@@ -181,8 +183,24 @@ class RowClock {
 
   [[nodiscard]] Eigen::VectorXd of_rows() const {
     Eigen::VectorXd time(numbers_.values.rows());
-    for (Eigen::Index i = 0; i < time.size(); ++i) time[i] = static_cast<double>(i) / layout_.rate_hz;
+    std::size_t block = 0;
+    Eigen::Index first = 0;
+    for (Eigen::Index i = 0; i < time.size(); ++i) {
+      if (!layout_.blocks.empty() && block_of(i) != block) {
+        block = block_of(i);
+        first = i;
+      }
+      time[i] = static_cast<double>(i - first) / layout_.rate_hz;
+      if (!layout_.blocks.empty()) time[i] += layout_.blocks[block].begin_s;
+    }
     return time;
+  }
+
+  /// Returns the block of a row. Precondition: there are blocks.
+  [[nodiscard]] std::size_t block_of(Eigen::Index row) const {
+    std::size_t block = layout_.blocks.size() - 1;
+    while (block > 0 && line(row) < layout_.blocks[block].first_line) --block;
+    return block;
   }
 
   const TableLayout& layout_;
@@ -224,16 +242,20 @@ void state_uneven_step(const Eigen::VectorXd& time_s,
   double most = std::max(10.0 * quantile(off, 0.8), 1e-6 * usual);
   // Rounding makes many steps differ by the last decimal; one wrong digit changes two steps.
   constexpr Eigen::Index kOften = 3;
+  constexpr double kFineTick = 0.1;  // a time that is wrong by less of a step harms no result
   const double rounding = 1.01 * last_decimal(time_s);
-  if ((off > most && off <= rounding).count() >= kOften) most = std::max(most, rounding);
+  const bool fine = rounding <= kFineTick * usual;
+  if (fine || (off > most && off <= rounding).count() >= kOften) most = std::max(most, rounding);
   const Eigen::Index odd = (off > most).count();
   if (odd == 0) return;
   Eigen::Index first = 0;
   while (!(off[first] > most)) ++first;
-  repairs.push_back(
-      {lines[at(first + 1)],
-       fmt::format("'{}' steps by {:.6g} s, {:.6g} s elsewhere: rows are lost or a time is wrong ({} such {})", name,
-                   step[first], usual, odd, odd == 1 ? "step" : "steps")});
+  // A lost row makes a step longer by a whole one.
+  const bool lost = (step - usual).maxCoeff() > 0.5 * usual;
+  repairs.push_back({lines[at(first + 1)],
+                     fmt::format("'{}' steps by {:.6g} s, {:.6g} s elsewhere: {} ({} such {})", name, step[first],
+                                 usual, lost ? "rows are lost or a time is wrong" : "a time is wrong; no row is lost",
+                                 odd, odd == 1 ? "step" : "steps")});
 }
 
 Eigen::VectorXd row_times(const TableLayout& layout,

@@ -28,7 +28,8 @@ namespace myoid::recording {
 
 /// Notes a step that stands out of an otherwise even clock. Its departure from the median step must exceed ten times
 /// the 80th percentile of all departures. Where steps often differ by the last decimal, because times are rounded, it
-/// must exceed that decimal too. `lines` are the line numbers of the times.
+/// must exceed that decimal too, and so where that decimal is below a tenth of a step. `lines` are the line numbers of
+/// the times.
 void state_uneven_step(const Eigen::VectorXd& time_s,
                        const std::vector<std::size_t>& lines,
                        std::string_view name,

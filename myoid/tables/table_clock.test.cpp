@@ -84,6 +84,11 @@ TEST(RowTimes, AStepThatIsNotAsTheOthersIsStatedAndRoundingIsNot) {
   Eigen::VectorXd lost = even;
   lost.tail(200).array() += 0.0005;
   EXPECT_THAT(stated(lost), HasSubstr("201: 't' steps by 0.001 s, 0.0005 s elsewhere"));
+  // A clock that ticks in millionths of a second and is off by one tick twice has lost no row.
+  Eigen::VectorXd ticks = (Eigen::VectorXd::LinSpaced(400, 0.0, 399 * 0.00045) * 1e6).array().round() / 1e6;
+  ticks[100] += 1e-6;
+  ticks[300] -= 1e-6;
+  EXPECT_EQ(stated(ticks), "");
   Eigen::VectorXd wrong = even;
   wrong[100] += 0.0001;
   EXPECT_THAT(stated(wrong), HasSubstr("101: 't' steps by 0.0006 s"));

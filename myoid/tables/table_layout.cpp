@@ -1,10 +1,11 @@
 #include "myoid/tables/table_layout.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "myoid/files/unique_names.h"
 
 namespace myoid::recording {
 namespace {
@@ -146,19 +147,15 @@ std::vector<std::string> unique_names(const std::vector<std::string>& names,
                                       std::size_t line,
                                       std::vector<Repair>& repairs) {
   std::vector<std::string> result;
-  std::set<std::string> seen(names.begin(), names.end());
-  std::set<std::string> taken;
+  UniqueNames unique(names);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    std::string name = names[i];
-    if (name.empty()) {
-      name = fmt::format("{}_{}", kind, i + 1);
-      while (seen.contains(name)) name += "_";
-      repairs.push_back({line, fmt::format("{} {} has no name; it is '{}' here", kind, i + 1, name)});
+    std::string base = names[i];
+    if (base.empty()) {
+      base = fmt::format("{}_{}", kind, i + 1);
+      while (unique.lists(base)) base += "_";
+      repairs.push_back({line, fmt::format("{} {} has no name; it is '{}' here", kind, i + 1, base)});
     }
-    const std::string base = name;
-    const auto is_free = [&] { return !taken.contains(name) && (name == base || !seen.contains(name)); };
-    for (int k = 2; !is_free(); ++k) name = fmt::format("{}_{}", base, k);
-    taken.insert(name);
+    std::string name = unique.take(base);
     if (name != base)
       repairs.push_back({line, fmt::format("two {}s are named '{}'; the later one is '{}' here", kind, base, name)});
     result.push_back(std::move(name));

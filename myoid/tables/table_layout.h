@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "myoid/core/units.h"
+#include "myoid/files/event.h"
 #include "myoid/tables/text_table.h"
 
 namespace myoid::recording {
@@ -36,6 +37,12 @@ struct TableColumn {
 /// The clocks of the channels: one of all rows, or one for each time column or stated rate.
 enum class Clocks { of_rows, of_time_columns, of_rates };
 
+/// Rows whose times begin anew.
+struct RowBlock {
+  std::size_t first_line = 0;  ///< Line of its first row, counted from 1.
+  double begin_s = 0.0;        ///< To be added to the times of its rows.
+};
+
 /// The words of a header, in small letters, for the rate and for the numbers of rows and of channels.
 struct HeaderWords {
   std::vector<std::string_view> rate, rows, channels;
@@ -56,6 +63,8 @@ struct TableLayout {
   std::optional<double> channels_said;  ///< Number of channels or markers that the header states.
   std::optional<double> length_s;       ///< Length that the header states.
   bool plain = false;                   ///< A header row and numbers in no maker's format: names must be unique.
+  std::vector<RowBlock> blocks;         ///< Empty: one block.
+  std::vector<Event> events;            ///< Events that stand outside of the columns.
   std::vector<Repair> repairs;
 
   [[nodiscard]] std::size_t count(TableColumn::Kind kind) const;

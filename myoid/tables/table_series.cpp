@@ -66,10 +66,13 @@ class TableSeries {
   void note(std::size_t line, std::string message) { series_.repairs.push_back({line, std::move(message)}); }
 
   void find_channels() {
-    std::vector<std::string> names;
+    std::vector<std::string> names, left_out;
     for (const TableColumn& column : layout_.columns) {
       if (column.kind == Kind::channel) names.push_back(column.name);
+      if (column.kind == Kind::left_out) left_out.push_back(column.name);
     }
+    if (!left_out.empty())
+      note(layout_.names_line + 1, fmt::format("columns that are left out: {}", fmt::join(left_out, ", ")));
     compare_count(layout_.channels_said, names.size(), "channels", series_.repairs);
     if (layout_.plain) {
       require_names(names);
@@ -225,24 +228,20 @@ class TableSeries {
     if (empty.size() == channels_.size()) throw ReadError(path_, 0, "there are no columns of numbers beside the time");
   }
 
-  /// Sorts the clocks by the number of channels called EMG, then by the number of channels in volts.
+  /// Returns the clocks that have channels, the first one by `first_clock`.
   [[nodiscard]] std::vector<std::size_t> clocks_in_order() const {
-    std::vector<std::pair<int, int>> worth;
+    std::vector<std::vector<Channel>> lists;
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < clocks_.size(); ++k) {
-      std::pair<int, int> w{0, 0};
-      for (const std::size_t c : clocks_[k].channels) {
-        const std::string& name = channels_[c].name;
-        const bool emg = lower(name).find("emg") != std::string::npos && !named_as_no_emg(name);
-        w.first += emg ? 1 : 0;
-        w.second += channels_[c].unit && channels_[c].unit->unit == Unit::volt ? 1 : 0;
-      }
-      worth.push_back(w);
-      if (!clocks_[k].channels.empty() || clocks_.size() == 1) order.push_back(k);
+      if (clocks_[k].channels.empty() && clocks_.size() > 1) continue;
+      order.push_back(k);
+      lists.emplace_back();
+      for (const std::size_t c : clocks_[k].channels)
+        lists.back().push_back({channels_[c].name, channels_[c].unit ? channels_[c].unit->unit : Unit::dimensionless});
     }
-    const auto best =
-        std::ranges::max_element(order, [&](std::size_t a, std::size_t b) { return worth[a] < worth[b]; });
-    if (best != order.end()) std::rotate(order.begin(), best, best + 1);
+    if (order.empty()) return order;
+    const auto best = order.begin() + static_cast<std::ptrdiff_t>(first_clock(lists));
+    std::rotate(order.begin(), best, best + 1);
     return order;
   }
 
@@ -279,22 +278,19 @@ class TableSeries {
 
   void state_clocks() {
     if (series_.other_clocks.empty()) return;
-    const auto said = [](const TimeSeries& data) {
-      std::vector<std::string> names;
-      for (const Channel& c : data.channels()) names.push_back(c.name);
-      const bool more = names.size() > 4;
-      if (more) names.resize(4);
-      return fmt::format("{:.7g} Hz: {}{}", data.mean_rate_hz(), fmt::join(names, ", "),
-                         more ? fmt::format(" and {} more", data.channel_count() - 4) : "");
-    };
-    std::string all = said(series_.data);
-    for (const ClockedChannels& group : series_.other_clocks) all += "; " + said(group.data);
-    note(layout_.names_line + 1, fmt::format("the channels have {} clocks: {}", series_.other_clocks.size() + 1, all));
+    std::vector<std::vector<Channel>> lists{series_.data.channels()};
+    std::vector<double> rates{series_.data.mean_rate_hz()};
+    for (const ClockedChannels& group : series_.other_clocks) {
+      lists.push_back(group.data.channels());
+      rates.push_back(group.data.mean_rate_hz());
+    }
+    note(layout_.names_line + 1, clocks_text(lists, rates));
   }
 
   void add_events() {
     const Eigen::VectorXd& time = series_.data.time_s();
     std::size_t behind = 0;
+    series_.events = layout_.events;
     for (const TableRemark& remark : numbers_.remarks) {
       if (static_cast<Eigen::Index>(remark.row) >= time.size()) {
         ++behind;
@@ -316,6 +312,34 @@ class TableSeries {
 };
 
 }  // namespace
+
+std::size_t first_clock(const std::vector<std::vector<Channel>>& clocks) {
+  std::vector<std::pair<int, int>> worth;
+  for (const std::vector<Channel>& channels : clocks) {
+    std::pair<int, int> w{0, 0};
+    for (const Channel& channel : channels) {
+      const bool emg = lower(channel.name).find("emg") != std::string::npos && !named_as_no_emg(channel.name);
+      w.first += emg ? 1 : 0;
+      w.second += channel.unit == Unit::volt ? 1 : 0;
+    }
+    worth.push_back(w);
+  }
+  return static_cast<std::size_t>(std::ranges::max_element(worth) - worth.begin());
+}
+
+std::string clocks_text(const std::vector<std::vector<Channel>>& clocks, const std::vector<double>& rates_hz) {
+  constexpr std::size_t kNamed = 4;
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < clocks.size(); ++k) {
+    std::vector<std::string> names;
+    for (const Channel& channel : clocks[k])
+      if (names.size() < kNamed) names.push_back(channel.name);
+    const std::size_t more = clocks[k].size() - names.size();
+    all.push_back(fmt::format("{:.7g} Hz: {}{}", rates_hz[k], fmt::join(names, ", "),
+                              more > 0 ? fmt::format(" and {} more", more) : ""));
+  }
+  return fmt::format("the channels have {} clocks: {}", clocks.size(), fmt::join(all, "; "));
+}
 
 CsvSeries channels_of_table(const TableText& text, const TableLayout& layout, const std::filesystem::path& path) {
   return TableSeries(text, layout, path).read();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "myoid/core/time_series.h"
@@ -23,6 +25,14 @@ struct CsvSeries : ClockedChannels {
   std::vector<ClockedChannels> other_clocks;
   std::vector<Event> events;  ///< The cells of columns of remarks, with the column's name.
 };
+
+/// Returns the clock with the most channels called EMG; ties go to the clock with the most channels in volts, then to
+/// the first. Precondition: there is a clock.
+[[nodiscard]] std::size_t first_clock(const std::vector<std::vector<Channel>>& clocks);
+
+/// Returns "the channels have 2 clocks: 2000 Hz: BIC, TRI; 148 Hz: ACC X".
+[[nodiscard]] std::string clocks_text(const std::vector<std::vector<Channel>>& clocks,
+                                      const std::vector<double>& rates_hz);
 
 /// Reads the channels of a table with a known layout. All are on the clock of its rows (`row_times`), unless there are
 /// several time columns or every channel states its rate: then each channel has its own clock. A channel that ends

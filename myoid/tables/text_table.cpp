@@ -205,8 +205,8 @@ class RowReader {
     const bool last = i + 1 == scans_.size();
     const bool without_end = last && line == text_.lines.size() && !text_.ends_with_line;
     if (without_end) {
-      const bool counted = rows_.rows_said && row.cells == width() && *rows_.rows_said == static_cast<double>(kept + 1);
-      LastRow judged = last_row_without_end(text_, counted, kept == 0);
+      const bool counted = !rows_.rows_said || *rows_.rows_said == static_cast<double>(kept + 1);
+      LastRow judged = last_row_without_end(text_, counted && row.cells == width(), kept == 0);
       numbers_.repairs.push_back(std::move(judged.note));
       if (!judged.kept) return false;
     }
@@ -337,9 +337,44 @@ bool has_no_cell(std::string_view line, char separator) {
                              [&](char c) { return c == separator || c == ' ' || c == '\t' || c == '\r' || c == '"'; });
 }
 
-LastRow last_row_without_end(const TableText& text, bool counted, bool only_row) {
+void refuse_other_kinds(const TableText& text, const std::filesystem::path& path) {
+  constexpr std::size_t kHeader = 2000;
+  for (std::size_t n = 0; n < std::min(text.lines.size(), kHeader); ++n) {
+    std::string_view line = text.lines[n];
+    if (line.size() > 2000) continue;
+    while (!line.empty() && std::string_view(",;\t \r\"").find(line.back()) != std::string_view::npos)
+      line.remove_suffix(1);
+    line = trim(line);
+    if (line.starts_with('"')) line.remove_prefix(1);
+    if (equal_ignoring_case(line, "endheader"))
+      throw ReadError(
+          path, n + 1,
+          "this is a storage file (.mot, .sto) under another name: its header, which says whether angles are "
+          "in degrees, ends here; give it a name that ends in .mot or .sto");
+    if (line == "TRAJECTORIES" || line == "ANALOG" || line == "MODEL OUTPUTS")
+      throw ReadError(
+          path, n + 1,
+          "this is an ASCII export of Vicon Workstation or Polygon (section '{}'), which is not read; export "
+          "the trial as .c3d",
+          line);
+  }
+}
+
+bool is_rule(std::string_view line) { return line.find_first_not_of(" \t\r,;-=_\"") == std::string_view::npos; }
+
+LastRow last_row_without_end(const TableText& text, bool whole, bool only_row) {
   const std::size_t line = text.lines.size();
-  const bool complete = counted && line > 1 && !looks_cut(text.lines[line - 1], text.lines[line - 2]);
+  // Where the number of decimals varies from row to row, a row with fewer of them is none that is cut off.
+  constexpr std::size_t kRows = 100;
+  bool shorter = true;
+  for (std::size_t n = line; shorter && n > 1 && n + kRows > line; --n) {
+    const std::string_view above = trim(text.lines[n - 2]);
+    const std::size_t cell = above.find_last_of("\t; ");
+    const std::string_view number = cell == std::string_view::npos ? above : above.substr(cell + 1);
+    if (!parse_number(number.substr(number.find_last_of(',') + 1))) break;
+    shorter = looks_cut(text.lines[line - 1], above);
+  }
+  const bool complete = whole && line > 1 && !shorter;
   const bool kept = only_row || complete;
   return {kept, {line, std::string(kept ? kLastRowKept : kLastRowLeftOut)}};
 }

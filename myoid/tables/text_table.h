@@ -32,15 +32,22 @@ struct TableText {
 /// Returns true for a line that holds only separators and blanks.
 [[nodiscard]] bool has_no_cell(std::string_view line, char separator);
 
+/// Returns true for a line without a cell and for a line of dashes between header and rows.
+[[nodiscard]] bool is_rule(std::string_view line);
+
+/// Throws ReadError for a text that is no table but has the ending of one: a .mot or .sto file that a spreadsheet saved
+/// (a line `endheader`), an ASCII export of Vicon Workstation (sections TRAJECTORIES, ANALOG).
+void refuse_other_kinds(const TableText& text, const std::filesystem::path& path);
+
 /// The last row of a text that ends without a line end.
 struct LastRow {
   bool kept = false;
   Repair note;
 };
 
-/// Decides whether a last row without a line end is complete. It is kept, with a note, if it is the only row, or if the
-/// header counts it (`counted`) and its last number has as many decimals as the row above. Otherwise it is left out.
-[[nodiscard]] LastRow last_row_without_end(const TableText& text, bool counted, bool only_row);
+/// Decides whether a last row without a line end is complete. It is kept, with a note, if it is the only row, or if it
+/// has all cells (`whole`) and its last number is not shorter than in all of the rows above. Otherwise it is left out.
+[[nodiscard]] LastRow last_row_without_end(const TableText& text, bool whole, bool only_row);
 
 /// Notes where the header's number of columns, channels, markers or rows differs from the number found.
 void compare_count(std::optional<double> said,

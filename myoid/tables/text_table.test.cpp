@@ -72,11 +72,18 @@ TEST(ReadRows, ABlankLineDoesNotEndTheTable) {
   EXPECT_THAT(refusal("0,1,2\n,,\n1,3,4\n", three_columns(',')), HasSubstr("f.csv:2: the row is empty"));
 }
 
-TEST(ReadRows, ALastRowThatIsCutOffIsLeftOutUnlessItIsCounted) {
+TEST(ReadRows, ALastRowWithoutALineEndIsKeptIfItIsComplete) {
   TableRows rows = three_columns(',');
   const std::string text = "0,1,2.25\n1,3,4.25\n2,5,6.25";
-  EXPECT_EQ(read_rows(TableText(text), rows, "f.csv").values.rows(), 2);
+  EXPECT_EQ(read_rows(TableText(text), rows, "f.csv").values.rows(), 3);
+  EXPECT_EQ(read_rows(TableText(text.substr(0, text.size() - 1)), rows, "f.csv").values.rows(), 2);
+  EXPECT_EQ(read_rows(TableText("0,1,2.5e-03\n1,3,4.5e-03\n2,5,6.5e-0"), rows, "f.csv").values.rows(), 2);
+  EXPECT_EQ(read_rows(TableText("0,1,2.5e-03\n1,3,4.5e-03\n2,5,6.5"), rows, "f.csv").values.rows(), 2);
+  // Where the number of decimals varies, fewer decimals are no sign of a cut.
+  EXPECT_EQ(read_rows(TableText("0,1,2.5\n1,3,4.25\n2,5,6.5"), rows, "f.csv").values.rows(), 3);
   EXPECT_EQ(read_rows(TableText("0,1,2\n1,3\n"), rows, "f.csv").values.rows(), 1);
+  rows.rows_said = 4.0;
+  EXPECT_EQ(read_rows(TableText(text), rows, "f.csv").values.rows(), 2);
   rows.rows_said = 3.0;
   EXPECT_EQ(read_rows(TableText(text), rows, "f.csv").values.rows(), 3);
   // Its last number has fewer digits than the one above: the row is cut off, and then a row is missing.

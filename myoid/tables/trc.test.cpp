@@ -48,6 +48,46 @@ TEST(Trc, BecomesMetersWhateverTheUnit) {
   EXPECT_DOUBLE_EQ(parse_trc(text, "f.trc").markers.positions_m(0, 0), 100.0);
 }
 
+TEST(Trc, UnitsAreReadInAnyCase) {
+  for (const auto& [word, factor] : {std::pair("M", 1000.0), std::pair("MM", 1.0), std::pair("Cm", 10.0)}) {
+    std::string text = format_trc(two_markers(), "f.trc");
+    text.replace(text.find("\tmm\t"), 4, "\t" + std::string(word) + "\t");
+    EXPECT_NEAR(parse_trc(text, "f.trc").markers.positions_m(0, 0), 0.1 * factor, 1e-12) << word;
+  }
+}
+
+/// The rows of the file, from line 7 on, each with `before` in front.
+std::string with_before_rows(const std::string& text, const std::string& before) {
+  std::string result;
+  std::size_t line = 0;
+  for (std::size_t at = 0; at < text.size(); ++line) {
+    const std::size_t end = text.find('\n', at) + 1;
+    result += (line >= 6 ? before : "") + text.substr(at, end - at);
+    at = end;
+  }
+  return result;
+}
+
+TEST(Trc, RowsThatBeginWithATabAreNotShifted) {
+  const std::string text = format_trc(two_markers(), "f.trc");
+  const MarkerFile file = parse_trc(with_before_rows(text, "\t"), "f.trc");
+  EXPECT_EQ(file.markers.time_s, two_markers().time_s);
+  EXPECT_NEAR(file.markers.positions_m(0, 4), -0.5, 1e-15);
+  EXPECT_EQ(file.repairs.at(0).line, 7U);
+  // Without the times no rate explains the columns.
+  std::string other = with_before_rows(text, "\t");
+  other.replace(other.find("\n100\t"), 5, "\n250\t");
+  EXPECT_THAT(trc_message(other), HasSubstr("f.trc:7: "));
+}
+
+TEST(Trc, AColumnOfFramesIsNoTime) {
+  // The frame's number stands twice: its steps of 1 contradict the rate of 100 Hz.
+  std::string text = format_trc(two_markers(), "f.trc");
+  text.replace(text.find("\n1\t0"), 4, "\n1\t1");
+  text.replace(text.find("\n2\t0.01"), 7, "\n2\t2");
+  EXPECT_THAT(trc_message(text), HasSubstr("100 Hz"));
+}
+
 TEST(Trc, AMarkerAtExactlyZeroIsMissingAndThisIsSaid) {
   std::string text = format_trc(two_markers(), "f.trc");
   text.replace(text.find("100\t200\t300"), 11, "0\t0\t0");

@@ -118,6 +118,7 @@ struct Header {
   ScaledUnit unit;  ///< Unit of the coordinates.
   std::vector<std::string> names;
   std::size_t first_frame = 5;  ///< Index of the first line of numbers.
+  std::size_t shift = 0;        ///< Empty cells in front of every row.
   std::vector<Repair> repairs;
 
   [[nodiscard]] std::string field(const std::string& key) const {
@@ -139,7 +140,8 @@ Header read_header(const std::vector<std::string_view>& lines, const std::filesy
     header.repairs.push_back({2, "separated by commas instead of tabs"});
   }
   header.fields = read_fields(lines[1], lines[2], header.separator);
-  const auto unit = parse_unit(header.field("Units"));
+  const std::string word = header.field("Units");
+  const auto unit = parse_unit(word) ? parse_unit(word) : parse_unit(small_letters(word));
   if (!unit || unit->unit != Unit::meter) {
     throw ReadError(path, 3,
                     fmt::format("Units: found '{}', expected mm or m; correct the header", header.field("Units")));
@@ -151,11 +153,47 @@ Header read_header(const std::vector<std::string_view>& lines, const std::filesy
   if (trim(lines[4]).starts_with("X0")) header.repairs.push_back({5, "coordinates numbered from 0"});
   // Some exporters leave out the line X1 Y1 Z1 ...: then the fifth line is a frame.
   const auto fifth = split(lines[4], header.separator);
-  if (fifth.size() > 2 && parse_number(fifth[0]) && parse_number(fifth[1])) {
+  const std::size_t frame = !fifth.empty() && trim(fifth[0]).empty() ? 1 : 0;
+  if (fifth.size() > 2 + frame && parse_number(fifth[frame]) && parse_number(fifth[frame + 1])) {
     header.first_frame = 4;
     header.repairs.push_back({5, "the line X1 Y1 Z1 ... is missing"});
   }
+  while (header.first_frame < lines.size() &&
+         lines[header.first_frame].find_first_not_of(" \t,\r") == std::string_view::npos)
+    ++header.first_frame;
   return header;
+}
+
+/// Returns true if the rows have an empty cell in front of the frame's number: their first cell is always empty, their
+/// second counts the frames, and their third is a time in the stated rate. Throws ReadError where the first cell is
+/// always empty and the second counts like a frame, but the third is no such time.
+bool rows_are_shifted(const TableText& text, const Header& header, const std::filesystem::path& path) {
+  std::vector<double> second, third;
+  for (std::size_t n = header.first_frame; n < text.lines.size(); ++n) {
+    if (text.lines[n].find_first_not_of(" \t,\r") == std::string_view::npos) continue;
+    const auto cells = split(text.lines[n], header.separator);
+    if (cells.size() < 3 || !trim(cells[0]).empty()) return false;
+    const auto number = [&](std::string_view cell) {
+      const auto value = parse_number(cell);
+      return (value || header.separator == ',' ? value : parse_comma_number(trim(cell))).value_or(kNan);
+    };
+    second.push_back(number(cells[1]));
+    third.push_back(number(cells[2]));
+  }
+  if (second.size() < 2) return false;
+  bool counts = true;
+  for (std::size_t i = 0; i < second.size(); ++i)
+    counts = counts && second[i] == std::floor(second[i]) && (i == 0 || second[i] == second[i - 1] + 1.0);
+  if (!counts) return false;  // the frames have no numbers
+  const double said = parse_number(header.field("DataRate")).value_or(0.0);
+  const double rate = static_cast<double>(third.size() - 1) / (third.back() - third.front());
+  if (said > 0.0 && std::abs(rate - said) <= 0.05 * said) return true;
+  if (said > 0.0 && std::abs(said - 1.0) <= 0.05) return false;
+  throw ReadError(
+      path, header.first_frame + 1,
+      "the first cell of every row is empty and the second counts the frames, but the third is no time at {} "
+      "Hz; export the file again",
+      said);
 }
 
 /// Reads the frames and keeps the first line of each kind of repair.
@@ -172,7 +210,8 @@ class TrcFrames {
     values_.resize(static_cast<Eigen::Index>(lines.size()), static_cast<Eigen::Index>(width_));
     for (std::size_t n = header_.first_frame; n < lines.size(); ++n) {
       if (lines[n].find_first_not_of(" \t,\r") == std::string_view::npos) continue;
-      const auto cells = split(lines[n], header_.separator);
+      auto cells = split(lines[n], header_.separator);
+      cells.erase(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(std::min(header_.shift, cells.size())));
       const bool last = n + 1 == lines.size();
       if (last && !text.ends_with_line && !keeps_last(text, cells.size())) break;
       const double time = time_of(cells, lines[n], n + 1);
@@ -215,8 +254,8 @@ class TrcFrames {
   }
 
   bool keeps_last(const TableText& text, std::size_t cells) {
-    const bool complete = frames_said_ && cells >= width_ + 2 && *frames_said_ == static_cast<double>(time_.size() + 1);
-    const LastRow last = last_row_without_end(text, complete, time_.empty());
+    const bool counted = !frames_said_ || *frames_said_ == static_cast<double>(time_.size() + 1);
+    const LastRow last = last_row_without_end(text, counted && cells >= width_ + 2, time_.empty());
     repairs_.push_back(last.note);
     return last.kept;
   }
@@ -291,6 +330,13 @@ class TrcFrames {
     compare_count(frames_said_, frames, "frames", repairs_, 3);
     const double rate = frames < 2 ? 0.0 : static_cast<double>(frames - 1) / (time_.back() - time_[0]);
     const double said = parse_number(header_.field("DataRate")).value_or(0.0);
+    constexpr double kOtherQuantity = 20.0;
+    if (rate > 0.0 && said > 0.0 && (rate > kOtherQuantity * said || said > kOtherQuantity * rate))
+      throw ReadError(
+          path_, header_.first_frame + 1,
+          "the header says {} Hz, the column of the time {:.6g} Hz: that column is no time in seconds, or the "
+          "columns are shifted; correct the file",
+          said, rate);
     if (rate > 0.0 && said > 0.0 && std::abs(rate - said) > 0.05 * said)
       repairs_.push_back(
           {3, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", said, rate)});
@@ -318,13 +364,17 @@ class TrcFrames {
 
 MarkerFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   const TableText table(text);
-  const Header header = read_header(table.lines, path);
+  Header header = read_header(table.lines, path);
+  if (rows_are_shifted(table, header, path)) {
+    header.shift = 1;
+    header.repairs.push_back({header.first_frame + 1, "an empty cell stands in front of every row; passed over"});
+  }
   TrcFrames frames(header, path);
   frames.read(table);
   MarkerFile file;
   file.markers = frames.markers();
   file.unit = header.field("Units");
-  for (const auto* repairs : {&header.repairs, &frames.repairs()})
+  for (const std::vector<Repair>* repairs : {&std::as_const(header.repairs), &frames.repairs()})
     file.repairs.insert(file.repairs.end(), repairs->begin(), repairs->end());
   return file;
 }

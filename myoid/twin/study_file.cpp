@@ -5,7 +5,7 @@
 
 #include "myoid/arm/arm7.h"
 #include "myoid/core/units.h"
-#include "myoid/files/toml_text.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/twin/write_recording.h"
@@ -17,21 +17,20 @@ namespace {
 
 using recording::toml_text;
 
-void add_trial(const VirtualTrial& trial, RecordingFormat format, std::string& text) {
+void add_trial(const VirtualTrial& trial, const std::string& stem, RecordingFormat format, std::string& text) {
   const TrialProtocol& p = trial.protocol;
   const bool c3d = format == RecordingFormat::c3d;
-  text +=
-      fmt::format("\n[[trial]]\nname = {}\nmarkers = {}\nemg = {}\nuse = \"{}\"\n", toml_text(p.name),
-                  toml_text(p.name + (c3d ? ".c3d" : ".trc")), toml_text(p.name + (c3d ? ".c3d" : "_emg.sto")), p.use);
+  text += fmt::format("\n[[trial]]\nname = {}\nmarkers = {}\nemg = {}\nuse = \"{}\"\n", toml_text(p.name),
+                      toml_text(stem + (c3d ? ".c3d" : ".trc")), toml_text(stem + (c3d ? ".c3d" : "_emg.sto")), p.use);
   if (trial.external_torque) {
-    text += fmt::format("external_torque = {}\n", toml_text(p.name + "_torque.sto"));
+    text += fmt::format("external_torque = {}\n", toml_text(stem + "_torque.sto"));
   }
   text += fmt::format("held_mass_kg = {}\n", recording::toml_number(p.held_mass_kg));
 }
 
 void add_row(
     std::string& csv, std::string_view of, std::string_view quantity, std::string_view unit, const auto& value) {
-  csv += fmt::format("{},{},{},{}\n", of, quantity, unit, value);
+  csv += fmt::format("{},{},{},{}\n", recording::csv_cell(of), quantity, unit, value);
 }
 
 /// Returns the muscles of the model file that make up this one, as a TOML list's content.
@@ -109,7 +108,8 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
     text += speed_is_known ? "fixed = [\"max_shortening_speed\", \"tendon_slack_length\"]    # both are known\n"
                            : "fixed = [\"tendon_slack_length\"]    # the tendon is the model's\n";
   }
-  for (const VirtualTrial& trial : recording.trials) add_trial(trial, format, text);
+  const recording::NameIds stems = file_stems(recording);
+  for (const VirtualTrial& trial : recording.trials) add_trial(trial, stems.of(trial.protocol.name), format, text);
   text +=
       "\n[identify]\n"
       "method = [\"paper\", \"torque\"]\n"

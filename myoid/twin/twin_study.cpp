@@ -15,6 +15,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/quoted_text.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/run/prediction_gates.h"
@@ -275,7 +276,7 @@ std::string predictions_text(const TwinStudyResult& result) {
       "seed,trial,rmse_nm,nrmse_range,r2,smoothed_rmse_nm,smoothed_nrmse_range,smoothed_r2,band_rmse_nm,band_nrmse_"
       "range,band_r2\n";
   for (const TwinPrediction& p : result.predictions) {
-    predictions += fmt::format("{},{}", p.seed, p.trial);
+    predictions += fmt::format("{},{}", p.seed, recording::csv_cell(p.trial));
     for (const identification::Score* s : {&p.law, &p.smooth, &p.band})
       predictions += fmt::format(",{},{},{}", cell(s->rmse_nm()), cell(s->nrmse_range()), cell(s->r2()));
     predictions += "\n";

@@ -32,39 +32,48 @@ void prepare_directory(const fs::path& directory, bool overwrite) {
 
 void write_trial(const VirtualRecording& recording,
                  const VirtualTrial& trial,
+                 const std::string& stem,
                  const fs::path& directory,
                  RecordingFormat format) {
-  const std::string& name = trial.protocol.name;
   const std::string origin =
       fmt::format("virtual recording: protocol {}, seed {}", recording.protocol.name, recording.seed);
   const auto write = [&](const fs::path& file, const TimeSeries& series, const std::string& what) {
-    recording::write_storage(directory / file, series, {.title = what + " " + name, .comments = {origin}});
+    recording::write_storage(directory / file, series,
+                             {.title = what + " " + trial.protocol.name, .comments = {origin}});
   };
   if (format == RecordingFormat::c3d) {
-    recording::write_c3d(directory / (name + ".c3d"), recording::make_c3d(trial.markers, trial.emg));
+    recording::write_c3d(directory / (stem + ".c3d"), recording::make_c3d(trial.markers, trial.emg));
   } else {
-    recording::write_trc(directory / (name + ".trc"), trial.markers);
-    write(name + "_emg.sto", trial.emg, recording.protocol.level == Level::noise_free ? "activation" : "raw EMG [V]");
+    recording::write_trc(directory / (stem + ".trc"), trial.markers);
+    write(stem + "_emg.sto", trial.emg, recording.protocol.level == Level::noise_free ? "activation" : "raw EMG [V]");
   }
-  if (trial.external_torque) write(name + "_torque.sto", *trial.external_torque, "torque");
+  if (trial.external_torque) write(stem + "_torque.sto", *trial.external_torque, "torque");
 
   const fs::path truth = "truth";
-  write(truth / (name + "_motion.sto"), trial.truth.motion, "true motion");
-  write(truth / (name + "_torque.sto"), trial.truth.torque, "true torque");
-  write(truth / (name + "_activation.sto"), trial.truth.activation, "true activation");
-  write(truth / (name + "_force.sto"), trial.truth.force, "true force");
-  write(truth / (name + "_state.sto"), trial.truth.state, "cold and fatigue");
-  if (trial.truth.heads) write(truth / (name + "_heads.sto"), *trial.truth.heads, "true heads");
+  write(truth / (stem + "_motion.sto"), trial.truth.motion, "true motion");
+  write(truth / (stem + "_torque.sto"), trial.truth.torque, "true torque");
+  write(truth / (stem + "_activation.sto"), trial.truth.activation, "true activation");
+  write(truth / (stem + "_force.sto"), trial.truth.force, "true force");
+  write(truth / (stem + "_state.sto"), trial.truth.state, "cold and fatigue");
+  if (trial.truth.heads) write(truth / (stem + "_heads.sto"), *trial.truth.heads, "true heads");
 }
 
 }  // namespace
+
+recording::NameIds file_stems(const VirtualRecording& recording) {
+  std::vector<std::string> names;
+  for (const VirtualTrial& trial : recording.trials) names.push_back(trial.protocol.name);
+  return recording::NameIds(names);
+}
 
 void write_virtual_recording(const VirtualRecording& recording,
                              const fs::path& directory,
                              const WriteOptions& options) {
   prepare_directory(directory, options.overwrite);
   recording::write_file(directory / "model.osim", recording.model_osim);
-  for (const VirtualTrial& trial : recording.trials) write_trial(recording, trial, directory, options.format);
+  const recording::NameIds stems = file_stems(recording);
+  for (const VirtualTrial& trial : recording.trials)
+    write_trial(recording, trial, stems.of(trial.protocol.name), directory, options.format);
   recording::write_file(directory / "truth" / "person.csv", person_csv(recording));
   recording::write_file(directory / "truth.csv", truth_csv(recording));
   recording::write_file(directory / "study.toml", study_toml(recording, options.format));

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "myoid/files/name_ids.h"
 #include "myoid/twin/synthetic_recording.h"
 
 namespace myoid::twin {
@@ -12,6 +13,9 @@ enum class RecordingFormat {
   text,  ///< TRIAL.trc and TRIAL_emg.sto
   c3d,   ///< TRIAL.c3d holds both; 32-bit reals.
 };
+
+/// Returns the beginning of the names of each trial's files (TRIAL).
+[[nodiscard]] recording::NameIds file_stems(const VirtualRecording& recording);
 
 /// Returns the study file for `myoid run`, with comments for a reader.
 [[nodiscard]] std::string study_toml(const VirtualRecording& recording, RecordingFormat format = RecordingFormat::text);

@@ -14,6 +14,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
+#include "myoid/files/name_ids.h"
 #include "myoid/files/text_file.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/muscle/hill_parameters.h"
@@ -171,15 +172,8 @@ void read_isokinetic(TomlTable& table, TrialProtocol& trial) {
 /// Reads the name of a trial, its kind, and the keys of every kind.
 TrialProtocol read_kind(TomlTable& table) {
   TrialProtocol trial;
-  trial.name = table.require_text("name", "a short name: it becomes that of the files");
-  const bool plain = std::all_of(trial.name.begin(), trial.name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-  });
-  if (trial.name.empty() || !plain || trial.name.front() == '.') {
-    table.fail("name",
-               fmt::format("found \"{}\", expected letters, digits, '_' and '-' only: it becomes the name of files",
-                           trial.name));
-  }
+  trial.name = table.require_text("name", "a name; the names of the files are made from it");
+  if (const std::string reason = recording::name_refusal(trial.name); !reason.empty()) table.fail("name", reason);
   static_cast<void>(table.require_text("kind", fmt::format("one of {}", fmt::join(kTrialKindNames, ", "))));
   trial.kind = table.choice("kind", trial.kind);
   const bool isometric = trial.kind == TrialKind::isometric_ramp || trial.kind == TrialKind::isokinetic;

@@ -158,12 +158,13 @@ class CheckResult:
         return self.errors == 0
 
 
-def check(study: File, *, up: str | None = None, start: float | None = None, end: float | None = None,
-          progress: Report = None) -> CheckResult:  # fmt: skip
-    """Reads every input of a study, or a single recording, and lists its faults; computes nothing.
+def check(study: File, *, model: File | None = None, up: str | None = None, start: float | None = None,
+          end: float | None = None, progress: Report = None) -> CheckResult:  # fmt: skip
+    """Reads every input of a study, a single recording or motion, or a model, and lists its faults; computes nothing.
 
     Args:
-        study: study.toml, or a recording.
+        study: study.toml, a recording, or a model (.osim).
+        model: Model of a motion (.mot, .sto), a file or "arm4"; None: unknown.
         up: Vertical of a recording's laboratory: "x", "-y", ...; None: as the file says.
     """
     return CheckResult(**call("check", locals()))
@@ -683,14 +684,16 @@ class ToolResult:
 
 
 def run_tool(setup: File, *, model: File | None = None, motion: File | None = None,
-             external_loads: File | None = None, out: File | None = None, compat: str | None = None,
-             threads: int | None = None, progress: Report = None) -> ToolResult:  # fmt: skip
+             external_loads: File | None = None, out: File | None = None, anywhere: bool = False,
+             compat: str | None = None, threads: int | None = None,
+             progress: Report = None) -> ToolResult:  # fmt: skip
     """Runs an OpenSim set-up file: inverse kinematics, inverse dynamics, analyses, scaling.
 
     Args:
         setup: Set-up file (.xml).
         model, motion, external_loads: Files in place of the set-up's.
         out: Folder of the results, in place of the set-up's.
+        anywhere: Also write outside the folder of the set-up, where the set-up says so.
         compat: "opensim" (default) or "exact".
     """
     found = call("run_tool", locals())
@@ -699,7 +702,8 @@ def run_tool(setup: File, *, model: File | None = None, motion: File | None = No
 
 
 def scale(setup: File, *, model: File | None = None, motion: File | None = None, out: File | None = None,
-          threads: int | None = None, progress: Report = None) -> ToolResult:  # fmt: skip
+          anywhere: bool = False, threads: int | None = None,
+          progress: Report = None) -> ToolResult:  # fmt: skip
     """Scales a model by a set-up file of OpenSim's ScaleTool (`run_tool` for this one tool).
 
     Args:
@@ -707,6 +711,7 @@ def scale(setup: File, *, model: File | None = None, motion: File | None = None,
         model: Generic model, in place of the set-up's.
         motion: Markers for placing the model's markers (.trc), in place of the set-up's.
         out: Folder of the results, in place of the set-up's.
+        anywhere: As of `run_tool`.
     """
     options = locals()
     try:

@@ -161,13 +161,24 @@ class Model:
         found = self._model.muscle_kinematics(spread(given), spread(rates), count)
         return MuscleKinematics(muscles=list(self.muscles), **found)
 
-    def lengths(self, posture: Mapping[str, float] | None = None) -> dict[str, float]:
-        """Musculotendon lengths [m] by muscle at one posture [rad or m by coordinate]."""
-        found = self.muscle_kinematics(posture)
-        return dict(zip(found.muscles, map(float, found.length[0])))
+    def lengths(self, posture: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """Musculotendon lengths [m] by muscle.
 
-    def moment_arms(self, coordinate: str, posture: Mapping[str, float] | None = None) -> dict[str, float]:
-        """Moment arms r = -dl/dq [m] about a coordinate by muscle at one posture [rad or m by coordinate].
+        A posture of numbers gives a number for each muscle; where a coordinate has an array, each muscle has an array
+        of the same length.
+
+        Args:
+            posture: As of `muscle_kinematics` [rad or m].
+        """
+        found = self.muscle_kinematics(posture)
+        return _by_muscle(found.muscles, found.length, posture)
+
+    def moment_arms(self, coordinate: str, posture: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """Moment arms r = -dl/dq [m] about a coordinate by muscle; numbers or arrays, as `lengths`.
+
+        Args:
+            coordinate: Name of the coordinate.
+            posture: As of `muscle_kinematics` [rad or m].
 
         Raises:
             ModelError: The coordinate does not exist or is locked.
@@ -178,4 +189,13 @@ class Model:
         if coordinate not in found.moment_arm:
             names = ", ".join(found.moment_arm)
             raise ModelError(f"there are no moment arms about {coordinate!r}; there are about {names}")
-        return dict(zip(found.muscles, map(float, found.moment_arm[coordinate][0])))
+        return _by_muscle(found.muscles, found.moment_arm[coordinate], posture)
+
+
+def _by_muscle(muscles: list[str], values: np.ndarray, posture: Mapping[str, Any] | None) -> dict[str, Any]:
+    """The columns by muscle: arrays where the posture holds an array, else numbers."""
+    import numpy as np
+
+    if any(np.ndim(value) > 0 for value in (posture or {}).values()):
+        return {muscle: values[:, i] for i, muscle in enumerate(muscles)}
+    return {muscle: float(values[0, i]) for i, muscle in enumerate(muscles)}

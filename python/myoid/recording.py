@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from .series import Markers, TimeSeries
+from .series import Markers, TimeSeries, in_radians
 
 if TYPE_CHECKING:
     import numpy as np
@@ -132,9 +132,10 @@ def read(path: str | os.PathLike[str]) -> Recording:
 
 
 def read_series(path: str | os.PathLike[str]) -> TimeSeries:
-    """Reads a table (.csv, .tsv, .txt) or a storage file (.sto, .mot) as one series, in the units of the file.
+    """Reads a table (.csv, .tsv, .txt) or a storage file (.sto, .mot) as one series.
 
-    Angles of a .mot file stay in degrees where the file has degrees.
+    Numbers are in the units of the file, but angles are in radians: columns of a storage file with `inDegrees=yes`
+    that are neither translations (`pelvis_tx`) nor forces or EMG by their names are converted.
 
     Args:
         path: The file.
@@ -143,4 +144,4 @@ def read_series(path: str | os.PathLike[str]) -> TimeSeries:
         ReadError: The file cannot be read.
     """
     series, _ = _native.read_series(os.fspath(path))
-    return series
+    return in_radians(series)

@@ -7,6 +7,7 @@ import json
 import os
 import shutil
 import tempfile
+import zlib
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from .draws import Draws
 from .errors import InvalidInput
-from .series import Table, TimeSeries
+from .series import Table, TimeSeries, in_radians
 
 if TYPE_CHECKING:
     import pandas
@@ -38,6 +39,31 @@ class _Folder:
         self._temporary = tempfile.TemporaryDirectory(prefix="myoid.") if folder is None else None
         self.path = Path(self._temporary.name if self._temporary else os.fspath(folder or ""))
 
+    def __getstate__(self) -> dict[str, Any]:
+        """A pickle carries the files of a temporary folder, and the tables of a folder that the user named."""
+        kept = (lambda file: True) if self._temporary else _is_table
+        files = {
+            file.relative_to(self.path).as_posix(): zlib.compress(file.read_bytes())
+            for file in sorted(self.path.rglob("*"))
+            if file.is_file() and not any(part.startswith(".") for part in file.relative_to(self.path).parts)
+            and kept(file.relative_to(self.path))
+        }
+        return {"path": None if self._temporary else os.fspath(self.path.absolute()), "files": files}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """The named folder is opened where it is there; otherwise the files come to a temporary folder."""
+        there = state["path"] is not None and Path(state["path"]).is_dir()
+        self.__init__(state["path"] if there else None)  # type: ignore[misc]
+        if there:
+            return
+        for name, content in state["files"].items():
+            (self.path / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.path / name).write_bytes(zlib.decompress(content))
+
+
+def _is_table(file: Path) -> bool:
+    return file.suffix == ".csv" or file.as_posix() in ("run.json", "parameters.json", "report.json")
+
 
 class Trial(Mapping[str, TimeSeries]):
     """The series of one trial by the names of their files: `trial["ik"]`, `trial["id"]`, `trial["activation"]`,
@@ -51,18 +77,27 @@ class Trial(Mapping[str, TimeSeries]):
 
     def __init__(self, folder: Path, name: str, use: str = "", failure: str = "") -> None:
         self.folder, self.name, self.use, self.failure = folder, name, use, failure
+        self._carried: dict[str, TimeSeries] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A pickle carries the series."""
+        state = {k: v for k, v in self.__dict__.items() if k != "_files"}
+        return {**state, "_carried": dict(self)}
 
     @cached_property
     def _files(self) -> dict[str, Path]:
-        return {p.stem: p for p in sorted(self.folder.glob("*")) if p.suffix in (".sto", ".mot")}
+        found = {p.stem: p for p in sorted(self.folder.glob("*")) if p.suffix in (".sto", ".mot")}
+        return found or {name: self.folder / name for name in self._carried}
 
     def __getitem__(self, name: str) -> TimeSeries:
-        """One series, in the units of its file: angles in degrees."""
+        """One series in SI units: angles in radians."""
         from ._native import read_result
 
         if name not in self._files:
             raise KeyError(f"trial {self.name!r} has no series {name!r}; there are {', '.join(self._files)}")
-        return read_result(os.fspath(self._files[name]))
+        if name in self._carried:
+            return self._carried[name]
+        return in_radians(read_result(os.fspath(self._files[name])))
 
     def __iter__(self) -> Any:
         return iter(self._files)
@@ -100,6 +135,12 @@ class Result:
         result._hold(folder, found)
         return result
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {"folder": self._folder, "found": self.found}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._hold(state["folder"], state["found"])
+
     def _hold(self, folder: _Folder, found: Mapping[str, Any] | None) -> None:
         self._folder = folder
         self.path = folder.path
@@ -127,7 +168,7 @@ class Result:
     def trials(self) -> dict[str, Trial]:
         """The trials by name, with their series."""
         return {
-            t["name"]: Trial(self.path / t["name"], t["name"], t.get("use", ""), t.get("failure", "") or "")
+            t["name"]: Trial(self.path / t.get("folder", t["name"]), t["name"], t.get("use", ""), t.get("failure", "") or "")
             for t in self.run["trials"]
         }
 
@@ -179,8 +220,7 @@ class Result:
     @property
     def model(self) -> Path | None:
         """The identified model (.osim); None where there is none."""
-        file = self.path / "model_identified.osim"
-        return file if file.is_file() else None
+        return next(iter(sorted(self.path.glob("*_identified.osim"))), None)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Copies all files into a new folder."""
@@ -244,7 +284,6 @@ class PredictResult:
     """Torques and muscle forces of trials by the fit of a run, with 95 % bands.
 
     Attributes:
-        path: The folder of the files.
         trials: By name, with the series "predicted_torque_<joint>" (channels <joint>_measured, _predicted, _low, _high
             [N m]) and "predicted_forces" (each muscle, _low, _high [N]).
         remarks: Remarks of the call.
@@ -252,9 +291,18 @@ class PredictResult:
 
     def __init__(self, folder: _Folder, found: Mapping[str, Any]) -> None:
         self._folder = folder
-        self.path = folder.path
-        self.trials = {name: Trial(self.path / name, name) for name in found["trials"]}
         self.remarks = found["remarks"]
+
+    @property
+    def path(self) -> Path:
+        """The folder of the files."""
+        return self._folder.path
+
+    @property
+    def trials(self) -> dict[str, Trial]:
+        """The trials by name."""
+        made = json.loads((self.path / "predictions.json").read_text(encoding="utf-8"))
+        return {t["trial"]: Trial(self.path / t["folder"], t["trial"]) for t in made["trials"]}
 
     @cached_property
     def scores(self) -> Table:
@@ -281,7 +329,6 @@ class TwinStudyResult:
     """Errors of the method over virtual persons.
 
     Attributes:
-        path: The folder of the files.
         level: "L0", "L1" or "L2".
         finished: Number of persons that were finished.
         failures: Seed and message of each person who failed.
@@ -290,11 +337,15 @@ class TwinStudyResult:
 
     def __init__(self, folder: _Folder, found: Mapping[str, Any]) -> None:
         self._folder = folder
-        self.path = folder.path
         self.level: str = found["level"]
         self.finished: int = found["finished"]
         self.failures: list[tuple[int, str]] = found["failures"]
         self.remarks = found["remarks"]
+
+    @property
+    def path(self) -> Path:
+        """The folder of the files."""
+        return self._folder.path
 
     @cached_property
     def summary(self) -> Table:

@@ -94,6 +94,17 @@ class TimeSeries:
         return array
 
 
+def in_radians(series: TimeSeries) -> TimeSeries:
+    """Writes the channels in degrees of a series that nobody else holds in radians; returns the series."""
+    import math
+
+    for i, unit in enumerate(series.units):
+        if unit == "deg":
+            series.values[:, i] *= math.pi / 180.0
+            series.units[i] = "rad"
+    return series
+
+
 @dataclass(eq=False)
 class Markers:
     """Markers over time, in the frame of the laboratory.
@@ -179,6 +190,7 @@ class Table(Sequence[Mapping[str, Any]]):
     @classmethod
     def read(cls, path: str | Path) -> Table:
         """Reads a table (.csv) of Myoid."""
+        csv.field_size_limit(2**31 - 1)  # names may be long
         with open(path, encoding="utf-8", newline="") as file:
             reader = csv.reader(line for line in file if not line.startswith("#"))
             columns = next(reader, [])

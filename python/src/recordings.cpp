@@ -8,6 +8,7 @@
 
 #include "myoid/commands/convert.h"
 #include "myoid/commands/info.h"
+#include "myoid/files/file_format.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/recording.h"
 #include "myoid/tables/result_units.h"
@@ -147,8 +148,20 @@ void bind_recordings(py::module_& module) {
     return alone([&] { return std::make_shared<Recording>(recording::read_recording(path)); });
   });
   module.def("read_series", [](const std::string& path) {
-    recording::SeriesFile file = alone([&] { return recording::read_series(path); });
-    return py::make_tuple(to_python(std::move(file.data)), to_texts(file.repairs));
+    if (recording::format_of(path) != recording::FileFormat::storage) {
+      recording::SeriesFile file = alone([&] { return recording::read_series(path); });
+      return py::make_tuple(to_python(std::move(file.data)), to_texts(file.repairs));
+    }
+    recording::Storage file = alone([&] { return recording::read_storage(path); });
+    const std::vector<Channel> channels = file.data.channels();
+    std::vector<bool> degrees;
+    for (const Channel& channel : channels) degrees.push_back(recording::is_angle_in_degrees(file, channel.name));
+    py::list repairs = py::cast(to_texts(file.repairs));
+    py::object series = to_python(std::move(file.data));
+    py::list units = series.attr("units");
+    for (std::size_t i = 0; i < degrees.size(); ++i)
+      if (degrees[i]) units[i] = "deg";
+    return py::make_tuple(series, repairs);
   });
   module.def("read_result", [](const std::string& path) {
     recording::Storage file = alone([&] { return recording::read_storage(path); });

@@ -16,16 +16,21 @@ namespace myoid::python {
 /// The folder of a command's results; nothing where the user named none.
 class ResultOut {
  public:
-  ResultOut(const std::string& folder, const commands::Call& call, bool overwrite, std::string_view unless_only = "") {
+  ResultOut(const std::string& folder, const commands::Call& call, bool overwrite, std::string_view unless_only = "")
+      : call_(call) {
     if (folder.empty()) return;
     folder_.emplace(folder, call.command, overwrite, unless_only);
     if (!folder_->note().empty()) commands::Remarks(call).note(folder_->note());
   }
   void finish() {
-    if (folder_) folder_->finish();
+    if (!folder_) return;
+    folder_->finish();
+    commands::Remarks remarks(call_);
+    for (std::string& note : folder_->take_notes()) remarks.note(std::move(note));
   }
 
  private:
+  commands::Call call_;
   std::optional<recording::ResultFolder> folder_;
 };
 

@@ -112,7 +112,8 @@ py::dict ik(py::dict given) {
   commands::IkResult result = work.run([&] {
     if (!out.empty()) {
       commands::check_output(out, {o.model, o.markers}, overwrite);
-      commands::check_output(commands::marker_errors_path(out), {o.model, o.markers}, overwrite);
+      commands::check_companion(commands::marker_errors_path(out), {o.model, o.markers}, overwrite,
+                                commands::kMarkerErrorsBegin);
     }
     commands::IkResult r = commands::ik(o);
     if (!out.empty()) commands::write_ik(r, out);
@@ -258,6 +259,7 @@ py::dict run_tool(py::dict given) {
   take_path("motion", o.files.motion);
   take_path("external_loads", o.files.external_loads);
   take_path("out", o.files.out);
+  k.take("anywhere", o.anywhere);
   k.word("compat", o.compat, {"opensim", "exact"});
   k.refuse_others();
   o.call = work.call();

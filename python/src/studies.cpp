@@ -57,6 +57,7 @@ py::dict check(py::dict given) {
   Work work(k);
   commands::CheckOptions o;
   k.take("study", o.input);
+  k.take("model", o.model);
   k.word("up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
   k.refuse_others();
   o.call = work.call();

@@ -13,6 +13,7 @@
 #include <pybind11/pybind11.h>
 
 #include "myoid/commands/call.h"
+#include "myoid/files/input_log.h"
 
 #include "keywords.h"
 
@@ -39,7 +40,10 @@ class Work {
   template <typename Action>
   auto run(Action action) {
     std::optional<std::invoke_result_t<Action>> result;
-    attend([&] { result.emplace(action()); });
+    attend([&] {
+      const recording::InputLog inputs;
+      result.emplace(action());
+    });
     return std::move(*result);
   }
 

@@ -36,6 +36,14 @@ function test_myoid(work)
   assert(~forces.in_degrees && any(strcmp(forces.names, 'TRI_identified')));
   assert(strcmp(r.run.program, 'myoid'));
 
+  % Names are the user's.
+  text = strrep(fileread(fullfile(recording, 'study.toml')), 'name = "lift"', 'name = "slow 2 kg / [x]"');
+  handle = fopen(fullfile(recording, 'odd names.toml'), 'w');
+  fwrite(handle, text);
+  fclose(handle);
+  odd = myoid.run(fullfile(recording, 'odd names.toml'), fullfile(work, 'odd'));
+  assert(isfield(odd.trials(strcmp({odd.trials.name}, 'slow 2 kg / [x]')).series, 'ik'));
+
   % The same numbers again by read_results, and by the file itself.
   again = myoid.read_results(out);
   assert(isequaln(again.parameters, p));
@@ -63,12 +71,69 @@ function test_myoid(work)
                      'torques', {fullfile(trial, 'id.sto')}, 'coordinate', 'elbow_flexion', 'method', 'torque');
   assert(any(strcmp(q.muscle, 'TRI')));
 
+  reads_rows_one_by_one(work);
+  refuses_values_it_does_not_understand();
+
   % Errors map one to one and carry the program's own words.
   fails(@() myoid.run(fullfile(work, 'none.toml'), fullfile(work, 'x')), 'myoid:badInput', 'no such file');
   fails(@() myoid.run(fullfile(recording, 'study.toml'), out, 'no_such_option', 1), 'myoid:commandLine', '');
   fails(@() myoid.read_results(work), 'myoid:badInput', 'run.json');
   fails(@() myoid.read_sto(protocol), 'myoid:badInput', 'endheader');
   disp('matlab/+myoid: all tests passed');
+end
+
+function reads_rows_one_by_one(work)
+  % Every row has a number for every column, or its line is named: nothing moves into another column.
+  head = ['Coordinates' char(10) 'version=1' char(10) 'inDegrees=yes' char(10) 'endheader' char(10)];
+  labels = ['time' char(9) 'a' char(9) 'b' char(10)];
+  file = fullfile(work, 'rows.sto');
+  write_text(file, [head labels sprintf('0\t1\t2\n0.5\t3\tnan\n\n1\t-5e-3\t6')]);
+  d = myoid.read_sto(file);
+  assert(isequal(d.names, {'a', 'b'}) && isequal(d.time, [0; 0.5; 1]) && d.in_degrees);
+  assert(isequaln(d.values, [1 2; 3 NaN; -5e-3 6]));
+  % An empty cell in one row and a cell too many in the next: as many numbers as before.
+  for body = {sprintf('0\t\t2\n0.5\t3\t4\t1\n'), sprintf('0\t1\t2\n0.5\t3\n1\t4\t5\t6\n'), ...
+              sprintf('0\t1\t2\n0.5\tx\t4\n'), sprintf('0\t1\t2\n0.5\t1-2\n'), sprintf('0\t1\t2\n0.5\t1,5\t2\n')}
+    write_text(file, [head labels body{1}]);
+    fails(@() myoid.read_sto(file), 'myoid:badInput', 'rows.sto:');
+  end
+  write_text(file, [head labels sprintf('0\t1\t2\n0\t3\t4\n')]);
+  fails(@() myoid.read_sto(file), 'myoid:badInput', 'time does not increase');
+  write_text(file, ['x' char(10) 'nRows=3' char(10) 'endheader' char(10) labels sprintf('0\t1\t2\n0.5\t3\t4\n')]);
+  lastwarn('', '');
+  myoid.read_sto(file);
+  [~, identifier] = lastwarn();
+  assert(strcmp(identifier, 'myoid:rowCount'), 'a count that disagrees is a warning, as for the program');
+  write_text(file, ['DataType=Vec3' char(10) 'endheader' char(10) labels sprintf('0\t1,2,3\t4,5,6\n')]);
+  fails(@() myoid.read_sto(file), 'myoid:badInput', 'Vec3');
+  write_text(file, ['x' char(10) 'inDegrees=maybe' char(10) 'endheader' char(10) labels sprintf('0\t1\t2\n')]);
+  fails(@() myoid.read_sto(file), 'myoid:badInput', 'maybe');
+  motion = fullfile(work, 'simm.mot');
+  write_text(motion, ['name m' char(10) 'datacolumns 3' char(10) 'datarows 1' char(10) 'endheader' char(10) labels ...
+                      sprintf('0\t10\t2\n')]);
+  d = myoid.read_sto(motion);
+  assert(d.in_degrees, 'a .mot without a version is in degrees, as for the program');
+  parameters = fullfile(work, 'parameters.csv');
+  write_text(parameters, sprintf('muscle,estimate\nBIC,1.5\nTRI,1;5\n'));
+  fails(@() myoid.read_parameters(parameters), 'myoid:badInput', '1;5');
+  write_text(parameters, sprintf('muscle,estimate\nBIC\n'));
+  fails(@() myoid.read_parameters(parameters), 'myoid:badInput', 'row 2 has 1 cells');
+end
+
+function refuses_values_it_does_not_understand()
+  % [1 2] is two words, not 12: --threads takes one, and the other is a file that is not there.
+  fails(@() myoid.call('info', {}, 'threads', [1 2]), 'myoid:badInput', '2: there is no such file');
+  for value = {struct('a', 1), 1 + 2i, [], {}, {[1 2]}, @sin, ['ab'; 'cd'], [true false]}
+    fails(@() myoid.call('info', {}, 'threads', value{1}), 'myoid:commandLine', 'option threads');
+  end
+  fails(@() myoid.call('info', {}, 'threads'), 'myoid:commandLine', 'pairs');
+  fails(@() myoid.call('info', {}, 3, 4), 'myoid:commandLine', 'name of an option');
+end
+
+function write_text(file, text)
+  f = fopen(file, 'w');
+  fwrite(f, text);
+  fclose(f);
 end
 
 function has_the_same_in_one_file(study, work)

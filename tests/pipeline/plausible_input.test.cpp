@@ -1,7 +1,9 @@
 // Input that would give a wrong number is refused or named, by every command that meets it.
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -109,6 +111,81 @@ TEST(PlausibleInput, AHeldMassWithoutItsDecimalPointIsSaidByCheckAndRun) {
   replace_in(rec / "study.toml", "held_mass_kg = 1", "held_mass_kg = 50");
   EXPECT_THAT(myoid({"check", rec / "study.toml"}).out, HasSubstr("decimal point"));
   EXPECT_THAT(myoid({"run", rec / "study.toml", "--out", folder / "out"}).err, HasSubstr("decimal point"));
+}
+
+/// A motion of the built-in arm with all coordinates: the elbow swings by 50 degrees at 0.5 Hz for 5 s.
+std::string arm_motion(double time_factor, double angle_factor) {
+  std::string text =
+      "Coordinates\nversion=1\nnRows=501\nnColumns=5\ninDegrees=yes\nendheader\n"
+      "time\tshoulder_flexion\tshoulder_adduction\tshoulder_rotation\telbow_flexion\n";
+  for (int i = 0; i <= 500; ++i) {
+    const double time_s = 0.01 * i;
+    char line[200];
+    std::snprintf(line, sizeof line, "%.9g\t0\t0\t0\t%.9g\n", time_factor * time_s,
+                  angle_factor * (60.0 + 50.0 * std::sin(3.14159265358979 * time_s)));
+    text += line;
+  }
+  return text;
+}
+
+TEST(PlausibleInput, AMotionThatCannotBeIsSaidAlikeByEveryCommandThatMeetsIt) {
+  const TemporaryFolder folder;
+  write_text(folder / "usual.mot", arm_motion(1.0, 1.0));
+  write_text(folder / "clock.mot", arm_motion(1e-3, 1.0));
+  write_text(folder / "unit.mot", arm_motion(1.0, 3.14159265358979 / 180.0));
+  for (const std::string command : {"id", "so", "paths"}) {
+    const auto said = [&](const std::string& motion) {
+      const std::string out = folder / (command + motion + (command == "id" ? ".sto" : ""));
+      return myoid({command, "--model", "arm4", "--motion", folder / motion, "--out", out}).err;
+    };
+    EXPECT_THAT(said("usual.mot"), AllOf(Not(HasSubstr("nobody does")), Not(HasSubstr("another unit"))));
+    EXPECT_THAT(said("clock.mot"), AllOf(HasSubstr("'elbow_flexion' moves faster than"), HasSubstr("nobody does")));
+    EXPECT_THAT(said("unit.mot"), HasSubstr("if these are radians"));
+  }
+  EXPECT_THAT(myoid({"id", "--model", "arm4", "--motion", folder / "clock.mot", "--out", folder / "c.sto"}).err,
+              HasSubstr("N m at elbow_flexion, beyond what the strongest person's muscles and weight do"));
+  const Finished usual = myoid({"check", folder / "usual.mot", "--model", "arm4"});
+  EXPECT_EQ(usual.exit_code, 0) << usual.out;
+  EXPECT_THAT(usual.out, HasSubstr("0 errors, 0 remarks"));
+  for (const char* model : {"", "arm4"}) {
+    std::vector<std::string> check{"check", folder / "clock.mot"};
+    if (*model != '\0') check.insert(check.end(), {"--model", model});
+    const Finished clock = myoid(check);
+    EXPECT_EQ(clock.exit_code, 3);
+    EXPECT_THAT(clock.out, AllOf(HasSubstr("'elbow_flexion' moves faster than"), HasSubstr("nobody does")));
+  }
+  EXPECT_THAT(myoid({"check", folder / "unit.mot"}).out, HasSubstr("if these are radians"));
+}
+
+TEST(PlausibleInput, AModelThatCannotBeIsSaidAlike) {
+  const TemporaryFolder folder;
+  write_text(folder / "usual.mot", arm_motion(1.0, 1.0));
+  const auto rec = two_trials(folder);
+  ASSERT_TRUE(std::filesystem::exists(rec / "model.osim"));
+  for (const auto& [from, to, says] :
+       {std::tuple{"<gravity>0 -9.80665 0", "<gravity>0 -6e13 0", "the gravity of the model is 6e+13 m/s2"},
+        std::tuple{"<mass>36.5", "<mass>36500", ", more than any person: are its masses in grams?"}}) {
+    std::filesystem::copy_file(rec / "model.osim", folder / "m.osim",
+                               std::filesystem::copy_options::overwrite_existing);
+    replace_in(folder / "m.osim", from, to);
+    EXPECT_THAT(
+        myoid({"id", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "c.sto"}).err,
+        HasSubstr(says));
+    EXPECT_THAT(
+        myoid({"paths", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "p"}).err,
+        HasSubstr(says));
+    const Finished check = myoid({"check", folder / "m.osim"});
+    EXPECT_EQ(check.exit_code, 3);
+    EXPECT_THAT(check.out, HasSubstr(says));
+  }
+}
+
+TEST(PlausibleInput, LoadsThatNobodyStatedAreSaidByCheckAndByTheGateOfRun) {
+  const TemporaryFolder folder;
+  const auto rec = two_trials(folder);
+  EXPECT_THAT(myoid({"check", rec / "study.toml"}).out, Not(HasSubstr("what was held")));
+  replace_in(rec / "study.toml", "held_mass_kg = 1", "# held_mass_kg = 1");
+  EXPECT_THAT(myoid({"check", rec / "study.toml"}).out, HasSubstr("does not say what was held, carried or pushed in"));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 """Studies: the numbers of the program, results as people read them, errors, Ctrl-C."""
 
 import _thread
+import copy
+import pickle
 import re
+import shutil
 import threading
 import time
 import warnings
@@ -25,6 +28,20 @@ def test_run_gives_the_numbers_of_the_program_to_the_last_bit(recording, result,
     assert len(myoid.Table.read(recording.parent / "truth.csv")) > 10
 
 
+def test_names_are_the_users(recording, tmp_path):
+    trial, muscle = "slow 2 kg / 李", "BIC, 'long' #1"
+    study = recording.parent / "odd names.toml"
+    text = recording.read_text(encoding="utf-8")
+    text = text.replace('name = "lift"', f'name = "{trial}"').replace('name = "BIC"', f'name = "{muscle}"')
+    study.write_text(text, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        result = myoid.run(study, out=tmp_path / "r")
+    assert result.trials[trial]["ik"]["elbow_flexion"].max() > 1.57
+    assert f"{muscle}_identified" in result.trials[trial]["identified_forces"].channels
+    assert result.parameter(muscle, "max_isometric_force")["unit"] == "N"
+
+
 def test_a_temporary_folder_goes_with_its_result(recording):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", myoid.MyoidWarning)
@@ -45,7 +62,7 @@ def test_a_result_reads_its_folder(result, tmp_path):
     lift = result.trials["lift"]
     assert lift.use and not lift.failure
     angle = lift["ik"]
-    assert angle["elbow_flexion"].max() > 90 and angle.rate == pytest.approx(100, rel=0.5)
+    assert angle["elbow_flexion"].max() > 1.57 and angle.rate == pytest.approx(100, rel=0.5)
     assert "identified_forces" in lift and len(lift) == len(list(lift))
     with pytest.raises(KeyError, match="there are"):
         lift["none"]
@@ -57,6 +74,28 @@ def test_a_result_reads_its_folder(result, tmp_path):
     assert list(again.parameters) == list(result.parameters) and again.gates is None
     assert (result.save(tmp_path / "copy") / "report.html").read_bytes() == result.report.read_bytes()
     assert "numbers identified" in repr(result)
+
+
+def test_a_pickled_result_carries_its_tables_and_series(result, tmp_path):
+    # `result` has no folder of its own name: the copy has all files, in another folder, and outlives the first.
+    there = pickle.loads(pickle.dumps(result))
+    assert there.path != result.path and list(there.parameters) == list(result.parameters)
+    assert np.array_equal(there.trials["lift"]["ik"].values, result.trials["lift"]["ik"].values)
+    assert there.report.read_bytes() == result.report.read_bytes() and there.run == result.run
+    lift = pickle.loads(pickle.dumps(result.trials["lift"]))
+    assert list(lift) == list(result.trials["lift"])
+    assert np.array_equal(lift["id"].values, result.trials["lift"]["id"].values)
+    # A named folder is opened where it is; where it is gone, the tables are there.
+    named = myoid.Result(result.save(tmp_path / "named"))
+    packed = pickle.dumps(named)
+    assert pickle.loads(packed).path == (tmp_path / "named").absolute()
+    shutil.rmtree(tmp_path / "named")
+    gone = pickle.loads(packed)
+    assert list(gone.parameters) == list(result.parameters) and gone.run == result.run
+    assert list(gone.tables) == list(result.tables) and not gone.report.is_file()
+    copied = copy.copy(gone)
+    del gone
+    assert len(copied.parameters) == len(result.parameters)
 
 
 def test_a_notebook_shows_bars_and_the_report_without_a_server(result):

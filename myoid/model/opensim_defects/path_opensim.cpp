@@ -122,8 +122,10 @@ Vec3 velocity(const PosedPath& posed, const PathStation& s) {
   const BodyState& state = posed.state;
   const std::size_t b = at(s.body);
   Vec3 v = state.v_GB[b] + state.w_GB[b].cross(state.X_GB[b].R * s.p_B);
-  if (const PathPoint* point = moving_point(posed.path, s))
-    v += state.qdot[point->moving->coordinate] * moving_rate(posed, *point, true);
+  if (const PathPoint* point = moving_point(posed.path, s)) {
+    for_each_moving_rate(posed, *point, true,
+                         [&](int coordinate, const Vec3& rate) { v += state.qdot[coordinate] * rate; });
+  }
   return v;
 }
 

@@ -1,7 +1,7 @@
 // All channels of a trial at a glance: rows of channels, columns of time, dark is high.
 import { el } from './element.js';
 import { reading } from './texts.js';
-import { escape, save, svgFile } from './save.js';
+import { cell, escape, save, svgFile } from './save.js';
 import { text, ticks } from './series.js';
 
 const ROW = 13;
@@ -151,7 +151,7 @@ export class Carpet {
     const lines = ['channel,kind,unit,begin_s,end_s,greatest'];
     for (const row of rows) {
       const width = (end - begin) / row.values.length;
-      row.values.forEach((v, k) => lines.push(`${row.name},${row.kind},${row.unit},${(begin + k * width).toFixed(4)},${(begin + (k + 1) * width).toFixed(4)},${Number.isFinite(v) ? Number(v.toPrecision(6)) : ''}`));
+      row.values.forEach((v, k) => lines.push(`${cell(row.name)},${row.kind},${row.unit},${(begin + k * width).toFixed(4)},${(begin + (k + 1) * width).toFixed(4)},${Number.isFinite(v) ? Number(v.toPrecision(6)) : ''}`));
     }
     save(`${this.trial.name}_channels.csv`, lines.join('\n') + '\n', 'text/csv');
   }

@@ -11,7 +11,7 @@ export function save(name, content, type) {
   window.myoidSaved = { name, blob };
 }
 
-const cell = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+export const cell = (text) => (/^[# ]|[",;\t\n]| $/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
 /** Curves as the program writes a figure's numbers: panel,series,role,x,y,y_upper. */
 export function csv(panels) {

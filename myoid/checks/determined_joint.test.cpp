@@ -1,0 +1,50 @@
+#include "myoid/checks/determined_joint.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/osim/osim_reader.h"
+
+namespace myoid {
+namespace {
+
+/// Three frames of the built-in arm at its default, as the markers of one of its bodies see it.
+std::optional<Remark> found(const std::string& body, const CalibrationSpec* calibrate = nullptr) {
+  const model::BodyModel model = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, model.default_q(), state);
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::VectorXd::LinSpaced(3, 0.0, 0.02);
+  markers.positions_m.resize(3, 0);
+  for (const model::Marker& marker : model.markers) {
+    if (model.bodies[static_cast<std::size_t>(marker.body)].name != body) continue;
+    markers.names.push_back(marker.name);
+    markers.positions_m.conservativeResize(Eigen::NoChange, markers.positions_m.cols() + 3);
+    markers.positions_m.rightCols(3).rowwise() =
+        (state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM).transpose();
+  }
+  Study study;
+  study.model.builtin = "arm4";
+  if (calibrate != nullptr) study.ik.calibrate = *calibrate;
+  TrialSpec trial;
+  trial.name = "t";
+  return open_joint(study, model, trial, markers);
+}
+
+TEST(OpenJoint, IsAnErrorWhereNoMarkerFollowsTheStudysJoint) {
+  const auto upper = found("upper_arm");
+  ASSERT_TRUE(upper);
+  EXPECT_EQ(upper->code, RemarkCode::joint_undetermined);
+  EXPECT_EQ(upper->severity, Severity::error);
+  EXPECT_EQ(upper->about, "elbow_flexion");
+  EXPECT_FALSE(found("forearm_hand"));
+}
+
+TEST(OpenJoint, OfACoordinateThatACalibrationHoldsIsNone) {
+  const CalibrationSpec calibrate{.window_s = {}, .free = {"elbow_flexion"}, .hold = {"elbow_flexion"}};
+  EXPECT_FALSE(found("upper_arm", &calibrate));
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,84 @@
+#include "myoid/kinematics/joint_angles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "myoid/core/index.h"
+#include "myoid/model/joint_posture.h"
+
+namespace myoid::kinematics {
+namespace {
+
+constexpr double kAtEnd = 1e-6;  ///< Of the range: nearer to an end lies at it.
+
+/// Returns the value moved by whole turns to the middle of its range.
+double turned_to_range(const model::Coordinate& c, double value) {
+  return value + 2.0 * kPi * std::round((0.5 * (c.lower + c.upper) - value) / (2.0 * kPi));
+}
+
+}  // namespace
+
+bool lies_at_end(const model::Coordinate& coordinate, double value) {
+  const double width = coordinate.upper - coordinate.lower;
+  return coordinate.clamped && std::min(value - coordinate.lower, coordinate.upper - value) < kAtEnd * width;
+}
+
+bool strays(const model::BodyModel& model, const Eigen::VectorXd& q, const Eigen::VectorXd& from) {
+  constexpr double kStray_rad = kPi / 6.0;
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    const model::Coordinate& of = model.coordinates[c];
+    if (of.motion != model::MotionType::rotational || of.upper <= of.lower || model.is_constrained(static_cast<int>(c)))
+      continue;
+    const auto outside = [&](double x) { return std::max({0.0, of.lower - x, x - of.upper}); };
+    const auto i = static_cast<Eigen::Index>(c);
+    if (outside(q[i]) > std::max(kStray_rad, outside(from[i]) + 1e-6)) return true;
+  }
+  return false;
+}
+
+bool turns(const model::Joint& joint, int coordinate) {
+  return std::any_of(joint.rotation.begin(), joint.rotation.end(),
+                     [&](const auto& axis) { return axis.coordinate == coordinate; });
+}
+
+std::vector<Eigen::VectorXd> twin_angles(const model::BodyModel& model,
+                                         const model::Joint& joint,
+                                         const Eigen::VectorXd& q) {
+  std::vector<Eigen::VectorXd> twins;
+  const Mat3 here = model::joint_posture(joint, q).X_FM.R;
+  const auto add = [&](Eigen::VectorXd twin) {
+    for (const model::TransformAxis& axis : joint.rotation) {
+      if (axis.coordinate < 0) continue;
+      const model::Coordinate& c = model.coordinates[at(axis.coordinate)];
+      if (c.clamped && (twin[axis.coordinate] < c.lower || twin[axis.coordinate] > c.upper)) return;
+    }
+    if ((model::joint_posture(joint, twin).X_FM.R - here).cwiseAbs().maxCoeff() < 1e-6) twins.push_back(std::move(twin));
+  };
+  std::array<int, 3> c{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    c[i] = joint.rotation[i].coordinate;
+    if (c[i] < 0 || model.is_constrained(c[i])) continue;
+    // From one end of a range to beyond the other, where the range is a turn.
+    for (const double turn : {-2.0 * kPi, 2.0 * kPi}) {
+      const model::Coordinate& of = model.coordinates[at(c[i])];
+      if (!lies_at_end(of, q[c[i]])) continue;
+      Eigen::VectorXd twin = q;
+      twin[c[i]] = std::clamp(q[c[i]] + turn, of.lower, of.upper);
+      add(std::move(twin));
+    }
+  }
+  if (c[0] < 0 || c[1] < 0 || c[2] < 0 || c[0] == c[1] || c[1] == c[2] || c[0] == c[2]) return twins;
+  if (model.is_constrained(c[0]) || model.is_constrained(c[1]) || model.is_constrained(c[2])) return twins;
+  for (const double middle : {kPi - q[c[1]], -q[c[1]]}) {
+    Eigen::VectorXd twin = q;
+    twin[c[0]] = turned_to_range(model.coordinates[at(c[0])], q[c[0]] + kPi);
+    twin[c[1]] = turned_to_range(model.coordinates[at(c[1])], middle);
+    twin[c[2]] = turned_to_range(model.coordinates[at(c[2])], q[c[2]] + kPi);
+    add(std::move(twin));
+  }
+  return twins;
+}
+
+}  // namespace myoid::kinematics

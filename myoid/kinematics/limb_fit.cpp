@@ -1,0 +1,297 @@
+#include "myoid/kinematics/limb_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "myoid/core/index.h"
+#include "myoid/kinematics/joint_angles.h"
+
+namespace myoid::kinematics {
+namespace {
+
+constexpr int kStarts = 24;        ///< Bent postures from which a limb is searched,
+constexpr int kFirstSteps = 3;     ///< each so far,
+constexpr int kPromising = 8;      ///< of which so many go on
+constexpr int kNextSteps = 4;      ///< so far,
+constexpr int kFinalists = 3;      ///< and so many to the end.
+constexpr int kLastSteps = 30;
+constexpr double kMet_rad = 0.05;       ///< Searches that are nearer to each other go to one minimum.
+constexpr double kElsewhere_rad = 0.02;
+constexpr double kPerfect_m2 = 1e-12;   ///< A part of 2 J that no posture needs to lower.
+
+bool floats(const model::BodyModel& model, const model::Joint& joint) {
+  int free = 0;
+  for (const model::TransformAxis& axis : joint.translation)
+    if (axis.coordinate >= 0 && !model.is_constrained(axis.coordinate)) ++free;
+  return joint.parent == 0 && free == 3;
+}
+
+/// Returns the bodies that carry a marker that counts, themselves or by the bodies that hang from them.
+std::vector<bool> marker_carriers(const model::BodyModel& model, const std::vector<PoseFit::Pair>& pairs) {
+  std::vector<bool> carries(model.bodies.size(), false);
+  for (const PoseFit::Pair& pair : pairs)
+    if (pair.weight > 0.0) carries[at(model.markers[pair.model].body)] = true;
+  for (std::size_t j = model.joints.size(); j-- > 0;)
+    if (carries[at(model.joints[j].child)]) carries[at(model.joints[j].parent)] = true;
+  return carries;
+}
+
+int branches_of(const model::BodyModel& model, int body, const std::vector<bool>& carries) {
+  return static_cast<int>(std::count_if(model.joints.begin(), model.joints.end(), [&](const model::Joint& joint) {
+    return joint.parent == body && carries[at(joint.child)];
+  }));
+}
+
+bool begins_limb(const model::BodyModel& model, std::size_t joint, const std::vector<bool>& carries) {
+  const model::Joint& j = model.joints[joint];
+  if (!carries[at(j.child)]) return false;
+  if (j.parent == 0) return !floats(model, j);
+  const int above = model.joint_of_body[at(j.parent)];
+  return floats(model, model.joints[at(above)]) || branches_of(model, j.parent, carries) > 1;
+}
+
+}  // namespace
+
+LimbFit::LimbFit(const model::BodyModel& whole,
+                 std::size_t first_joint,
+                 const IkOptions& options,
+                 const std::vector<PoseFit::Pair>& pairs)
+    : options_{.max_iterations = kLastSteps} {
+  const std::vector<bool> carries = marker_carriers(whole, pairs);
+  add_bodies(whole, first_joint, carries);
+  add_coordinates(whole);
+  add_constraints(whole);
+  choose_varied(whole, first_joint, carries);
+  std::vector<PoseFit::Pair> own;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const model::Marker& marker = whole.markers[pairs[i].model];
+    const int body = limb_body_[at(marker.body)];
+    if (body < 0 || marker.body == base_ || pairs[i].weight == 0.0) continue;
+    own.push_back({model_.markers.size(), pairs[i].file, pairs[i].weight});
+    model_.markers.push_back({marker.name, body, marker.p_BM});
+    pairs_of_whole_.push_back(i);
+  }
+  for (const CoordinateTask& task : options.tasks)
+    if (model_.find_coordinate(task.coordinate)) options_.tasks.push_back(task);
+  fit_ = std::make_unique<PoseFit>(model_, options_, std::move(own));
+}
+
+void LimbFit::add_bodies(const model::BodyModel& whole, std::size_t first_joint, const std::vector<bool>& carries) {
+  const model::Joint& first = whole.joints[first_joint];
+  base_ = first.parent;
+  limb_body_.assign(whole.bodies.size(), -1);
+  limb_body_[0] = 0;
+  model_.gravity_G = whole.gravity_G;
+  model_.bodies.push_back(whole.bodies[0]);
+  model_.joint_of_body.push_back(-1);
+  const auto add = [&](model::Joint joint, int parent) {
+    limb_body_[at(joint.child)] = static_cast<int>(model_.bodies.size());
+    model_.bodies.push_back(whole.bodies[at(joint.child)]);
+    model_.joint_of_body.push_back(static_cast<int>(model_.joints.size()));
+    joint.parent = parent;
+    joint.child = limb_body_[at(joint.child)];
+    model_.joints.push_back(std::move(joint));
+  };
+  if (base_ != 0) {
+    model::Joint weld;
+    weld.name = "base";
+    weld.class_name = "WeldJoint";
+    weld.child = base_;
+    add(std::move(weld), 0);
+  }
+  for (std::size_t j = first_joint; j < whole.joints.size(); ++j) {
+    const model::Joint& joint = whole.joints[j];
+    const bool below = joint.parent != base_ && joint.parent != 0 && limb_body_[at(joint.parent)] >= 0;
+    if ((j == first_joint || below) && carries[at(joint.child)]) add(joint, limb_body_[at(joint.parent)]);
+  }
+}
+
+void LimbFit::add_coordinates(const model::BodyModel& whole) {
+  limb_coordinate_.assign(whole.coordinates.size(), -1);
+  for (std::size_t c = 0; c < whole.coordinates.size(); ++c) {
+    const model::Coordinate& coordinate = whole.coordinates[c];
+    const int child = whole.joints[at(coordinate.joint)].child;
+    if (limb_body_[at(child)] < 0 || child == base_) continue;
+    limb_coordinate_[c] = static_cast<int>(model_.coordinates.size());
+    whole_coordinate_.push_back(static_cast<Eigen::Index>(c));
+    model_.coordinates.push_back(coordinate);
+    model_.coordinates.back().joint = model_.joint_of_body[at(limb_body_[at(child)])];
+  }
+  const auto renumber = [&](int& c) { c = c < 0 ? c : limb_coordinate_[at(c)]; };
+  for (model::Joint& joint : model_.joints) {
+    for (int& c : joint.coordinates) renumber(c);
+    for (model::TransformAxis& axis : joint.rotation) renumber(axis.coordinate);
+    for (model::TransformAxis& axis : joint.translation) renumber(axis.coordinate);
+  }
+}
+
+/// Keeps the constraints within the limb and its base. A coordinate that follows one of another limb stands still.
+void LimbFit::add_constraints(const model::BodyModel& whole) {
+  for (model::CoordinateCoupler coupler : whole.couplers) {
+    coupler.dependent = limb_coordinate_[at(coupler.dependent)];
+    coupler.independent = limb_coordinate_[at(coupler.independent)];
+    if (coupler.dependent < 0) continue;
+    if (coupler.independent < 0) {
+      model_.coordinates[at(coupler.dependent)].locked = true;
+    } else {
+      model_.couplers.push_back(std::move(coupler));
+    }
+  }
+  for (model::LoopConstraint constraint : whole.constraints) {
+    bool within = true;
+    const auto renumber = [&](int& index, const std::vector<int>& here) {
+      index = here[at(index)];
+      within = within && index >= 0;
+    };
+    std::visit(
+        [&](auto& law) {
+          if constexpr (requires { law.body1; }) {
+            renumber(law.body1, limb_body_);
+            renumber(law.body2, limb_body_);
+          } else if constexpr (requires { law.coupler; }) {
+            renumber(law.coupler.dependent, limb_coordinate_);
+            renumber(law.coupler.independent, limb_coordinate_);
+          } else {
+            renumber(law.dependent, limb_coordinate_);
+            for (int& c : law.independent) renumber(c, limb_coordinate_);
+          }
+        },
+        constraint.law);
+    if (within) model_.constraints.push_back(std::move(constraint));
+  }
+}
+
+void LimbFit::choose_varied(const model::BodyModel& whole, std::size_t first_joint, const std::vector<bool>& carries) {
+  int body = whole.joints[first_joint].child;
+  for (;;) {
+    for (const int c : whole.joints[at(whole.joint_of_body[at(body)])].coordinates) {
+      const int here = limb_coordinate_[at(c)];
+      if (here < 0 || whole.is_constrained(c) || model_.coordinates[at(here)].locked) continue;
+      if (turns(whole.joints[at(whole.joint_of_body[at(body)])], c)) varied_.push_back(at(here));
+    }
+    if (branches_of(whole, body, carries) != 1) return;
+    for (const model::Joint& joint : whole.joints)
+      if (joint.parent == body && carries[at(joint.child)]) {
+        body = joint.child;
+        break;
+      }
+  }
+}
+
+void LimbFit::stand(const PoseFit& whole,
+                    const Eigen::VectorXd& q,
+                    const recording::MarkerSeries& markers,
+                    Eigen::Index frame) {
+  if (base_ != 0) model_.joints[0].X_PF = whole.state().X_GB[at(base_)];
+  for (std::size_t c = 0; c < whole_coordinate_.size(); ++c)
+    if (model_.coordinates[c].locked) model_.coordinates[c].default_value = q[whole_coordinate_[c]];
+  fit_->forget_posture();
+  fit_->set_targets(markers, frame);
+  fit_->set_scale(whole.scale());
+}
+
+/// Returns the next of postures that fill the ranges of the varied coordinates evenly; the others stay as in q.
+Eigen::VectorXd LimbFit::bent(const Eigen::VectorXd& q) {
+  // Roberts' sequence: multiples of the powers of 1 / g, where g^(d + 1) = g + 1.
+  const auto d = static_cast<double>(varied_.size());
+  double g = 1.5;
+  for (int i = 0; i < 30; ++i) g = std::pow(1.0 + g, 1.0 / (d + 1.0));
+  ++drawn_;
+  Eigen::VectorXd bent = q;
+  double power = 1.0;
+  for (const std::size_t v : varied_) {
+    power /= g;
+    const double share = std::fmod(0.5 + drawn_ * power, 1.0);
+    const model::Coordinate& c = model_.coordinates[v];
+    const double width = c.upper - c.lower;
+    const bool ranged = width > 0.0 && width < 2.0 * kPi;
+    double& value = bent[static_cast<Eigen::Index>(v)];
+    value = ranged ? c.lower + share * width : value + (share - 0.5) * 2.0 * kPi;
+  }
+  return bent;
+}
+
+/// Keeps the searches with the least cost, one of those that meet.
+void LimbFit::keep_best(std::vector<PoseFit::Search>& searches, std::size_t count) {
+  std::sort(searches.begin(), searches.end(),
+            [](const PoseFit::Search& a, const PoseFit::Search& b) { return a.pose.cost < b.pose.cost; });
+  std::vector<PoseFit::Search> kept;
+  for (PoseFit::Search& search : searches) {
+    if (kept.size() >= count) break;
+    const bool met = std::any_of(kept.begin(), kept.end(), [&](const PoseFit::Search& other) {
+      return (search.pose.q - other.pose.q).cwiseAbs().maxCoeff() < kMet_rad;
+    });
+    if (!met) kept.push_back(std::move(search));
+  }
+  searches = std::move(kept);
+}
+
+/// Returns searches on their way from bent postures and from the other angles of joints that lie at an end of a range.
+std::vector<PoseFit::Search> LimbFit::first_steps(const Eigen::VectorXd& q) {
+  std::vector<PoseFit::Search> searches;
+  const auto set_out = [&](Eigen::VectorXd start) {
+    searches.push_back(fit_->begin(std::move(start)));
+    fit_->advance(searches.back(), kFirstSteps);
+  };
+  for (int k = 0; k < kStarts; ++k) set_out(bent(q));
+  for (const model::Joint& joint : model_.joints) {
+    const bool at_end = std::any_of(joint.coordinates.begin(), joint.coordinates.end(),
+                                    [&](int c) { return lies_at_end(model_.coordinates[at(c)], q[c]); });
+    if (!at_end) continue;
+    for (Eigen::VectorXd& twin : twin_angles(model_, joint, q)) set_out(std::move(twin));
+  }
+  return searches;
+}
+
+/// Brings angles into their ranges by whole turns and by the other angles of a joint; returns false if one strays still.
+bool LimbFit::bring_into_ranges(PoseFit::Pose& pose, const Eigen::VectorXd& here) {
+  fit_->unwind(pose);
+  if (!strays(model_, pose.q, here)) return true;
+  for (const model::Joint& joint : model_.joints) {
+    for (Eigen::VectorXd& twin : twin_angles(model_, joint, pose.q)) {
+      const bool same = std::abs(fit_->place(twin) - pose.cost) <= 1e-9 * pose.cost + kPerfect_m2;
+      if (!same || strays(model_, twin, here)) continue;
+      pose.q = std::move(twin);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<Eigen::VectorXd> LimbFit::other_posture(const Eigen::VectorXd& q, double share) {
+  const Eigen::VectorXd here = q(whole_coordinate_);
+  const double cost = fit_->place(here);
+  if (cost < kPerfect_m2) return std::nullopt;
+  std::vector<PoseFit::Search> searches = first_steps(here);
+  keep_best(searches, kPromising);
+  for (PoseFit::Search& search : searches) fit_->advance(search, kNextSteps);
+  keep_best(searches, kFinalists);
+  const PoseFit::Pose* best = nullptr;
+  for (PoseFit::Search& search : searches) {
+    fit_->advance(search, kLastSteps);
+    PoseFit::Pose& pose = search.pose;
+    const bool better = pose.cost < share * cost && (best == nullptr || pose.cost < best->cost);
+    const bool elsewhere = (pose.q - here).cwiseAbs().maxCoeff() > kElsewhere_rad;
+    if (better && elsewhere && bring_into_ranges(pose, here)) best = &pose;
+  }
+  if (best == nullptr) return std::nullopt;
+  Eigen::VectorXd other = q;
+  other(whole_coordinate_) = best->q;
+  return other;
+}
+
+std::vector<std::unique_ptr<LimbFit>> limbs_of(const model::BodyModel& model,
+                                               const IkOptions& options,
+                                               const std::vector<PoseFit::Pair>& pairs) {
+  std::vector<std::unique_ptr<LimbFit>> limbs;
+  const std::vector<bool> carries = marker_carriers(model, pairs);
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (!begins_limb(model, j, carries)) continue;
+    auto limb = std::make_unique<LimbFit>(model, j, options, pairs);
+    if (limb->can_move()) limbs.push_back(std::move(limb));
+  }
+  return limbs;
+}
+
+}  // namespace myoid::kinematics

@@ -1,0 +1,47 @@
+#include "myoid/kinematics/open_coordinates.h"
+
+#include <algorithm>
+#include <set>
+
+namespace myoid::kinematics {
+namespace {
+
+/// Returns the first, the middle and the last frame of those that show most markers of the model.
+std::set<Eigen::Index> fullest_frames(const model::BodyModel& model, const recording::MarkerSeries& markers) {
+  std::vector<Eigen::Index> fullest;
+  Eigen::Index most = -1;
+  for (Eigen::Index i = 0; i < markers.frame_count(); ++i) {
+    Eigen::Index seen = 0;
+    for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+      if (model.find_marker(markers.names[static_cast<std::size_t>(m)]) && !markers.missing(i, m)) ++seen;
+    }
+    if (seen > most) fullest.clear();
+    most = std::max(most, seen);
+    if (seen == most) fullest.push_back(i);
+  }
+  if (fullest.empty()) return {};
+  return {fullest.front(), fullest[fullest.size() / 2], fullest.back()};
+}
+
+}  // namespace
+
+std::vector<std::string> open_coordinates(const model::BodyModel& model,
+                                          const recording::MarkerSeries& markers,
+                                          const IkOptions& options) {
+  std::vector<std::string> open;
+  bool first = true;
+  for (const Eigen::Index frame : fullest_frames(model, markers)) {
+    const std::vector<std::string> here =
+        inverse_kinematics(model,
+                           recording::MarkerSeries{markers.time_s.segment(frame, 1), markers.names,
+                                                   markers.positions_m.middleRows(frame, 1)},
+                           options)
+            .undetermined;
+    if (first) open = here;
+    std::erase_if(open, [&](const std::string& name) { return std::ranges::find(here, name) == here.end(); });
+    first = false;
+  }
+  return open;
+}
+
+}  // namespace myoid::kinematics

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/kinematics/limb_fit.h"
+#include "myoid/kinematics/pose_fit.h"
+
+namespace myoid::kinematics {
+
+/// The postures of one recording, found frame after frame, each from the posture before.
+///
+/// A frame may have several minima, such as those of an arm turned about its length with the elbow bent the other way.
+/// The search therefore tries each limb in other postures (limb_fit.h), judged by the limb's own markers: in the first
+/// frame, where its markers moved far or fit much worse than before, where a coordinate meets the end of its range, and
+/// in the frame of every window where its markers lie worst. A better minimum is followed backwards and forwards. It
+/// replaces the postures at hand as far as that lowers J. A jump between minima must lower the sum of J over the frames
+/// by 5 % of a frame's J, so that the posture stays in one minimum where both fit alike, within 1 % of J and 1e-6 m^2.
+class PoseSequence {
+ public:
+  /// Prepares the search. All arguments must outlive the object.
+  PoseSequence(const model::BodyModel& model,
+               const recording::MarkerSeries& markers,
+               const IkOptions& options,
+               PoseFit& fit);
+
+  /// Solves all frames. A frame without markers keeps the posture of the frame before.
+  void solve();
+
+  [[nodiscard]] bool seen(Eigen::Index frame) const { return seen_[static_cast<std::size_t>(frame)]; }
+  /// Returns posture, 2 J and whether the search converged; of a frame without markers only the posture.
+  [[nodiscard]] const PoseFit::Pose& pose(Eigen::Index frame) const { return poses_[static_cast<std::size_t>(frame)]; }
+
+ private:
+  /// Frames that another minimum would take over on one side of the frame where it was found.
+  struct Stretch {
+    std::vector<PoseFit::Pose> poses;  ///< In the order of the walk.
+    double gain = 0.0;                 ///< Sum of the frames' relative gains.
+    bool clear = false;                ///< A frame fits clearly better.
+    bool jumps = false;                ///< The posture jumps behind the last frame.
+  };
+
+  void solve_frame(std::size_t frame);
+  [[nodiscard]] PoseFit::Pose first_pose();
+  [[nodiscard]] PoseFit::Pose next_pose(const Eigen::VectorXd& before);
+  [[nodiscard]] PoseFit::Pose solve_from(const Eigen::VectorXd& start);
+  [[nodiscard]] bool may_search() const;
+
+  void improve_limbs(std::size_t frame, PoseFit::Pose& pose);
+  [[nodiscard]] std::vector<bool> surprised_limbs(std::size_t frame, const Eigen::VectorXd& distances) const;
+  [[nodiscard]] Eigen::VectorXd limb_distances() const;
+  void search_window(std::size_t first, std::size_t last);
+  [[nodiscard]] std::size_t worst_frame(std::size_t limb, std::size_t first, std::size_t last) const;
+  bool try_limb(std::size_t limb, std::size_t frame);
+  void try_roots(std::size_t frame);
+  bool try_start(std::size_t frame, const Eigen::VectorXd& start);
+
+  [[nodiscard]] Stretch follow(std::size_t frame, const PoseFit::Pose& pose, bool forwards);
+  bool adopt(std::size_t frame, PoseFit::Pose pose);
+  void set_pose(std::size_t frame, PoseFit::Pose pose);
+
+  const model::BodyModel& model_;
+  const recording::MarkerSeries& markers_;
+  const IkOptions& options_;
+  PoseFit& fit_;
+  std::vector<std::unique_ptr<LimbFit>> limbs_;
+  std::vector<PoseFit::Pose> poses_;
+  std::vector<bool> seen_;
+  Eigen::MatrixXd parts_;   ///< Per frame and limb: the limb's own part of 2 J.
+  Eigen::VectorXd distances_;  ///< Mean square distance of each limb's markers in the latest frame.
+  std::size_t solved_ = 0;  ///< Frames.
+  std::size_t window_ = 0;
+  double cost_before_;
+  double searched_ = 0.0;  ///< Work of searches.
+};
+
+}  // namespace myoid::kinematics

@@ -1,0 +1,73 @@
+#include "myoid/model/model_plausibility.h"
+
+#include <gtest/gtest.h>
+
+namespace myoid::model {
+namespace {
+
+/// A trunk and an arm with one muscle of usual numbers.
+BodyModel usual() {
+  BodyModel model;
+  model.bodies = {{.name = "ground"}, {.name = "trunk", .mass_kg = 60.0}, {.name = "arm", .mass_kg = 4.0}};
+  Muscle muscle;
+  muscle.name = "BIC";
+  model.muscles = {muscle};
+  return model;
+}
+
+std::vector<std::pair<RemarkCode, Severity>> found(const BodyModel& model) {
+  std::vector<std::pair<RemarkCode, Severity>> list;
+  for (const Remark& remark : implausible(model)) list.emplace_back(remark.code, remark.severity);
+  return list;
+}
+
+using Found = std::vector<std::pair<RemarkCode, Severity>>;
+
+TEST(ImplausibleModel, UsualNumbersAreNone) { EXPECT_EQ(found(usual()), Found{}); }
+
+TEST(ImplausibleModel, MassesInGramsAreAnErrorAndNoMassesAWarning) {
+  BodyModel model = usual();
+  for (Body& body : model.bodies) body.mass_kg *= 1000.0;
+  EXPECT_EQ(found(model), (Found{{RemarkCode::mass_impossible, Severity::error}}));
+  for (Body& body : model.bodies) body.mass_kg = 0.0;
+  EXPECT_EQ(found(model), (Found{{RemarkCode::mass_impossible, Severity::warning}}));
+}
+
+TEST(ImplausibleModel, GravityIsThatOfAPlanetOrNone) {
+  BodyModel model = usual();
+  for (const double g : {0.0, 1.62, 9.80665, 24.8}) {
+    model.gravity_G = Vec3(0.0, 0.0, -g);
+    EXPECT_EQ(found(model), Found{}) << g;
+  }
+  for (const double g : {9806.65, 6e13}) {
+    model.gravity_G = Vec3(0.0, -g, 0.0);
+    EXPECT_EQ(found(model), (Found{{RemarkCode::gravity_impossible, Severity::error}})) << g;
+  }
+  model.gravity_G = Vec3(0.0, -9.80665e-3, 0.0);
+  EXPECT_EQ(found(model), (Found{{RemarkCode::gravity_impossible, Severity::warning}}));
+}
+
+TEST(ImplausibleModel, LengthsInMillimetersAndForcesBeyondAnyMuscleNameTheMuscle) {
+  BodyModel model = usual();
+  model.muscles.push_back(model.muscles.front());
+  model.muscles.back().name = "TRI";
+  model.muscles.back().properties.optimal_fiber_length_m = 134.0;
+  std::vector<Remark> said = implausible(model);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].code, RemarkCode::muscle_impossible);
+  EXPECT_EQ(said[0].about, "TRI");
+  EXPECT_EQ(said[0].value, 134.0);
+  model = usual();
+  model.muscles[0].properties.tendon_slack_length_m = 200.0;
+  EXPECT_EQ(implausible(model).size(), 1U);
+  model = usual();
+  model.muscles[0].properties.max_isometric_force_n = -5.0;
+  EXPECT_EQ(implausible(model).size(), 1U);
+  // A mouse's fibers have 2 mm.
+  model = usual();
+  model.muscles[0].properties.optimal_fiber_length_m = 0.002;
+  EXPECT_TRUE(implausible(model).empty());
+}
+
+}  // namespace
+}  // namespace myoid::model
