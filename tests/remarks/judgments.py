@@ -7,7 +7,7 @@ what is known of the folder, not sample by sample ("by kind")."""
 ANY = ""
 
 JUDGED = [
-    # Markers. Five jumps were looked at frame by frame, in five recordings; each is there.
+    # Markers. Five jumps were looked at frame by frame, in four recordings; each is there.
     ("marker_gap", "c3d/*", "is in no frame", True, "a label of the laboratory's list without any sample"),
     ("marker_gap", "trc/*", "is in no frame", True, "the same"),
     ("marker_gap", "*", ANY, True,
