@@ -56,11 +56,12 @@ std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::str
   const signals::EmgStages stages = raw ? signals::process_emg(emg, options) : signals::EmgStages{};
   const std::vector<signals::TrialEnvelope> one{{where, false, raw ? &stages.envelope : &emg, {}, stages.flatness}};
   std::vector<Remark> faults = signals::check_emg_levels(one);
-  // A muscle may rest or work throughout one recording; noise alone is a fault.
+  // A muscle may rest or work throughout one recording. Noise alone is a fault.
   for (Remark& fault : faults) {
-    const bool noise = fault.severity == Severity::error;
-    fault.severity = fault.code == RemarkCode::emg_low_signal && !noise ? Severity::note
-                                                                        : std::max(fault.severity, Severity::warning);
+    const auto c = one.front().envelope->find(fault.about);
+    const bool noise = raw && c && stages.flatness[*c] > signals::kLimits.noise_flatness;
+    const bool resting = fault.code == RemarkCode::emg_low_signal && !noise;
+    fault.severity = std::max(fault.severity, resting ? Severity::note : Severity::warning);
   }
   return faults;
 }
