@@ -38,7 +38,9 @@ constexpr std::string_view kBy = "# by ";
 constexpr std::string_view kUnfinished = ", unfinished";
 constexpr std::string_view kEarlier = "an earlier version that kept no list";
 constexpr std::size_t kHead = 16384;  ///< Bytes that tell the kind of a file.
-constexpr std::size_t kHashDigits = 64;
+constexpr std::size_t kRecordHashDigits = 64;
+
+}  // namespace
 
 /// One statement of a list about a file.
 struct RecordedFile {
@@ -52,6 +54,8 @@ struct RecordContent {
   std::set<std::string> commands;
   bool exists = false;
 };
+
+namespace {
 
 /// A descriptor that is closed with this object.
 class OpenFile {
@@ -158,11 +162,11 @@ RecordContent parse_record(std::string_view text) {
       continue;
     }
     const std::size_t begin = line.starts_with('\\') ? 1 : 0;
-    if (line.starts_with('#') || line.size() < begin + kHashDigits + 3) continue;
-    const std::string_view name = line.substr(begin + kHashDigits + 2);
+    if (line.starts_with('#') || line.size() < begin + kRecordHashDigits + 3) continue;
+    const std::string_view name = line.substr(begin + kRecordHashDigits + 2);
     const std::string path = begin == 1 ? unescaped(name) : std::string(name);
     if (!stays_inside(path)) continue;
-    RecordedFile statement{std::string(line.substr(begin, kHashDigits)), command, whole};
+    RecordedFile statement{std::string(line.substr(begin, kRecordHashDigits)), command, whole};
     std::vector<RecordedFile>& earlier = record.files[path];
     std::erase_if(earlier, [&](const RecordedFile& other) {
       return other.sha256 == statement.sha256 && other.command == statement.command;
