@@ -43,12 +43,12 @@ std::string offset(const std::string& name, const std::string& parent, const std
 
 std::string marker(const std::string& name, const std::string& body, const std::string& place) {
   return fmt::format(
-      "<Marker name=\"{}\"><socket_parent_frame>/bodyset/{}</socket_parent_frame><location>{}</location></Marker>", name,
-      body, place);
+      "<Marker name=\"{}\"><socket_parent_frame>/bodyset/{}</socket_parent_frame><location>{}</location></Marker>",
+      name, body, place);
 }
 
-/// An arm on the trunk: three angles of the shoulder, the last about the upper arm's length and to 90 degrees both ways,
-/// elbow from 0 to 150 degrees, turn of the forearm. Two markers on each segment.
+/// An arm on the trunk: three angles of the shoulder, the last about the upper arm's length and to 90 degrees both
+/// ways, elbow from 0 to 150 degrees, turn of the forearm. Two markers on each segment.
 std::string arm_joints(const std::string& side, double z) {
   return fmt::format(
              "<CustomJoint name=\"shoulder{0}\"><socket_parent_frame>f{0}</socket_parent_frame>"
@@ -61,12 +61,14 @@ std::string arm_joints(const std::string& side, double z) {
          fmt::format(
              "<PinJoint name=\"elbow{0}\"><socket_parent_frame>e{0}</socket_parent_frame>"
              "<socket_child_frame>/bodyset/ulna{0}</socket_child_frame><coordinates>{1}</coordinates>{2}</PinJoint>",
-             side, coordinate("elbow" + side, 0.0, 2.62, true), offset("e" + side, "/bodyset/humerus" + side, "0 -0.3 0"));
+             side, coordinate("elbow" + side, 0.0, 2.62, true),
+             offset("e" + side, "/bodyset/humerus" + side, "0 -0.3 0"));
 }
 
 std::string arm_markers(const std::string& side) {
-  return marker("u1" + side, "humerus" + side, "0.03 -0.12 0.03") + marker("u2" + side, "humerus" + side, "0 -0.29 0.04") +
-         marker("w1" + side, "ulna" + side, "0.03 -0.24 0.02") + marker("w2" + side, "ulna" + side, "-0.02 -0.25 -0.03");
+  return marker("u1" + side, "humerus" + side, "0.03 -0.12 0.03") +
+         marker("u2" + side, "humerus" + side, "0 -0.29 0.04") + marker("w1" + side, "ulna" + side, "0.03 -0.24 0.02") +
+         marker("w2" + side, "ulna" + side, "-0.02 -0.25 -0.03");
 }
 
 /// A floating trunk with four markers and two arms.
@@ -121,11 +123,16 @@ Eigen::MatrixXd movement(const model::BodyModel& m, Random& random, Eigen::Index
 }
 
 /// Markers of postures, each off by an error of its own (skin) and by noise a fifth as large.
-recording::MarkerSeries markers_of(const model::BodyModel& m, const Eigen::MatrixXd& q, double error_m, Random& random) {
+recording::MarkerSeries markers_of(const model::BodyModel& m,
+                                   const Eigen::MatrixXd& q,
+                                   double error_m,
+                                   Random& random) {
   recording::MarkerSeries series;
   series.time_s = Eigen::VectorXd::LinSpaced(q.rows(), 0.0, 0.01 * static_cast<double>(q.rows() - 1));
   series.positions_m.resize(q.rows(), static_cast<Eigen::Index>(3 * m.markers.size()));
-  const auto off = [&](double size) { return size * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)); };
+  const auto off = [&](double size) {
+    return size * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+  };
   std::vector<Vec3> skin;
   for (const model::Marker& of : m.markers) {
     series.names.push_back(of.name);
@@ -199,25 +206,6 @@ TEST(PoseSequence, IsNeverAboveTheTruthNorAboveTwoHundredRandomStarts) {
   }
 }
 
-TEST(PoseSequence, AnArmThatBeginsMirroredIsSetRightInAllFramesBefore) {
-  // Straight arms show no turn of the upper arm; the elbows bend later.
-  const model::BodyModel m = person();
-  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(90, static_cast<Eigen::Index>(m.coordinates.size()));
-  for (const char* side : {"_r", "_l"}) {
-    q.col(m.coordinate_index(std::string("turn") + side)).setConstant(1.3);
-    q.col(m.coordinate_index(std::string("flexion") + side)).setConstant(0.9);
-    for (Eigen::Index i = 0; i < q.rows(); ++i)
-      q(i, m.coordinate_index(std::string("elbow") + side)) = 0.02 * static_cast<double>(i);
-  }
-  Random random(3);
-  const recording::MarkerSeries markers = markers_of(m, q, 0.0, random);
-  model::BodyModel mirrored = m;
-  for (model::Coordinate& c : mirrored.coordinates)
-    if (c.name.starts_with("turn")) c.default_value = -0.5 * kPi;
-  const IkResult result = inverse_kinematics(mirrored, markers);
-  EXPECT_LT((result.q.values() - q).cwiseAbs().maxCoeff(), 1e-5);
-}
-
 /// A chain of two hinges in a plane with a marker at its tip: the elbow may be bent either way.
 model::BodyModel two_hinges() {
   return model::parse_osim(
@@ -236,8 +224,8 @@ model::BodyModel two_hinges() {
 }
 
 TEST(PoseSequence, StaysInOneOfTwoMinimaThatFitAlike) {
-  // The elbow's marker, of little weight, lies on the line from the shoulder to the tip: both ways of bending fit alike.
-  // Noise makes now the one, now the other better by some ten-thousandths.
+  // The elbow's marker, of little weight, lies on the line from the shoulder to the tip: both ways of bending fit
+  // alike. Noise makes now the one, now the other better by some ten-thousandths.
   const model::BodyModel m = two_hinges();
   Random random(5);
   recording::MarkerSeries markers;
