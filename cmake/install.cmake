@@ -9,3 +9,5 @@ install(EXPORT MyoidTargets NAMESPACE Myoid:: DESTINATION ${myoid_config} COMPON
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/MyoidConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/MyoidConfig.cmake ${CMAKE_BINARY_DIR}/MyoidConfigVersion.cmake DESTINATION ${myoid_config}
         COMPONENT dev)
+# The licences of the works that the libraries hold.
+install(FILES NOTICE licenses.txt DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmyoid-dev COMPONENT dev)

@@ -23,7 +23,7 @@ LD_LIBRARY_PATH="$here/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" exec "$here/lib
 SH
 chmod 755 "$work/$name/bin/myoid"
 "$build/bin/myoid" help-files "$work/$name/share"
-cp -r "$root/examples" "$root/LICENSE" "$root/NOTICE" "$root/README.md" "$work/$name/"
+cp -r "$root/examples" "$root/LICENSE" "$root/NOTICE" "$root/licenses.txt" "$root/README.md" "$work/$name/"
 epoch=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct)}
 tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$epoch" -c "$name" | gzip -n9 >"$out/$name.tar.gz"
 env -i PATH=/usr/bin:/bin "$work/$name/bin/myoid" --version >/dev/null

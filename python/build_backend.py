@@ -122,7 +122,7 @@ def contents(package: Path) -> dict[str, tuple[bytes, bool]]:
             files[f"myoid.libs/{name}.copyright"] = (notice.read_bytes(), False)
     files[f"myoid-{version()}.data/scripts/myoid"] = (STARTER.encode(), True)
     info = f"myoid-{version()}.dist-info"
-    for name in ("LICENSE", "NOTICE"):
+    for name in ("LICENSE", "NOTICE", "licenses.txt"):
         files[f"{info}/{name}"] = ((ROOT / name).read_bytes(), False)
     files[f"{info}/METADATA"] = (metadata().encode(), False)
     files[f"{info}/WHEEL"] = (wheel_file().encode(), False)

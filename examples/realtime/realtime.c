@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   char error[1000];
   double envelope[MOST] = {0}, acting[MOST] = {0}, angle[MOST] = {0}, speed[MOST] = {0};
   double torque[3][MOST], force[3][MOST];
-  const myoid_output output = {torque[0], torque[1], torque[2], force[0], force[1], force[2]};
+  const myoid_output output = {sizeof output, torque[0], torque[1], torque[2], force[0], force[1], force[2]};
   if (argc < 3) return fprintf(stderr, "usage: realtime RESULTS STEP, or realtime RESULTS --time N\n"), 2;
 
   myoid_model* model = myoid_open(argv[1], NULL, error, sizeof error);

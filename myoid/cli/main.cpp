@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -215,6 +216,13 @@ int main(int argc, char** argv) {
     context.end_progress();
     context.held_folders.clear();
     fmt::print(stderr, "error: {}\n", error.what());
+    return cli::kBadInput;
+  } catch (const std::bad_alloc&) {
+    context.end_progress();
+    context.held_folders.clear();
+    fmt::print(stderr,
+               "error: these files need more memory than this program may use; close other programs, raise the limit "
+               "(ulimit -v), or cut the recordings into parts\n");
     return cli::kBadInput;
   } catch (const std::exception& error) {
     context.end_progress();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,5 +26,9 @@ struct Provenance {
   std::vector<InputFile> inputs;  ///< Every file that was read.
   std::string options_json;       ///< The full options, defaults included.
 };
+
+/// Returns the provenance for results that leave the laboratory: each absolute path of inputs, command and options is
+/// written from `folder`, or as the name of the file alone where the two share no folder.
+[[nodiscard]] Provenance without_places(Provenance provenance, const std::filesystem::path& folder);
 
 }  // namespace myoid

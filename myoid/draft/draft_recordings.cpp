@@ -5,11 +5,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <pugixml.hpp>
 
+#include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/osim/osim_xml.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
@@ -120,10 +121,13 @@ void find_emg(const fs::path& path,
 }
 
 fs::path loads_data_file(const fs::path& external_loads) {
-  pugi::xml_document document;
-  if (!document.load_file(external_loads.c_str())) return {};
-  const pugi::xml_node loads = document.document_element().child("ExternalLoads");
-  std::string name(recording::trim(loads.child("datafile").text().get()));
+  std::string name;
+  try {
+    const model::OsimXml xml(recording::read_text_file(external_loads), external_loads, model::OsimXml::Root::any);
+    name = xml.word(xml.root().child("ExternalLoads"), "datafile");
+  } catch (const ReadError&) {
+    return {};
+  }
   std::ranges::replace(name, '\\', '/');
   return name.empty() ? fs::path() : external_loads.parent_path() / name;
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -51,6 +53,17 @@ int write_all(int descriptor, std::string_view content) {
   return 0;
 }
 
+/// Returns the permissions of a new file: those that the process's umask leaves of rw-rw-rw-. The umask is read from the
+/// system's record, because the call that returns the umask also sets it, for every thread.
+unsigned new_permissions() {
+  unsigned umask = 022;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> status(std::fopen("/proc/self/status", "re"), &std::fclose);
+  char line[256];
+  while (status && std::fgets(line, sizeof line, status.get()) != nullptr)
+    if (std::sscanf(line, "Umask: %o", &umask) == 1) break;
+  return 0666U & ~umask;
+}
+
 /// Follows a chain of symbolic links to its end, whether a file is there or not.
 std::filesystem::path behind_links(std::filesystem::path path) {
   std::error_code ignored;
@@ -80,7 +93,7 @@ FileInParts::FileInParts(std::filesystem::path path, Flush flush) : path_(std::m
     return;
   }
   replaces_ = exists;
-  if (exists) permissions_ = existing.st_mode & 07777;
+  permissions_ = exists ? existing.st_mode & 07777 : new_permissions();
   target_ = is_link ? behind_links(path_) : path_;
   descriptor_ = open_temporary(target_, temporary_);
   if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR) && target_.has_parent_path()) {

@@ -73,6 +73,18 @@ TEST(WriteFile, KeepsThePermissionsOfTheFileItReplaces) {
   EXPECT_EQ(fs::status(folder / "a.txt").permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
+TEST(WriteFile, ANewFileHasThePermissionsThatTheUmaskLeaves) {
+  const test::TemporaryFolder folder;
+  const mode_t before = umask(077);
+  write_file(folder / "private.txt", "one");
+  umask(002);
+  write_file(folder / "group.txt", "one");
+  umask(before);
+  using std::filesystem::perms;
+  EXPECT_EQ(std::filesystem::status(folder / "private.txt").permissions(), perms{0600});
+  EXPECT_EQ(std::filesystem::status(folder / "group.txt").permissions(), perms{0664});
+}
+
 TEST(WriteFile, WritesIntoAPipe) {
   const test::TemporaryFolder folder;
   const std::string pipe = folder / "pipe";

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -84,9 +85,14 @@ std::string read_text_file(const std::filesystem::path& path) {
   if (!file) throw ReadError(path, 0, "cannot be opened: {}", std::strerror(errno));
   std::string text;
   const auto size = std::filesystem::file_size(path, error);
-  if (!error) text.reserve(size);
   char buffer[1 << 16];
-  for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;) text.append(buffer, got);
+  try {
+    if (!error) text.reserve(size);
+    for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;) text.append(buffer, got);
+  } catch (const std::bad_alloc&) {
+    throw ReadError(path, 0, "the file has {} MB, more than the memory that this program may use; cut it into parts",
+                    std::max<std::uintmax_t>(error ? 0 : size, text.size()) >> 20U);
+  }
   if (std::ferror(file.get()) != 0) throw ReadError(path, 0, "reading failed: {}", std::strerror(errno));
   if (text.empty()) throw_empty(path);
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/core/document_limits.h"
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
@@ -267,6 +268,10 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
 toml::table parse_toml(std::string_view text, const std::filesystem::path& file) {
   if (const std::string other = wrong_kind(file, {FileFormat::toml}, "a study or protocol (.toml)"); !other.empty())
     throw ReadError(file, 0, other);
+  if (text.size() > kLargestDocument_bytes) {
+    throw ReadError(file, 0, "the document has {} MB; expected at most {} MB", text.size() >> 20U,
+                    kLargestDocument_bytes >> 20U);
+  }
   refuse_letters_outside_quotes(text, file);
   try {
     return toml::parse(text, file.string());

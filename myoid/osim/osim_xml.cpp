@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/document_limits.h"
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
@@ -34,6 +35,9 @@ std::size_t line_at(std::string_view text, std::ptrdiff_t offset) {
 
 OsimXml::OsimXml(std::string text, std::filesystem::path path, Root root)
     : text_(std::move(text)), path_(std::move(path)) {
+  if (const auto fault = xml_fault(text_)) {
+    throw ReadError(path_, line_at(text_, static_cast<std::ptrdiff_t>(fault->offset)), fault->message);
+  }
   const auto parsed = document_.load_buffer(text_.data(), text_.size(), pugi::parse_default);
   if (!parsed) {
     using recording::FileFormat;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
+#include <vector>
 
 #include "myoid/core/normal.h"
 #include "myoid/core/numbers.h"
@@ -21,14 +23,36 @@ struct myoid_workspace {
 
 namespace {
 
-template <typename List>
-int count_of(const List& list) {
-  return static_cast<int>(list.size());
+template <typename Element>
+int count_of(const myoid_model* model, std::vector<Element> myoid::Predictor::*list) {
+  return model == nullptr ? -1 : static_cast<int>((model->predictor.*list).size());
 }
 
-template <typename List>
-const char* name_of(const List& list, int index) {
-  return index >= 0 && index < count_of(list) ? list[static_cast<std::size_t>(index)].name.c_str() : nullptr;
+template <typename Element>
+const Element* element_of(const myoid_model* model, std::vector<Element> myoid::Predictor::*list, int index) {
+  return index >= 0 && index < count_of(model, list) ? &(model->predictor.*list)[static_cast<std::size_t>(index)]
+                                                     : nullptr;
+}
+
+template <typename Element>
+const char* name_of(const myoid_model* model, std::vector<Element> myoid::Predictor::*list, int index) {
+  const Element* element = element_of(model, list, index);
+  return element == nullptr ? nullptr : element->name.c_str();
+}
+
+bool all_at_most(const double* values, std::size_t count, double most) {
+  return std::all_of(values, values + count, [most](double value) { return std::abs(value) <= most; });
+}
+
+bool all_are_envelopes(const double* values, std::size_t count) {
+  return std::all_of(values, values + count, [](double value) { return std::isfinite(value) && value >= 0.0; });
+}
+
+/// Reads the caller's places, which an older header may have made shorter.
+myoid_output places_of(const myoid_output& given) {
+  myoid_output places{};
+  std::memcpy(&places, &given, std::min(given.size, sizeof places));
+  return places;
 }
 
 /// Writes value and band of each number; NaN where none was computed.
@@ -52,6 +76,10 @@ const char* myoid_version(void) {
 }
 
 myoid_model* myoid_open(const char* results, const char* study, char* error, size_t size) {
+  if (results == nullptr) {
+    if (error != nullptr && size > 0) std::snprintf(error, size, "the folder of the results is NULL");
+    return nullptr;
+  }
   try {
     return new myoid_model{myoid::read_predictor(results, study == nullptr ? "" : study)};
   } catch (const std::exception& problem) {
@@ -62,30 +90,33 @@ myoid_model* myoid_open(const char* results, const char* study, char* error, siz
 
 void myoid_close(myoid_model* model) { delete model; }
 
-int myoid_channel_count(const myoid_model* model) { return count_of(model->predictor.channels); }
-int myoid_joint_count(const myoid_model* model) { return count_of(model->predictor.joints); }
-int myoid_muscle_count(const myoid_model* model) { return count_of(model->predictor.muscles); }
+int myoid_channel_count(const myoid_model* model) { return count_of(model, &myoid::Predictor::channels); }
+int myoid_joint_count(const myoid_model* model) { return count_of(model, &myoid::Predictor::joints); }
+int myoid_muscle_count(const myoid_model* model) { return count_of(model, &myoid::Predictor::muscles); }
 const char* myoid_channel_name(const myoid_model* model, int channel) {
-  return name_of(model->predictor.channels, channel);
+  return name_of(model, &myoid::Predictor::channels, channel);
 }
-const char* myoid_joint_name(const myoid_model* model, int joint) { return name_of(model->predictor.joints, joint); }
+const char* myoid_joint_name(const myoid_model* model, int joint) {
+  return name_of(model, &myoid::Predictor::joints, joint);
+}
 const char* myoid_muscle_name(const myoid_model* model, int muscle) {
-  return name_of(model->predictor.muscles, muscle);
+  return name_of(model, &myoid::Predictor::muscles, muscle);
 }
 
 double myoid_delay_s(const myoid_model* model, int channel) {
-  const auto& channels = model->predictor.channels;
-  if (channel < 0 || channel >= count_of(channels)) return myoid::kNan;
-  return channels[static_cast<std::size_t>(channel)].pure_delay_s;
+  const auto* element = element_of(model, &myoid::Predictor::channels, channel);
+  return element == nullptr ? myoid::kNan : element->pure_delay_s;
 }
 
 double myoid_length_error_m(const myoid_model* model) {
+  if (model == nullptr) return myoid::kNan;
   double worst = 0.0;
   for (const auto& path : model->predictor.paths) worst = std::max(worst, path.length_error_m);
   return worst;
 }
 
 myoid_workspace* myoid_workspace_new(const myoid_model* model) {
+  if (model == nullptr) return nullptr;
   try {
     return new myoid_workspace{myoid::workspace_for(model->predictor)};
   } catch (const std::exception&) {
@@ -95,10 +126,17 @@ myoid_workspace* myoid_workspace_new(const myoid_model* model) {
 
 void myoid_workspace_free(myoid_workspace* workspace) { delete workspace; }
 
-void myoid_follow(
+int myoid_follow(
     const myoid_model* model, myoid_workspace* workspace, const double* envelope, double step_s, double* acting) {
+  if (model == nullptr || workspace == nullptr || envelope == nullptr || acting == nullptr)
+    return MYOID_MISSING_ARGUMENT;
   const std::size_t count = model->predictor.channels.size();
+  if (!std::isfinite(step_s) || step_s <= 0.0 || !all_are_envelopes(envelope, count)) {
+    std::fill(acting, acting + count, myoid::kNan);
+    return MYOID_NOT_A_NUMBER;
+  }
   myoid::follow(model->predictor, {envelope, count}, step_s, workspace->space, {acting, count});
+  return all_at_most(envelope, count, 1.0) ? MYOID_DONE : MYOID_IMPLAUSIBLE;
 }
 
 int myoid_evaluate(const myoid_model* model,
@@ -107,18 +145,24 @@ int myoid_evaluate(const myoid_model* model,
                    const double* angle_rad,
                    const double* speed_radps,
                    const myoid_output* output) {
+  if (model == nullptr || workspace == nullptr || envelope == nullptr || angle_rad == nullptr ||
+      speed_radps == nullptr || output == nullptr || output->size < sizeof output->size)
+    return MYOID_MISSING_ARGUMENT;
+  const myoid_output places = places_of(*output);
   const myoid::Predictor& p = model->predictor;
   myoid::PredictorWorkspace& w = workspace->space;
-  const bool with_bands = output->torque_low_nm != nullptr || output->torque_high_nm != nullptr ||
-                          output->force_low_n != nullptr || output->force_high_n != nullptr;
+  const bool with_bands = places.torque_low_nm != nullptr || places.torque_high_nm != nullptr ||
+                          places.force_low_n != nullptr || places.force_high_n != nullptr;
   const myoid::Prediction end = myoid::predict(p, {envelope, p.channels.size()}, {angle_rad, p.joints.size()},
                                                {speed_radps, p.joints.size()}, w, with_bands);
   const bool done = end == myoid::Prediction::done;
-  put(w.torque_nm, w.torque_sd_nm, done, output->torque_nm, output->torque_low_nm, output->torque_high_nm);
-  put(w.force_n, w.force_sd_n, done, output->force_n, output->force_low_n, output->force_high_n);
-  return end == myoid::Prediction::done           ? MYOID_DONE
-         : end == myoid::Prediction::not_a_number ? MYOID_NOT_A_NUMBER
-                                                  : MYOID_OUT_OF_RANGE;
+  put(w.torque_nm, w.torque_sd_nm, done, places.torque_nm, places.torque_low_nm, places.torque_high_nm);
+  put(w.force_n, w.force_sd_n, done, places.force_n, places.force_low_n, places.force_high_n);
+  if (end == myoid::Prediction::not_a_number) return MYOID_NOT_A_NUMBER;
+  if (!done) return MYOID_OUT_OF_RANGE;
+  const bool plausible = all_at_most(envelope, p.channels.size(), 1.0) &&
+                         all_at_most(speed_radps, p.joints.size(), MYOID_FASTEST_RADPS);
+  return plausible ? MYOID_DONE : MYOID_IMPLAUSIBLE;
 }
 
 }  // extern "C"

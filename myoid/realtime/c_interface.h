@@ -4,7 +4,8 @@
  * An identified person predicts joint torques and muscle forces from EMG envelopes, joint angles
  * and speeds. myoid_open reads the folder of a finished `myoid run`; after it and
  * myoid_workspace_new nothing is allocated. A model does not change: several threads may use one
- * model, each with a workspace of its own. No function throws or prints.
+ * model, each with a workspace of its own. No function throws or prints. NULL in place of a model,
+ * workspace or array is an error and never read: counts are then -1, names NULL, numbers NaN.
  *
  * Units: N m, N, rad, rad/s, s. An envelope is 0..1, as activation.sto holds it.
  */
@@ -17,12 +18,16 @@ extern "C" {
 typedef struct myoid_model myoid_model;
 typedef struct myoid_workspace myoid_workspace;
 
-/* The end of myoid_evaluate. */
+/* The end of myoid_follow and myoid_evaluate. */
 enum {
   MYOID_DONE = 0,
-  MYOID_NOT_A_NUMBER = 1, /* an input is not finite, or an envelope is below 0 */
-  MYOID_OUT_OF_RANGE = 2  /* an angle lies outside the model's range */
+  MYOID_NOT_A_NUMBER = 1,     /* an input is not finite, or an envelope is below 0; all results are NaN */
+  MYOID_OUT_OF_RANGE = 2,     /* an angle lies outside the model's range; all results are NaN */
+  MYOID_MISSING_ARGUMENT = 3, /* a pointer is NULL, or the size of myoid_output is not set; nothing is written */
+  MYOID_IMPLAUSIBLE = 4       /* the results stand, but an envelope is above 1 or a speed above MYOID_FASTEST_RADPS */
 };
+/* No joint but a pitcher's shoulder turns faster. */
+#define MYOID_FASTEST_RADPS 100.0
 
 /* The version of the library, "0.1.0". */
 const char* myoid_version(void);
@@ -33,7 +38,8 @@ const char* myoid_version(void);
 myoid_model* myoid_open(const char* results, const char* study, char* error, size_t size);
 void myoid_close(myoid_model* model);
 
-/* EMG channels, joints and muscles; the names live as long as the model. */
+/* EMG channels, joints and muscles; the names live as long as the model. -1 or NULL without a model or an element
+ * of that index. */
 int myoid_channel_count(const myoid_model* model);
 int myoid_joint_count(const myoid_model* model);
 int myoid_muscle_count(const myoid_model* model);
@@ -53,8 +59,10 @@ void myoid_workspace_free(myoid_workspace* workspace);
 
 /* Places for results; any may be NULL. `_low` and `_high` are the ends of the 95 % band: of a
  * force, by the uncertainty of the parameters; of a torque, also by what the fit left unexplained.
- * Bands that nobody asks for are not computed. */
+ * Bands that nobody asks for are not computed. `size` is
+ * sizeof(myoid_output): a later version of the library reads no further than the caller's. */
 typedef struct myoid_output {
+  size_t size;
   double* torque_nm; /* by joint */
   double* torque_low_nm;
   double* torque_high_nm;
@@ -66,12 +74,13 @@ typedef struct myoid_output {
 /* Passes the next sample of each channel's envelope, `step_s` after the one before, through the
  * lags of excitation and activation, which the workspace remembers; `acting` receives what
  * myoid_evaluate takes. Without lags in the fit it receives the sample itself. The first sample is
- * taken as held for long. */
-void myoid_follow(
+ * taken as held for long. Returns MYOID_DONE, MYOID_IMPLAUSIBLE or an error; after MYOID_NOT_A_NUMBER, which a step
+ * that is not above 0 gives too, the workspace is as before and `acting` is NaN. */
+int myoid_follow(
     const myoid_model* model, myoid_workspace* workspace, const double* envelope, double step_s, double* acting);
 
-/* Evaluates at the envelope of each channel, the angle and the speed of each joint. Returns
- * MYOID_DONE; otherwise all results are NaN. */
+/* Evaluates at the envelope of each channel, the angle and the speed of each joint. Returns one
+ * of the values above. */
 int myoid_evaluate(const myoid_model* model,
                    myoid_workspace* workspace,
                    const double* envelope,

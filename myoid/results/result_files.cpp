@@ -199,7 +199,9 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
   for (const identification::InformedForces& forces : result.fit.informed)
     write_informed_forces(result, forces, folder / forces.trial, with_emg(torque_of(result.fit)));
   write_identified_model(result, folder);
-  write_parameter_files(result.fit.methods, result.folds, provenance, parameter_context(result), folder);
+  write_parameter_files(result.fit.methods, result.folds,
+                        without_places(provenance, result.source.study.file.parent_path()), parameter_context(result),
+                        folder);
   const MethodsText methods = methods_text(result, provenance);
   recording::write_file(folder / "methods.txt", methods_file(methods));
   recording::write_file(folder / "methods.bib", methods_bibtex(methods));

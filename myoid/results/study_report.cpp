@@ -196,7 +196,8 @@ Section trials_section(const StudyResult& result) {
   return trials;
 }
 
-std::vector<report::ProvenanceRow> provenance_rows(const StudyResult& result, const Provenance& provenance) {
+std::vector<report::ProvenanceRow> provenance_rows(const StudyResult& result, const Provenance& with_places) {
+  const Provenance provenance = without_places(with_places, result.source.study.file.parent_path());
   std::vector<report::ProvenanceRow> rows{{"program", fmt::format("{} {}", provenance.program, provenance.version)},
                                           {"command", provenance.command}};
   for (const InputFile& file : provenance.inputs) rows.push_back({file.path, "sha256 " + file.sha256});

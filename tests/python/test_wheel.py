@@ -64,6 +64,16 @@ def test_the_version_stands_in_one_place(wheel):
         assert f"\nVersion: {number}\n" in archive.read(f"myoid-{number}.dist-info/METADATA").decode()
 
 
+def test_the_wheel_holds_the_licences_of_the_works_in_it(wheel):
+    number = program("--version").strip()
+    with zipfile.ZipFile(wheel) as archive:
+        texts = archive.read(f"myoid-{number}.dist-info/licenses.txt").decode()
+    works = "three.js fmt pugixml toml++ JSON CLI11 Ceres SUNDIALS pybind11 Eigen Boost oneTBB OpenSSL GCC".split()
+    assert [work for work in works if f"\n{work}" not in texts] == []
+    for licence in ("MIT", "BSD-3-Clause", "BSL-1.0", "MPL-2.0"):
+        assert f"\n{licence}\n====" in texts
+
+
 def test_a_second_wheel_has_the_same_bytes_and_the_sdist_the_sources(wheel, tmp_path):
     # The backend is called in a process of its own, as pip does.
     code = (

@@ -29,3 +29,6 @@ cd "$work"
 "$program" run recording/study.toml --out results --quiet >/dev/null || [ $? -eq 4 ]
 ./page | tee said
 grep -q 'N m (.* to .*)' said
+here=$(dirname "$page")/../../tests/realtime
+cc -std=c99 -Wall -Wextra -Werror -I"$include" "$here/faults.c" -L"$library" -lmyoid -lm -Wl,-rpath,"$library" -o faults
+./faults results
