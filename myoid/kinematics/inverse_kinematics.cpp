@@ -10,8 +10,8 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
-#include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/joint_angles.h"
+#include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/pose_fit.h"
 #include "myoid/kinematics/pose_sequence.h"
 
@@ -98,9 +98,12 @@ Eigen::RowVectorXd error_row(const PoseFit& fit) {
 
 std::string with_unit(const model::Coordinate& of, double value) {
   switch (of.motion) {
-    case model::MotionType::rotational: return fmt::format("{:.4g} deg", value * 180.0 / kPi);
-    case model::MotionType::translational: return fmt::format("{:.4g} m", value);
-    case model::MotionType::coupled: break;
+    case model::MotionType::rotational:
+      return fmt::format("{:.4g} deg", value * 180.0 / kPi);
+    case model::MotionType::translational:
+      return fmt::format("{:.4g} m", value);
+    case model::MotionType::coupled:
+      break;
   }
   return fmt::format("{:.4g}", value);
 }
@@ -157,7 +160,8 @@ std::vector<Remark> remarks_on_ends(const model::BodyModel& model, const TimeSer
   for (const CoordinateAtEnd& of : list) {
     const model::Coordinate& coordinate = model.coordinates[at(model.coordinate_index(of.coordinate))];
     names.push_back(of.coordinate);
-    places.push_back(fmt::format("{} at {} in {:.0f} %", of.coordinate, with_unit(coordinate, of.end), 100.0 * of.share));
+    places.push_back(
+        fmt::format("{} at {} in {:.0f} %", of.coordinate, with_unit(coordinate, of.end), 100.0 * of.share));
   }
   return {{.about = fmt::format("{}", fmt::join(names, ", ")),
            .says = fmt::format("coordinates at the end of their range: {} of the frames", fmt::join(places, ", ")),

@@ -61,13 +61,13 @@ struct IkResult {
 ///   J(q) = sum w_i |x_i - m_i(q)|^2 / (2 sum w_i) + sum W_j (q_j - q_j*)^2 / 2
 ///
 /// over the markers seen in the frame. Newton's method with the damping of Levenberg and Marquardt uses analytic
-/// Jacobians and the second derivatives of the chains of rotations. The first frame is solved from several postures (the
-/// default posture, also turned about the vertical), a frame in which the method stalls or J jumps as well. Each limb is
-/// also searched from bent postures, judged by its own markers, and a better minimum is followed through the frames
-/// (pose_sequence.h): mirrored postures of a limb do not stay. Locked coordinates stay at their default value, prescribed
-/// coordinates follow their function, clamped coordinates stay within their range. Couplers are eliminated; every step
-/// meets the other constraints (model/constraints.h). Throws InvalidInput if no marker of the file is in the model, or a
-/// weight is negative or of an unknown marker; ModelError if the model cannot be posed.
+/// Jacobians and the second derivatives of the chains of rotations. The first frame is solved from several postures
+/// (the default posture, also turned about the vertical), a frame in which the method stalls or J jumps as well. Each
+/// limb is also searched from bent postures, judged by its own markers, and a better minimum is followed through the
+/// frames (pose_sequence.h): mirrored postures of a limb do not stay. Locked coordinates stay at their default value,
+/// prescribed coordinates follow their function, clamped coordinates stay within their range. Couplers are eliminated;
+/// every step meets the other constraints (model/constraints.h). Throws InvalidInput if no marker of the file is in the
+/// model, or a weight is negative or of an unknown marker; ModelError if the model cannot be posed.
 [[nodiscard]] IkResult inverse_kinematics(const model::BodyModel& model,
                                           const recording::MarkerSeries& markers,
                                           const IkOptions& options = {});

@@ -54,7 +54,8 @@ std::vector<Eigen::VectorXd> twin_angles(const model::BodyModel& model,
       const model::Coordinate& c = model.coordinates[at(axis.coordinate)];
       if (c.clamped && (twin[axis.coordinate] < c.lower || twin[axis.coordinate] > c.upper)) return;
     }
-    if ((model::joint_posture(joint, twin).X_FM.R - here).cwiseAbs().maxCoeff() < 1e-6) twins.push_back(std::move(twin));
+    if ((model::joint_posture(joint, twin).X_FM.R - here).cwiseAbs().maxCoeff() < 1e-6)
+      twins.push_back(std::move(twin));
   };
   std::array<int, 3> c{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -9,8 +9,8 @@
 namespace myoid::kinematics {
 
 /// Returns postures that differ from q in the rotations of one joint and pose its child alike, within the ranges of
-/// clamped coordinates: a coordinate a whole turn further, and the second set of three angles about axes at right angles
-/// (q1 + pi, pi - q2 or -q2, q3 + pi). A search that has met the end of a range may go on from there.
+/// clamped coordinates: a coordinate a whole turn further, and the second set of three angles about axes at right
+/// angles (q1 + pi, pi - q2 or -q2, q3 + pi). A search that has met the end of a range may go on from there.
 [[nodiscard]] std::vector<Eigen::VectorXd> twin_angles(const model::BodyModel& model,
                                                        const model::Joint& joint,
                                                        const Eigen::VectorXd& q);
@@ -18,8 +18,8 @@ namespace myoid::kinematics {
 /// Returns true where a clamped coordinate lies at an end of its range, within a millionth of the range.
 [[nodiscard]] bool lies_at_end(const model::Coordinate& coordinate, double value);
 
-/// Returns true if an angle that is not clamped lies more than 30 degrees outside its range, and farther than in `from`:
-/// the functions of a joint mean nothing there.
+/// Returns true if an angle that is not clamped lies more than 30 degrees outside its range, and farther than in
+/// `from`: the functions of a joint mean nothing there.
 [[nodiscard]] bool strays(const model::BodyModel& model, const Eigen::VectorXd& q, const Eigen::VectorXd& from);
 
 /// Returns true if the coordinate turns the joint's child.

@@ -10,15 +10,15 @@
 namespace myoid::kinematics {
 namespace {
 
-constexpr int kStarts = 24;        ///< Bent postures from which a limb is searched,
-constexpr int kFirstSteps = 3;     ///< each so far,
-constexpr int kPromising = 8;      ///< of which so many go on
-constexpr int kNextSteps = 4;      ///< so far,
-constexpr int kFinalists = 3;      ///< and so many to the end.
+constexpr int kStarts = 24;     ///< Bent postures from which a limb is searched,
+constexpr int kFirstSteps = 3;  ///< each so far,
+constexpr int kPromising = 8;   ///< of which so many go on
+constexpr int kNextSteps = 4;   ///< so far,
+constexpr int kFinalists = 3;   ///< and so many to the end.
 constexpr int kLastSteps = 30;
-constexpr double kMet_rad = 0.05;       ///< Searches that are nearer to each other go to one minimum.
+constexpr double kMet_rad = 0.05;  ///< Searches that are nearer to each other go to one minimum.
 constexpr double kElsewhere_rad = 0.02;
-constexpr double kPerfect_m2 = 1e-12;   ///< A part of 2 J that no posture needs to lower.
+constexpr double kPerfect_m2 = 1e-12;  ///< A part of 2 J that no posture needs to lower.
 
 bool floats(const model::BodyModel& model, const model::Joint& joint) {
   int free = 0;
@@ -244,7 +244,8 @@ std::vector<PoseFit::Search> LimbFit::first_steps(const Eigen::VectorXd& q) {
   return searches;
 }
 
-/// Brings angles into their ranges by whole turns and by the other angles of a joint; returns false if one strays still.
+/// Brings angles into their ranges by whole turns and by the other angles of a joint; returns false if one strays
+/// still.
 bool LimbFit::bring_into_ranges(PoseFit::Pose& pose, const Eigen::VectorXd& here) {
   fit_->unwind(pose);
   if (!strays(model_, pose.q, here)) return true;

@@ -16,7 +16,9 @@ namespace myoid::kinematics {
 /// joint) or where the body branches; bodies that carry no marker are left out.
 class LimbFit {
  public:
-  LimbFit(const model::BodyModel& whole, std::size_t first_joint, const IkOptions& options,
+  LimbFit(const model::BodyModel& whole,
+          std::size_t first_joint,
+          const IkOptions& options,
           const std::vector<PoseFit::Pair>& pairs);
   LimbFit(const LimbFit&) = delete;
   LimbFit& operator=(const LimbFit&) = delete;
@@ -30,7 +32,9 @@ class LimbFit {
 
   /// Puts the limb on its base in posture q of the whole, which `whole` has as its posture, against the markers of a
   /// frame.
-  void stand(const PoseFit& whole, const Eigen::VectorXd& q, const recording::MarkerSeries& markers,
+  void stand(const PoseFit& whole,
+             const Eigen::VectorXd& q,
+             const recording::MarkerSeries& markers,
              Eigen::Index frame);
 
   /// Searches the limb from bent postures, spread evenly over the ranges of its rotations, and from the other angles of
@@ -54,12 +58,12 @@ class LimbFit {
 
   model::BodyModel model_;
   IkOptions options_;
-  int base_ = 0;                                  ///< Body of the whole that carries the limb.
-  std::vector<int> limb_body_;                    ///< Per body of the whole: index here, or -1.
-  std::vector<int> limb_coordinate_;              ///< Per coordinate of the whole: index here, or -1.
-  std::vector<Eigen::Index> whole_coordinate_;    ///< Per coordinate here.
+  int base_ = 0;                                ///< Body of the whole that carries the limb.
+  std::vector<int> limb_body_;                  ///< Per body of the whole: index here, or -1.
+  std::vector<int> limb_coordinate_;            ///< Per coordinate of the whole: index here, or -1.
+  std::vector<Eigen::Index> whole_coordinate_;  ///< Per coordinate here.
   std::vector<std::size_t> pairs_of_whole_;
-  std::vector<std::size_t> varied_;               ///< Free rotations from the base to the next branch.
+  std::vector<std::size_t> varied_;  ///< Free rotations from the base to the next branch.
   std::unique_ptr<PoseFit> fit_;
   int drawn_ = 0;  ///< Postures so far.
 };

@@ -11,22 +11,22 @@
 namespace myoid::kinematics {
 namespace {
 
-constexpr std::size_t kWindow = 32;       // frames
-constexpr int kRounds = 4;                // searches of a limb in a window at most
-constexpr double kSearchShare = 0.25;     // of the work, for routine searches
-constexpr double kFilesOfFrame = 4.0;     // postures evaluated in the time in which a frame is read and written
-constexpr double kFarBetter = 0.5;        // share of the cost at which a fresh start replaces a converged posture
+constexpr std::size_t kWindow = 32;    // frames
+constexpr int kRounds = 4;             // searches of a limb in a window at most
+constexpr double kSearchShare = 0.25;  // of the work, for routine searches
+constexpr double kFilesOfFrame = 4.0;  // postures evaluated in the time in which a frame is read and written
+constexpr double kFarBetter = 0.5;     // share of the cost at which a fresh start replaces a converged posture
 constexpr double kAnyBetter = 1.0 - 1e-6;
-constexpr double kRoundOff_m2 = 1e-13;    // of 2 J
-constexpr double kAlike = 0.01;           // relative difference of the costs of postures that fit alike
-constexpr double kAlike_m2 = 2e-6;        // the same of 2 J
-constexpr double kJump = 0.05;            // sum of relative gains at which a jump pays
-constexpr double kNearlyAsGood = 1.15;    // own cost of a limb on a fixed base that may be the lower one on a free base
-constexpr double kJumped = 4.0;           // times the cost of the frame before
-constexpr double kJumped_m2 = 1e-8;       // more than that
-constexpr double kFarMoved_m = 0.1;       // rms distance of a limb's markers from their places in the frame before
-constexpr double kTurned_rad = 0.5;       // from frame to frame
-constexpr double kSame_rad = 1e-4;        // postures nearer to each other are one
+constexpr double kRoundOff_m2 = 1e-13;  // of 2 J
+constexpr double kAlike = 0.01;         // relative difference of the costs of postures that fit alike
+constexpr double kAlike_m2 = 2e-6;      // the same of 2 J
+constexpr double kJump = 0.05;          // sum of relative gains at which a jump pays
+constexpr double kNearlyAsGood = 1.15;  // own cost of a limb on a fixed base that may be the lower one on a free base
+constexpr double kJumped = 4.0;         // times the cost of the frame before
+constexpr double kJumped_m2 = 1e-8;     // more than that
+constexpr double kFarMoved_m = 0.1;     // rms distance of a limb's markers from their places in the frame before
+constexpr double kTurned_rad = 0.5;     // from frame to frame
+constexpr double kSame_rad = 1e-4;      // postures nearer to each other are one
 
 /// Returns postures to start from without a previous frame: the default posture, a posture near it,
 /// and the default posture turned about the vertical by the root joint.
@@ -108,9 +108,11 @@ PoseFit::Pose PoseSequence::solve_from(const Eigen::VectorXd& start) {
   return options_.range_barrier > 0.0 ? fit_.solve_inside(start, options_.range_barrier) : fit_.solve(start);
 }
 
-/// Returns true while searches have taken no more than their share of the work, to which reading and writing a frame adds.
+/// Returns true while searches have taken no more than their share of the work, to which reading and writing a frame
+/// adds.
 bool PoseSequence::may_search() const {
-  const double files = kFilesOfFrame * static_cast<double>(solved_ * (model_.bodies.size() + model_.coordinates.size()));
+  const double files =
+      kFilesOfFrame * static_cast<double>(solved_ * (model_.bodies.size() + model_.coordinates.size()));
   return searched_ < kSearchShare * (fit_.work() + files);
 }
 
@@ -120,7 +122,8 @@ PoseFit::Pose PoseSequence::first_pose() {
   std::vector<PoseFit::Pose> found;
   for (const Eigen::VectorXd& start : fresh_starts(model_)) {
     PoseFit::Pose pose = solve_from(start);
-    const bool known = std::any_of(found.begin(), found.end(), [&](const auto& other) { return same_posture(pose, other); });
+    const bool known =
+        std::any_of(found.begin(), found.end(), [&](const auto& other) { return same_posture(pose, other); });
     if (!known) found.push_back(std::move(pose));
   }
   PoseFit::Pose best = found.front();
@@ -204,7 +207,8 @@ std::vector<bool> PoseSequence::surprised_limbs(std::size_t frame, const Eigen::
   for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
     const auto l = static_cast<Eigen::Index>(limb);
     const auto f = static_cast<Eigen::Index>(frame);
-    surprised[limb] = distances[l] > distances_[l] + kFarMoved_m * kFarMoved_m || parts_(f, l) > kJumped * parts_(f - 1, l) + kJumped_m2;
+    surprised[limb] = distances[l] > distances_[l] + kFarMoved_m * kFarMoved_m ||
+                      parts_(f, l) > kJumped * parts_(f - 1, l) + kJumped_m2;
     for (const Eigen::Index c : limbs_[limb]->coordinates()) {
       const model::Coordinate& coordinate = model_.coordinates[at(c)];
       surprised[limb] = surprised[limb] || std::abs(now[c] - then[c]) > kTurned_rad ||

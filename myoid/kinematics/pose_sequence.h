@@ -68,9 +68,9 @@ class PoseSequence {
   std::vector<std::unique_ptr<LimbFit>> limbs_;
   std::vector<PoseFit::Pose> poses_;
   std::vector<bool> seen_;
-  Eigen::MatrixXd parts_;   ///< Per frame and limb: the limb's own part of 2 J.
+  Eigen::MatrixXd parts_;      ///< Per frame and limb: the limb's own part of 2 J.
   Eigen::VectorXd distances_;  ///< Mean square distance of each limb's markers in the latest frame.
-  std::size_t solved_ = 0;  ///< Frames.
+  std::size_t solved_ = 0;     ///< Frames.
   std::size_t window_ = 0;
   double cost_before_;
   double searched_ = 0.0;  ///< Work of searches.
