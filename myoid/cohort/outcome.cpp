@@ -35,15 +35,15 @@ namespace {
 
 std::optional<Outcome> parse_outcome(const std::string& text) {
   try {
-    const auto json = parse_ordered_json(text);
-    const auto kind = choice_named<OutcomeKind>(json.at("outcome").get<std::string>());
+    const auto content = parse_ordered_json(text);
+    const auto kind = choice_named<OutcomeKind>(content.at("outcome").get<std::string>());
     if (!kind) return std::nullopt;
     Outcome outcome{.kind = *kind,
-                    .message = json.at("message").get<std::string>(),
-                    .settings = json.at("settings").get<std::string>(),
-                    .build = json.at("build").get<std::string>(),
+                    .message = content.at("message").get<std::string>(),
+                    .settings = content.at("settings").get<std::string>(),
+                    .build = content.at("build").get<std::string>(),
                     .inputs = {}};
-    for (const ordered_json& input : json.at("inputs"))
+    for (const ordered_json& input : content.at("inputs"))
       outcome.inputs.push_back({input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
     return outcome;
   } catch (const nlohmann::json::exception&) {
