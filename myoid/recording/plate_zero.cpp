@@ -103,7 +103,7 @@ std::optional<ZeroSamples> zero_samples(const C3dFile& file,
   const bool of_each = zero->dimensions.size() == 2 && zero->numbers.size() >= 2 * (plate + 1);
   const auto first = number_at(zero, of_each ? 2 * plate : 0);
   const auto last = number_at(zero, of_each ? 2 * plate + 1 : 1);
-  if (!first || !last || *last <= 0.0 || *last < *first) return std::nullopt;
+  if (!first || !last || *last < 1.0 || *last < *first) return std::nullopt;
   auto from = static_cast<double>(std::max(1.0, *first));
   double to = *last;
   const auto count = static_cast<double>(frames);

@@ -131,6 +131,7 @@ TEST(PlateZero, FramesAreCountedFromOneAndZerosMeanNone) {
   EXPECT_EQ(samples(101, 101), "1000+10");
   EXPECT_EQ(samples(0, 0), "none");
   EXPECT_EQ(samples(1, 0), "none");
+  EXPECT_EQ(samples(0, 0.5), "none");
   EXPECT_EQ(samples(-1, -1), "none");
   EXPECT_EQ(samples(90, 200), "none, noted");
   EXPECT_EQ(samples(-3, 10), "none, noted");
