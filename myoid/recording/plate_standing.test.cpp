@@ -16,30 +16,19 @@
 
 #include "tests/support/data_folder.h"
 #include "tests/support/message_of.h"
+#include "tests/support/plate_from_disk.h"
 #include "tests/support/plate_recording.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::recording {
 namespace {
 
+using test::from_disk;
+using test::notes_of;
 using test::PlateCase;
 using test::PlateLoad;
 using testing::AllOf;
 using testing::HasSubstr;
-
-/// Writes the file and reads it back.
-Recording from_disk(const C3dFile& file) {
-  const test::TemporaryFolder folder;
-  write_c3d(folder / "plate.c3d", file);
-  return read_recording(folder / "plate.c3d");
-}
-Recording from_disk(const PlateCase& plate) { return from_disk(test::plate_recording(plate)); }
-
-std::string notes_of(const Recording& recording) {
-  std::string all;
-  for (const Repair& repair : recording.repairs) all += repair.message + "\n";
-  return all;
-}
 
 /// The columns of the ground reaction against the load, turned from z up to y up by R_YZ.
 void expect_the_load(const TimeSeries& grf, const Mat3& R_YZ) {

@@ -9,25 +9,16 @@
 #include "myoid/recording/plate_standing.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/plate_from_disk.h"
 #include "tests/support/plate_recording.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::recording {
 namespace {
 
+using test::from_disk;
+using test::notes_of;
 using testing::HasSubstr;
-
-Recording from_disk(const C3dFile& file) {
-  const test::TemporaryFolder folder;
-  write_c3d(folder / "plate.c3d", file);
-  return read_recording(folder / "plate.c3d");
-}
-
-std::string notes_of(const Recording& recording) {
-  std::string all;
-  for (const Repair& repair : recording.repairs) all += repair.message + "\n";
-  return all;
-}
 
 /// A plate of a type that is empty in its first 200 samples (20 frames).
 C3dFile empty_at_first(int type) {
