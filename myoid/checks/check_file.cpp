@@ -25,6 +25,7 @@
 #include "myoid/signals/emg_quality.h"
 #include "myoid/signals/marker_quality.h"
 #include "myoid/signals/plate_quality.h"
+#include "myoid/tables/result_units.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid {

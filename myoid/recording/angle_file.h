@@ -6,9 +6,6 @@
 
 namespace myoid::recording {
 
-/// Returns true if a storage file may hold angles: neither its title nor all of its channels speak of forces or EMG.
-[[nodiscard]] bool may_hold_angles(const Storage& file);
-
 /// Returns true if the header says inDegrees, yes or no.
 [[nodiscard]] bool states_degrees(const Storage& file);
 
