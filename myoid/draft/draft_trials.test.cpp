@@ -21,8 +21,6 @@ FoundRecording found(const std::string& name, bool angles, bool emg) {
   return f;
 }
 
-TEST(DraftText, QuotesAsTomlWritesThem) {
-  EXPECT_EQ(toml_text("a \"b\" \\ \n"), "\"a \\\"b\\\" \\\\ \"");
 TEST(DraftText, IsOneLineARemarkAndHoldsNoControlCharacter) {
   EXPECT_EQ(in_remark("a\nname = 1\x07"), "a name = 1\\u0007");
   EXPECT_EQ(list_of({"a", "b"}), "[\"a\", \"b\"]");
