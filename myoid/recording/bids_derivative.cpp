@@ -78,7 +78,10 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results, const fs::p
                                  {"BIDSVersion", "1.10.0"},
                                  {"DatasetType", "derivative"},
                                  {"GeneratedBy", ordered_json::array({{{"Name", "Myoid"}, {"Version", version()}}})}};
-  write_unless_foreign(out / "dataset_description.json", json_text(description) + '\n');
+  const fs::path about = out / "dataset_description.json";
+  const bool ours = standing_of(about) != Standing::foreign;
+  write_unless_foreign(about, json_text(description) + '\n');
+  if (ours) written.push_back(about);
   const std::string stem = sub + "_desc-identified_parameters";
   write(out / sub / (stem + ".tsv"), parameters_tsv(table));
   write(out / sub / (stem + ".json"), json_text(parameters_columns(table)) + '\n');
