@@ -21,30 +21,30 @@ std::vector<std::pair<RemarkCode, Severity>> found(const BodyModel& model) {
   return list;
 }
 
-using Found = std::vector<std::pair<RemarkCode, Severity>>;
+using CodesFound = std::vector<std::pair<RemarkCode, Severity>>;
 
-TEST(ImplausibleModel, UsualNumbersAreNone) { EXPECT_EQ(found(usual()), Found{}); }
+TEST(ImplausibleModel, UsualNumbersAreNone) { EXPECT_EQ(found(usual()), CodesFound{}); }
 
 TEST(ImplausibleModel, MassesInGramsAreAnErrorAndNoMassesAWarning) {
   BodyModel model = usual();
   for (Body& body : model.bodies) body.mass_kg *= 1000.0;
-  EXPECT_EQ(found(model), (Found{{RemarkCode::mass_impossible, Severity::error}}));
+  EXPECT_EQ(found(model), (CodesFound{{RemarkCode::mass_impossible, Severity::error}}));
   for (Body& body : model.bodies) body.mass_kg = 0.0;
-  EXPECT_EQ(found(model), (Found{{RemarkCode::mass_impossible, Severity::warning}}));
+  EXPECT_EQ(found(model), (CodesFound{{RemarkCode::mass_impossible, Severity::warning}}));
 }
 
 TEST(ImplausibleModel, GravityIsThatOfAPlanetOrNone) {
   BodyModel model = usual();
   for (const double g : {0.0, 1.62, 9.80665, 24.8}) {
     model.gravity_G = Vec3(0.0, 0.0, -g);
-    EXPECT_EQ(found(model), Found{}) << g;
+    EXPECT_EQ(found(model), CodesFound{}) << g;
   }
   for (const double g : {9806.65, 6e13}) {
     model.gravity_G = Vec3(0.0, -g, 0.0);
-    EXPECT_EQ(found(model), (Found{{RemarkCode::gravity_impossible, Severity::error}})) << g;
+    EXPECT_EQ(found(model), (CodesFound{{RemarkCode::gravity_impossible, Severity::error}})) << g;
   }
   model.gravity_G = Vec3(0.0, -9.80665e-3, 0.0);
-  EXPECT_EQ(found(model), (Found{{RemarkCode::gravity_impossible, Severity::warning}}));
+  EXPECT_EQ(found(model), (CodesFound{{RemarkCode::gravity_impossible, Severity::warning}}));
 }
 
 TEST(ImplausibleModel, LengthsInMillimetersAndForcesBeyondAnyMuscleNameTheMuscle) {
