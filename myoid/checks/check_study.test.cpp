@@ -24,8 +24,8 @@ namespace {
 struct WrittenStudy {
   test::TemporaryFolder folder;
   std::string text =
-      "[emg]\nkind = \"envelope\"\n[[trial]]\nname = \"t\"\nmarkers = \"t.trc\"\nemg = "
-      "\"t.sto\"\n";
+      "[emg]\nkind = \"envelope\"\n[ik]\nlock = [\"shoulder_flexion\", \"shoulder_adduction\", \"shoulder_rotation\"]\n"
+      "[[trial]]\nname = \"t\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n";
 
   explicit WrittenStudy(const std::string& marker = "r_styloid_radial", bool flat = false) {
     for (const std::string muscle : {"BIC", "BRA", "BRD", "TRI"})
