@@ -128,6 +128,7 @@ std::vector<std::string> object_markers(const recording::MarkerSeries& markers, 
         std::ranges::any_of(known, [&](Eigen::Index own) { return distance_spread_m(markers, own, first) < kApart_m; });
     if (!of_the_person) best = std::move(body);
   }
+  std::ranges::sort(best);
   std::vector<std::string> names;
   for (const Eigen::Index m : best) names.push_back(markers.names[static_cast<std::size_t>(m)]);
   return names;

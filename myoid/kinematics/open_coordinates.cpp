@@ -23,6 +23,18 @@ std::set<Eigen::Index> fullest_frames(const model::BodyModel& model, const recor
   return {fullest.front(), fullest[fullest.size() / 2], fullest.back()};
 }
 
+/// Returns the model with another default posture, in which no limb is straight.
+model::BodyModel bent(model::BodyModel model) {
+  double turn_rad = 0.3;
+  for (model::Coordinate& c : model.coordinates) {
+    if (c.locked || c.motion != model::MotionType::rotational) continue;
+    const double up = c.default_value + turn_rad, down = c.default_value - turn_rad;
+    c.default_value = !c.clamped || up <= c.upper ? up : std::max(down, c.lower);
+    turn_rad += 0.03;
+  }
+  return model;
+}
+
 }  // namespace
 
 std::vector<std::string> open_coordinates(const model::BodyModel& model,
@@ -41,6 +53,18 @@ std::vector<std::string> open_coordinates(const model::BodyModel& model,
     std::erase_if(open, [&](const std::string& name) { return std::ranges::find(here, name) == here.end(); });
     first = false;
   }
+  if (open.empty()) return open;
+  // A straight limb, as one that reaches for markers too far away, is open in that posture alone.
+  IkOptions posed = options;
+  posed.max_iterations = 0;
+  const Eigen::Index frame = *fullest_frames(model, markers).begin();
+  const std::vector<std::string> always =
+      inverse_kinematics(bent(model),
+                         recording::MarkerSeries{markers.time_s.segment(frame, 1), markers.names,
+                                                 markers.positions_m.middleRows(frame, 1)},
+                         posed)
+          .undetermined;
+  std::erase_if(open, [&](const std::string& name) { return std::ranges::find(always, name) == always.end(); });
   return open;
 }
 

@@ -187,14 +187,14 @@ TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
   EXPECT_EQ(data.trials[0].torque_nm.size(), data.trials[0].time_s.size());
   EXPECT_NO_THROW(identification::validate(data));
   // Windows of the study are neither fitted nor scored.
-  trial.spec.exclude.windows = {{3.05, 4.05}, {9.95, 12.05}};
+  trial.spec.exclude.windows = {{3.045, 4.045}, {9.945, 12.045}};
   const identification::TrialData without = data_of(result).trials.at(0);
   const std::vector<Eigen::Index> rows = identification::included_rows(without);
-  // The motion has a sample each 0.1 s: 3.1 to 4.0 s and 10.0 to 12.0 s.
-  EXPECT_EQ(std::ssize(rows), without.time_s.size() - 10 - 21);
+  // The analysis has a sample each 0.01 s: 3.05 to 4.04 s and 9.95 to 12.04 s.
+  EXPECT_EQ(std::ssize(rows), without.time_s.size() - 100 - 210);
   for (const Eigen::Index row : rows) {
     const double t = without.time_s[row];
-    EXPECT_FALSE((t > 3.05 && t < 4.05) || (t > 9.95 && t < 12.05)) << t;
+    EXPECT_FALSE((t > 3.045 && t < 4.045) || (t > 9.945 && t < 12.045)) << t;
   }
 }
 
