@@ -177,9 +177,9 @@ void ask_for_loads(const std::string& stem, const LoadHints& hints, bool own_mod
   }
   if (!asked)
     out.todo(fmt::format(
-        "what was held, carried or pushed in each trial? Take the # away; 0: nothing.{} Forces that were measured: "
+        "what was held, carried or pushed in each trial? Take the # away; 0: nothing.{}{} Forces that were measured: "
         "external_loads, force_plates, load_cell, external_torque",
-        where));
+        where, where.empty() ? "" : "."));
   out.line("# held_mass_kg = 0.0");
   asked = true;
 }
