@@ -46,7 +46,7 @@ std::string sha256(std::string_view bytes) {
 }
 
 Provenance without_places(Provenance provenance, const std::filesystem::path& folder) {
-  const std::filesystem::path from = std::filesystem::absolute(folder).lexically_normal();
+  const std::filesystem::path from = std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal();
   for (InputFile& file : provenance.inputs) file.path = without_place(file.path, from);
   if (!provenance.options_json.empty()) {
     nlohmann::ordered_json options = parse_ordered_json(provenance.options_json);

@@ -27,6 +27,7 @@ using identification::TrialData;
 constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
 constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
+constexpr double kLongestMuscle_m = 1.0;  // no musculotendon unit is longer: such numbers are no exchanged lengths
 constexpr double kHighestActivation = 1.25, kCertainlyHigh = 2.0;
 constexpr double kPercent = 20.0;  ///< the largest activation in percent exceeds this
 constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
@@ -95,7 +96,7 @@ class TrialCheck {
       for (Eigen::Index k = 0; k < arms(j).cols(); ++k) {
         const double arm = arms(j).col(k).cwiseAbs().maxCoeff();
         const double length = trial_.length_m.col(k).maxCoeff();
-        if (length > 0.0 && length < arm && arm <= kCertainlyLargeArm_m) longer.push_back(k);
+        if (length > 0.0 && length < arm && arm <= kLongestMuscle_m) longer.push_back(k);
       }
       if (longer.empty()) continue;
       const Exchange told = exchange(j);

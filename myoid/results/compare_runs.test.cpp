@@ -163,7 +163,7 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
             "BIC stronger by 180 N (30 %, 95 % 82 to 278 N); a change below 16 % would not have been seen. 2 numbers "
             "show no change, and of 1 a recording does not tell enough.");
   EXPECT_EQ(change_text(c.parameters[1]),
-            "BRA: no change of maximal isometric force shows; a change below 12 % would not have been seen");
+            "BRA: no change of max isometric force shows; a change below 12 % would not have been seen");
 }
 
 TEST(CompareRuns, AnnouncesNothingFromMethodPaper) {

@@ -10,6 +10,7 @@
 
 #include "myoid/core/units.h"
 #include "myoid/identification/parameter_fields.h"
+#include "myoid/files/text_file.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/study/study_ids.h"
 
@@ -75,6 +76,7 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
        .required = "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode",
        .table = "same_as"});
   if (!muscle.same_as) must_be_name(v, "emg", muscle.emg);
+  muscle.emg = std::string(recording::trim(muscle.emg));  // as the readers of recordings do with their labels
   v.table("start", !muscle.start.empty(), {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
           [&muscle](SettingVisitor& inside) { visit_start(muscle.start, inside); });
   v.texts("fixed", muscle.fixed,

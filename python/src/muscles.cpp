@@ -180,7 +180,7 @@ py::dict simulate(py::dict given) {
   o.call = work.call();
   commands::SimulateResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) commands::protect_inputs(out, commands::kSimulateFiles, {o.model, o.excitations});
+    if (!out.empty()) commands::protect_files(out, commands::kSimulateFiles, {o.model, o.excitations});
     commands::SimulateResult r = commands::simulate(o);
     if (!out.empty()) commands::write_simulate(r, out);
     folder.finish();

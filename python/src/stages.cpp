@@ -183,7 +183,7 @@ py::dict paths(py::dict given) {
   o.call = work.call();
   commands::PathsResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) commands::protect_inputs(out, commands::kPathsFiles, {o.model, o.motion, o.surrogates});
+    if (!out.empty()) commands::protect_files(out, commands::kPathsFiles, {o.model, o.motion, o.surrogates});
     commands::PathsResult r = commands::paths(o);
     if (!out.empty()) commands::write_paths(r, out);
     folder.finish();
@@ -224,7 +224,7 @@ py::dict so(py::dict given) {
   o.call = work.call();
   commands::SoResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) commands::protect_inputs(out, commands::kSoFiles, {o.model, o.motion, o.emg, o.loads});
+    if (!out.empty()) commands::protect_files(out, commands::kSoFiles, {o.model, o.motion, o.emg, o.loads});
     commands::SoResult r = commands::so(o);
     if (!out.empty()) commands::write_so(r, out);
     folder.finish();

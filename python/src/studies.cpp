@@ -171,7 +171,7 @@ py::dict identify(py::dict given) {
   const Done done = work.run([&] {
     prepare_mat(mat, o.muscles.string(), overwrite);
     ResultOut folder(out, o.call, overwrite);
-    commands::protect_inputs(out, commands::kIdentifyFiles, {o.muscles.string()});
+    commands::protect_files(out, commands::kIdentifyFiles, {o.muscles.string()});
     const commands::IdentifyResult r = commands::identify(o);
     commands::write_identify(r, out);
     if (!mat.empty()) write_results_mat(out, mat);

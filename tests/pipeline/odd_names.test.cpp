@@ -42,7 +42,7 @@ const std::vector<std::array<std::string, 4>> kNames{
     {"a/b", "a\\b", "/etc/passwd", "~"},
     {"CON", "nul.txt", "COM1", "ends."},
     {"a,b;c", "#1", "=1+1", "a|b"},
-    {"$(touch x)", "`touch x`", "{name}", "%s{}%41"},
+    {"$(touch x)", "`touch x`", "{a name}", "%s{}%41"},
     {"<script>alert(1)</script>", "a&b", "</title>", "'; --"},
     {"__proto__", "constructor", "1", "true"},
     {" leading", "trailing ", "time", "endheader"},
@@ -56,7 +56,8 @@ class OddNames : public testing::Test {
   void SetUp() override {
     write_text(folder_ / "p.toml",
                "level = \"L1\"\n[[trial]]\nname = \"mvc\"\nkind = \"mvc\"\ndirection = \"both\"\n"
-               "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n");
+               "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n"
+               "[[trial]]\nname = \"more\"\nkind = \"eccentric\"\nheld_mass_kg = 2.0\n");
     const Finished twin = myoid({"twin", "--protocol", folder_ / "p.toml", "--out", folder_ / "rec"});
     ASSERT_EQ(twin.exit_code, 0) << twin.err;
   }
@@ -64,14 +65,15 @@ class OddNames : public testing::Test {
   /// Writes a study whose muscles, electrodes and trials have these names.
   [[nodiscard]] fs::path study(const std::array<std::string, 4>& names, const std::string& place) const {
     constexpr std::array kMuscles{"BIC", "BRA", "BRD", "TRI"};
-    for (const char* file : {"mvc_emg.sto", "lift_emg.sto"}) {
+    constexpr std::size_t kWithoutElectrode = 1;
+    for (const char* file : {"mvc_emg.sto", "lift_emg.sto", "more_emg.sto"}) {
       std::string text = read_text(folder_ / "rec" / file);
       const std::size_t begin = text.find("\ntime") + 1;
       std::string labels = text.substr(begin, text.find('\n', begin) - begin) + "\t";
       const std::size_t length = labels.size() - 1;
       for (std::size_t m = 0; m < 4; ++m) {
         const std::size_t at = labels.find(std::string("\t") + kMuscles[m] + "\t");
-        labels.replace(at + 1, 3, names[m]);
+        if (m != kWithoutElectrode) labels.replace(at + 1, 3, names[m]);
       }
       labels.pop_back();
       write_text(folder_ / place / file, text.replace(begin, length, labels));
@@ -82,8 +84,8 @@ class OddNames : public testing::Test {
         "[subject]\nname = " +
         toml_text(names[0]) + "\n[emg]\nkind = \"raw\"\nunit = \"V\"\nnormalise = \"max\"\n";
     for (std::size_t m = 0; m < 4; ++m)
-      text += "[[muscle]]\nname = " + toml_text(names[m]) + "\nosim = [\"" + kMuscles[m] +
-              "\"]\nemg = " + toml_text(names[m]) + "\n";
+      text += "[[muscle]]\nname = " + toml_text(names[m]) + "\nosim = [\"" + kMuscles[m] + "\"]\nemg = " +
+              (m == kWithoutElectrode ? "{ same_as = " + toml_text(names[0]) + " }" : toml_text(names[m])) + "\n";
     const auto trial = [&](const std::string& name, const std::string& rest) {
       text += "[[trial]]\nname = " + toml_text(name) + "\n" + rest;
     };
@@ -91,7 +93,7 @@ class OddNames : public testing::Test {
     trial(names[1], "markers = \"../rec/lift.trc\"\nemg = \"lift_emg.sto\"\nheld_mass_kg = 1.0\n");
     trial(names[2], "motion = \"../rec/truth/lift_motion.sto\"\nuse = \"static\"\nheld_mass_kg = 1.0\n");
     trial(names[3],
-          "markers = \"../rec/lift.trc\"\nemg = \"lift_emg.sto\"\nheld_mass_kg = 1.0\nuse = \"validation\"\n");
+          "markers = \"../rec/more.trc\"\nemg = \"more_emg.sto\"\nheld_mass_kg = 2.0\nuse = \"validation\"\n");
     text += "[identify]\nmethod = [\"paper\", \"torque\"]\n";
     write_text(folder_ / place / "study.toml", text);
     return folder_ / place / "study.toml";
