@@ -54,9 +54,8 @@ TEST(C3dEvents, EventsWithoutTimesAreNamed) {
   file.groups.push_back(events);
   const C3dFile back = parse_c3d(format_c3d(file), "timeless.c3d");
   EXPECT_TRUE(back.events.empty());
-  EXPECT_TRUE(std::ranges::any_of(back.repairs, [](const Repair& repair) {
-    return repair.message == "EVENTS: 2 events have no TIMES; left out";
-  }));
+  EXPECT_TRUE(std::ranges::any_of(
+      back.repairs, [](const Repair& repair) { return repair.message == "EVENTS: 2 events have no TIMES; left out"; }));
 }
 
 TEST(C3dEvents, TheSectionBehindTheDataIsRead) {

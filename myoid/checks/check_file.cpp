@@ -60,8 +60,8 @@ std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::str
   // A muscle may rest or work throughout one recording. Noise alone is a fault.
   for (Remark& fault : faults) {
     const auto c = one.front().envelope->find(fault.about);
-    const bool noise = fault.severity == Severity::error ||
-                       (raw && c && stages.flatness[*c] > signals::kLimits.noise_flatness);
+    const bool noise =
+        fault.severity == Severity::error || (raw && c && stages.flatness[*c] > signals::kLimits.noise_flatness);
     const bool resting = fault.code == RemarkCode::emg_low_signal && !noise;
     fault.severity = std::max(fault.severity, resting ? Severity::note : Severity::warning);
   }

@@ -136,10 +136,9 @@ std::vector<Remark> StudyPlausibility::findings() const {
   if (auto sizes = unlike_sizes(sizes_)) found.push_back(std::move(*sizes));
   std::vector<Remark> of_model = model::implausible(*model_);
   for (Remark& remark : of_model) remark.where = "study";
-  for (std::vector<Remark> more :
-       {shared_muscles(*study_), idle_muscles(*study_, *model_), tendons_too_long(*study_, *model_),
-        unlikely_mass(*study_, *model_), unlike_stated_bodies(*study_), of_model, same,
-        grouped(unlike_lengths(lengths_))})
+  for (std::vector<Remark> more : {shared_muscles(*study_), idle_muscles(*study_, *model_),
+                                   tendons_too_long(*study_, *model_), unlikely_mass(*study_, *model_),
+                                   unlike_stated_bodies(*study_), of_model, same, grouped(unlike_lengths(lengths_))})
     std::ranges::move(more, std::back_inserter(found));
   return found;
 }

@@ -44,13 +44,12 @@ void check_angles(const Study& study,
          .severity = wrong ? Severity::error : Severity::warning,
          .where = where,
          .about = name,
-         .says =
-             fmt::format("{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % of the samples "
-                         "lie outside, by up to {} deg, where its muscle paths mean nothing; {}",
-                         name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()), whole_degrees(c.lower),
-                         whole_degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share, whole_degrees(far),
-                         negated ? "is its sign the opposite of the model's?"
-                                 : "is its zero or sign another than the model's?")});
+         .says = fmt::format(
+             "{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % of the samples "
+             "lie outside, by up to {} deg, where its muscle paths mean nothing; {}",
+             name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()), whole_degrees(c.lower),
+             whole_degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share, whole_degrees(far),
+             negated ? "is its sign the opposite of the model's?" : "is its zero or sign another than the model's?")});
   }
 }
 

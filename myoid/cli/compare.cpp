@@ -20,20 +20,21 @@ nlohmann::ordered_json optional_number(const std::optional<double>& x) {
 nlohmann::ordered_json to_json(const RunComparison& comparison) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const ComparedParameter& p : comparison.parameters) {
-    rows.push_back({{"muscle", p.muscle},
-                    {"parameter", p.first.parameter},
-                    {"unit", std::string(symbol(p.first.unit))},
-                    {"method", p.first.method},
-                    {"case", p.first.fit_case},
-                    {"first", p.first.estimate},
-                    {"second", p.second.estimate},
-                    {"difference", p.difference},
-                    {"difference_percent", p.base == 0.0 ? nlohmann::ordered_json(nullptr)
-                                                         : nlohmann::ordered_json(100.0 * p.difference / std::abs(p.base))},
-                    {"smallest_detectable", optional_number(p.smallest_detectable)},
-                    {"p_value", optional_number(p.p_value)},
-                    {"change", std::string(name(p.change))},
-                    {"says", change_text(p)}});
+    rows.push_back(
+        {{"muscle", p.muscle},
+         {"parameter", p.first.parameter},
+         {"unit", std::string(symbol(p.first.unit))},
+         {"method", p.first.method},
+         {"case", p.first.fit_case},
+         {"first", p.first.estimate},
+         {"second", p.second.estimate},
+         {"difference", p.difference},
+         {"difference_percent", p.base == 0.0 ? nlohmann::ordered_json(nullptr)
+                                              : nlohmann::ordered_json(100.0 * p.difference / std::abs(p.base))},
+         {"smallest_detectable", optional_number(p.smallest_detectable)},
+         {"p_value", optional_number(p.p_value)},
+         {"change", std::string(name(p.change))},
+         {"says", change_text(p)}});
   }
   return {{"first", comparison.first.string()},
           {"second", comparison.second.string()},
@@ -48,14 +49,14 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
 void print(const RunComparison& comparison) {
   say("{}\n\n", changes_sentence(comparison));
   say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second",
-             "difference", "%", "p", "verdict");
+      "difference", "%", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
     if (!rests_on_measurement(p.first.method)) continue;  // in the report
     say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", p.muscle,
-               fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
-               report::format_value(p.second.estimate), report::format_value(p.difference),
-               p.base == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.base)),
-               p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
+        fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
+        report::format_value(p.second.estimate), report::format_value(p.difference),
+        p.base == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.base)),
+        p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }
   for (const std::string& remark : comparison.remarks) say("{}\n", remark);
 }

@@ -51,10 +51,8 @@ nlohmann::ordered_json emg_json(const std::vector<std::string>& out, const comma
                         {"median_frequency_hz", w.median_frequency_hz}});
       return list;
     };
-    json["measures"].push_back({{"file", one.file},
-                                {"channel", one.channel},
-                                {"bursts", rows(one.bursts)},
-                                {"windows", rows(one.windows)}});
+    json["measures"].push_back(
+        {{"file", one.file}, {"channel", one.channel}, {"bursts", rows(one.bursts)}, {"windows", rows(one.windows)}});
   }
   return json;
 }
@@ -138,7 +136,8 @@ void add_emg(CLI::App& app, Context& context) {
                                      "Even out the spectrum of all channels before they are rectified (default: if the "
                                      "files allow it for every channel)");
   command.add_flag("--no-whitening", asked->no_whitening, "Even it out in no channel")->excludes(on);
-  command.add_flag("--remove-ecg", o->chain.remove_ecg, "Take the heart out of channels that hold it, as the trunk's do");
+  command.add_flag("--remove-ecg", o->chain.remove_ecg,
+                   "Take the heart out of channels that hold it, as the trunk's do");
   command.add_option("--measures", asked->measures,
                      "Write onset, end, root mean square and median frequency of every burst here (.csv)");
   command

@@ -27,7 +27,8 @@ nlohmann::json fit_json(const MuscleResult& result) {
                       {"starting_values", error.starting_values},
                       {"fitted", error.fitted},
                       {"predicted_from_the_others", error.predicted}});
-  nlohmann::json json{{"muscle", result.name}, {"converged", fit.converged}, {"moved", fit.all.moved}, {"errors", errors}};
+  nlohmann::json json{
+      {"muscle", result.name}, {"converged", fit.converged}, {"moved", fit.all.moved}, {"errors", errors}};
   for (const muscle::IsolatedEstimate& e : fit.all.estimates)
     json["estimates"].push_back({{"parameter", e.parameter},
                                  {"start", e.start},
@@ -44,8 +45,8 @@ void print_fit(const MuscleResult& result) {
   say("{:<28}{:>14}{:>14}{:>14}\n", "parameter", "start", "estimate", "std error");
   for (const muscle::IsolatedEstimate& e : fit.all.estimates)
     say("{:<28}{:>14.6g}{:>14.6g}{:>14} {}{}{}\n", e.parameter, e.start, e.value,
-               e.told ? fmt::format("{:.2g}", e.std_error) : "-", symbol(e.unit), e.at_bound ? ", at its bound" : "",
-               e.told ? "" : ", not told by the recordings");
+        e.told ? fmt::format("{:.2g}", e.std_error) : "-", symbol(e.unit), e.at_bound ? ", at its bound" : "",
+        e.told ? "" : ", not told by the recordings");
   if (std::ranges::any_of(fit.all.estimates, &muscle::IsolatedEstimate::at_bound))
     say("the standard errors of the others hold only if the value at the bound is true: the recordings pull beyond "
         "it\n");

@@ -79,7 +79,8 @@ TEST(Group, WritesTablesPageAndDerivativeAndNoDerivativeOfAPersonWithoutResults)
   write_group(read_group(manifest, folder.path()), manifest, folder.path());
   EXPECT_THAT(recording::read_text_file(folder / "cohort.csv"),
               HasSubstr("A,\"young, fit\",BIC,max_isometric_force,N,torque,both,100,90,110"));
-  EXPECT_THAT(recording::read_text_file(folder / "persons.csv"), HasSubstr("C,\"young, fit\",s.toml,persons/C,failed,no EMG"));
+  EXPECT_THAT(recording::read_text_file(folder / "persons.csv"),
+              HasSubstr("C,\"young, fit\",s.toml,persons/C,failed,no EMG"));
   EXPECT_THAT(recording::read_text_file(folder / "participants.tsv"),
               HasSubstr("participant_id\tgroup\nsub-A\tyoung, fit\n"));
   EXPECT_TRUE(fs::exists(folder / "report.html"));

@@ -68,10 +68,10 @@ std::optional<Outcome> recorded_outcome(const fs::path& folder) {
 
 void write_outcome(const Outcome& outcome, const fs::path& folder) {
   ordered_json record{{"outcome", std::string(choice_name(outcome.kind))},
-                    {"message", outcome.message},
-                    {"settings", outcome.settings},
-                    {"build", outcome.build},
-                    {"inputs", ordered_json::array()}};
+                      {"message", outcome.message},
+                      {"settings", outcome.settings},
+                      {"build", outcome.build},
+                      {"inputs", ordered_json::array()}};
   for (const InputFile& input : outcome.inputs)
     record["inputs"].push_back({{"path", input.path}, {"sha256", input.sha256}});
   recording::write_file(folder / kFile, json_text(record) + "\n");

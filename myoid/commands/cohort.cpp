@@ -238,9 +238,9 @@ void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder) {
     });
     recording::RecordedFolder record(folder, kCohortWord, {.earlier_version = earlier});
     if (!record.is_signed_by(kCohortWord) && recording::holds_content(folder) && !o.overwrite)
-      throw InvalidInput(fmt::format(
-          "the folder {} holds other files than a cohort's; give an empty folder, or add --overwrite",
-          folder.string()));
+      throw InvalidInput(
+          fmt::format("the folder {} holds other files than a cohort's; give an empty folder, or add --overwrite",
+                      folder.string()));
     protect_files(folder, kGroupFiles, {o.manifest});
     fs::create_directories(folder / cohort::kPersonsFolder, error);
     if (!error) record.sign();

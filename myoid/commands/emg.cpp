@@ -195,8 +195,8 @@ void write_emg_measures(const EmgResult& result, const std::string& path) {
   const auto number = [](double value) { return std::isfinite(value) ? recording::format_number(value) : ""; };
   for (const EmgMeasures& one : result.measures) {
     const auto add = [&](const char* kind, const signals::EmgWindow& w) {
-      text += fmt::format("{},{},{},{},{},{},{}\n", recording::csv_quoted(one.file), recording::csv_quoted(one.channel), kind,
-                          number(w.begin_s), number(w.end_s), number(w.rms), number(w.median_frequency_hz));
+      text += fmt::format("{},{},{},{},{},{},{}\n", recording::csv_quoted(one.file), recording::csv_quoted(one.channel),
+                          kind, number(w.begin_s), number(w.end_s), number(w.rms), number(w.median_frequency_hz));
     };
     for (const signals::EmgWindow& burst : one.bursts) add("burst", burst);
     for (const signals::EmgWindow& window : one.windows) add("window", window);

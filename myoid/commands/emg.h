@@ -20,8 +20,8 @@ struct EmgOptions {
   std::vector<std::string> channels;  ///< Only these channels; empty: all of a file's first clock.
   std::string unit;                   ///< V, mV or uV if a file does not state it.
   signals::EnvelopeOptions chain;
-  double window_s = 0.5;        ///< Length of the mean that counts as 1.
-  bool keep_envelopes = false;  ///< Keeps the envelopes in the result, too.
+  double window_s = 0.5;          ///< Length of the mean that counts as 1.
+  bool keep_envelopes = false;    ///< Keeps the envelopes in the result, too.
   double measure_window_s = 0.0;  ///< Length of the windows of the measures; 0: bursts alone.
 };
 

@@ -61,7 +61,8 @@ PathsResult paths(const PathsOptions& o) {
   Remarks remarks(o.call);
   const model::BodyModel model = load_model(o.model, o.compat, remarks);
   if (o.compare_with_opensim) warn_of_path_differences(model, o.model, remarks);
-  const kinematics::JointMotion motion = load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, kinematics::HeldValues::of_model);
+  const kinematics::JointMotion motion =
+      load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, kinematics::HeldValues::of_model);
   if (o.check_jumps) {
     for (const model::PathJump& jump : model::find_jumps(model)) remarks.warn(model::describe(model, jump));
   }

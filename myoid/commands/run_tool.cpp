@@ -16,10 +16,8 @@ RunToolResult run_tool(const RunToolOptions& o) {
   Remarks remarks(o.call);
   RunToolResult result;
   result.tool = myoid::run_tool(
-      o.setup, {.compat = model::parse_compat(o.compat),
-                .files = o.files,
-                .anywhere = o.anywhere,
-                .progress = o.call.progress});
+      o.setup,
+      {.compat = model::parse_compat(o.compat), .files = o.files, .anywhere = o.anywhere, .progress = o.call.progress});
   for (const std::string& note : result.tool.notes) remarks.warn(note);
   for (const Remark& remark : result.tool.remarks) remarks.add(remark);
   if (result.tool.replaced > 0)

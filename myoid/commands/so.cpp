@@ -44,7 +44,8 @@ SoResult so(const SoOptions& o) {
   Remarks remarks(o.call);
   const model::BodyModel model = load_model(o.model, o.compat, remarks);
   if (o.compare_with_opensim) warn_of_path_differences(model, o.model, remarks);
-  const kinematics::JointMotion motion = load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, kinematics::HeldValues::of_model);
+  const kinematics::JointMotion motion =
+      load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, kinematics::HeldValues::of_model);
   std::optional<dynamics::ExternalLoads> loads;
   if (!o.loads.empty()) loads = load_external_loads(model, o.loads, motion, remarks);
   if (const auto weight = dynamics::unsupported_weight(model);

@@ -13,8 +13,9 @@ std::optional<DocumentFault> too_large(std::string_view text) {
 }
 
 DocumentFault too_deep(std::size_t offset) {
-  return {offset, fmt::format("elements nest more than {} deep; no model, set-up or result does, so the file is damaged",
-                              kDeepestNesting)};
+  return {offset,
+          fmt::format("elements nest more than {} deep; no model, set-up or result does, so the file is damaged",
+                      kDeepestNesting)};
 }
 
 /// Returns the offset behind a section that ends with `end`; the end of the text where it does not end.

@@ -41,7 +41,8 @@ TEST(DocumentLimits, CommentsSectionsAndEmptyElementsAreNoNesting) {
 }
 
 TEST(DocumentLimits, CutOffTextsEnd) {
-  for (const char* cut : {"<", "<a", "<!--", "<a b='", "<![CDATA[", "</", "<?", ""}) EXPECT_FALSE(xml_fault(cut)) << cut;
+  for (const char* cut : {"<", "<a", "<!--", "<a b='", "<![CDATA[", "</", "<?", ""})
+    EXPECT_FALSE(xml_fault(cut)) << cut;
   EXPECT_FALSE(json_fault("\"\\"));
 }
 

@@ -10,7 +10,8 @@ namespace {
 /// Throws the parser's error where the text breaks a limit of documents.
 void keep_limits(std::string_view text) {
   if (const auto fault = json_fault(text))
-    throw nlohmann::json::parse_error::create(101, fault->offset, fault->message, static_cast<nlohmann::json*>(nullptr));
+    throw nlohmann::json::parse_error::create(101, fault->offset, fault->message,
+                                              static_cast<nlohmann::json*>(nullptr));
 }
 
 }  // namespace

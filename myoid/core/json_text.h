@@ -12,7 +12,8 @@ namespace myoid {
 [[nodiscard]] std::string json_text(const nlohmann::ordered_json& json, int indent = 2);
 
 /// Parses JSON; the fields of an object are sorted by name. Throws nlohmann::json::parse_error where the text is not
-/// JSON or breaks a limit of documents (document_limits.h); without `throws` the value is then a discarded one. All JSON is parsed here: a parser takes 2 s to compile.
+/// JSON or breaks a limit of documents (document_limits.h); without `throws` the value is then a discarded one. All
+/// JSON is parsed here: a parser takes 2 s to compile.
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, bool throws = true);
 
 /// Parses JSON as parse_json does; the fields of an object keep their order.

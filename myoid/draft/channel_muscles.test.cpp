@@ -53,9 +53,8 @@ TEST(MatchChannels, AGroupOfMusclesIsAllOfThemAndAShortNameIsOne) {
 }
 
 TEST(MatchChannels, ALetterForTheSideStandsBeforeOrBehindAnAbbreviation) {
-  const std::vector<std::string> legs{"rect_fem_r",  "rect_fem_l", "bifemlh_r", "vas_lat_r", "vas_lat_l",
-                                      "tib_ant_r",   "tib_ant_l",  "med_gas_r", "lat_gas_r", "med_gas_l",
-                                      "vas_med_l"};
+  const std::vector<std::string> legs{"rect_fem_r", "rect_fem_l", "bifemlh_r", "vas_lat_r", "vas_lat_l", "tib_ant_r",
+                                      "tib_ant_l",  "med_gas_r",  "lat_gas_r", "med_gas_l", "vas_med_l"};
   const auto one = [&](const char* channel) { return match_channels({channel}, legs)[0].muscles; };
   EXPECT_THAT(one("RRF"), ElementsAre("rect_fem_r"));
   EXPECT_THAT(one("RBF"), ElementsAre("bifemlh_r"));

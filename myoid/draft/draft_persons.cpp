@@ -83,8 +83,8 @@ OnePerson keep_one_person(std::vector<FoundRecording>& found) {
   OnePerson person{.all = persons_in(found)};
   if (person.all.size() < 2) return {};
   const std::vector<std::string> each = person_of_each(found);
-  person.kept = *std::ranges::max_element(
-      person.all, {}, [&](const std::string& name) { return std::ranges::count(each, name); });
+  person.kept = *std::ranges::max_element(person.all, {},
+                                          [&](const std::string& name) { return std::ranges::count(each, name); });
   std::vector<FoundRecording> own;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (each[i].empty() || each[i] == person.kept)

@@ -7,7 +7,8 @@
 
 namespace myoid {
 
-/// Returns for each recording the name of the person whom its name or its folders speak of, as `persons_in`; empty: none.
+/// Returns for each recording the name of the person whom its name or its folders speak of, as `persons_in`; empty:
+/// none.
 [[nodiscard]] std::vector<std::string> person_of_each(const std::vector<FoundRecording>& found);
 
 /// Returns the names of the persons that the names of the recordings or of their folders speak of: "sub-01" (BIDS), a

@@ -100,9 +100,10 @@ class Draft {
       const ModelByMarkers chosen = model_of_markers(models, files);
       if (chosen.markers > 0) {
         model_file_ = chosen.model;
-        draft_.notes.push_back(fmt::format("of {} models {} is taken: it knows {} of the recorded markers, more than "
-                                           "any other",
-                                           models.size(), relative(chosen.model), chosen.markers));
+        draft_.notes.push_back(
+            fmt::format("of {} models {} is taken: it knows {} of the recorded markers, more than "
+                        "any other",
+                        models.size(), relative(chosen.model), chosen.markers));
       }
       for (const fs::path& m : models) {
         if (!model_file_ || m != *model_file_) other_models_.push_back(relative(m));
@@ -221,10 +222,11 @@ class Draft {
     const std::string folder = recording::to_utf8((at.has_filename() ? at : at.parent_path()).filename().string());
     line("name = " + toml_text(recording::name_refusal(folder).empty() ? folder : "subject"));
     if (!person_.left_out.empty())
-      todo(fmt::format("{} in the names: a study is of one person, and this one is of {}; it leaves {} of the others "
-                       "out. If these are other persons, draft a study for each (`myoid init DIR --from` that person's "
-                       "files) and run all with `myoid cohort`; if not, name all files with --from one by one",
-                       name_list(person_.all), person_.kept, counted(person_.left_out.size(), "file")));
+      todo(
+          fmt::format("{} in the names: a study is of one person, and this one is of {}; it leaves {} of the others "
+                      "out. If these are other persons, draft a study for each (`myoid init DIR --from` that person's "
+                      "files) and run all with `myoid cohort`; if not, name all files with --from one by one",
+                      name_list(person_.all), person_.kept, counted(person_.left_out.size(), "file")));
     body_mass();
     line("");
   }
@@ -253,8 +255,9 @@ class Draft {
     } else {
       line("builtin = \"arm4\"");
       if (is_of_a_leg(found_) && most_known_ < 3)
-        todo("the recorded markers are those of a leg, and this built-in model is an arm: name a model of the leg with "
-             "--model");
+        todo(
+            "the recorded markers are those of a leg, and this built-in model is an arm: name a model of the leg with "
+            "--model");
     }
     if (!other_models_.empty())
       todo(fmt::format("or one of the {}models that were found: file = {}", model_file_ ? "other " : "",
@@ -304,7 +307,8 @@ class Draft {
     }
     if (elsewhere_.empty()) return;
     std::vector<std::string> pairs;
-    for (const auto& [name, like] : elsewhere_) pairs.push_back(fmt::format("{} = {}", toml_text(name), toml_text(like)));
+    for (const auto& [name, like] : elsewhere_)
+      pairs.push_back(fmt::format("{} = {}", toml_text(name), toml_text(like)));
     todo("these stand where the model has the others: are they the same? Then take the # away");
     line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }

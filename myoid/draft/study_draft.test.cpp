@@ -165,7 +165,8 @@ void write_markers(const std::filesystem::path& file, const std::vector<std::str
   for (int f = 0; f < 20; ++f) {
     text += fmt::format("{}\t{:.2f}", f + 1, 0.01 * f);
     for (std::size_t m = 0; m < names.size(); ++m)
-      text += fmt::format("\t{:.1f}\t{:.1f}\t{:.1f}", 100.0 * static_cast<double>(m), 900.0 + f, 50.0 * static_cast<double>(m % 3));
+      text += fmt::format("\t{:.1f}\t{:.1f}\t{:.1f}", 100.0 * static_cast<double>(m), 900.0 + f,
+                          50.0 * static_cast<double>(m % 3));
     text += "\n";
   }
   recording::write_file(file, text);
@@ -179,7 +180,8 @@ TEST(StudyDraft, TakesTheModelThatKnowsTheMarkers) {
   for (const model::Marker& marker : model::parse_osim(arm, "arm.osim").markers) {
     names.push_back(marker.name);
     const std::string tag = "Marker name=\"" + marker.name + "\"";
-    if (const auto at = other.find(tag); at != std::string::npos) other.replace(at, tag.size(), "Marker name=\"Q" + marker.name + "\"");
+    if (const auto at = other.find(tag); at != std::string::npos)
+      other.replace(at, tag.size(), "Marker name=\"Q" + marker.name + "\"");
   }
   recording::write_file(folder / "a_other.osim", other);
   recording::write_file(folder / "b_arm.osim", arm);

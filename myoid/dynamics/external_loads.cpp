@@ -183,10 +183,10 @@ ExternalForce read_force(const OsimXml& xml,
     force.point = fit(clock, p);
   }
   if (p.rows() == 0 && f.rows() > 0 && !f.isZero(0.0) && force.body != 0) {
-    notes.push_back(fmt::format("{}: {}: '{}' names no point: its force acts at the origin of body '{}', as in OpenSim; "
-                                "<point_identifier> names the columns of its point",
-                                xml.path().string(), xml.place_of(node), force.name,
-                                model.bodies[static_cast<std::size_t>(force.body)].name));
+    notes.push_back(fmt::format(
+        "{}: {}: '{}' names no point: its force acts at the origin of body '{}', as in OpenSim; "
+        "<point_identifier> names the columns of its point",
+        xml.path().string(), xml.place_of(node), force.name, model.bodies[static_cast<std::size_t>(force.body)].name));
   }
   if (f.rows() > 0) force.force = fit(clock, f);
   if (t.rows() > 0) force.torque = fit(clock, t);
@@ -254,8 +254,8 @@ ExternalLoads read_external_loads(const model::BodyModel& model, const std::file
   }
   const recording::NamedFile named = recording::find_named_file(path.parent_path(), name);
   if (!named.exists) {
-    xml.fail(set.child("datafile"), fmt::format("<datafile> names '{}', and {}", name,
-                                                recording::missing_file(path.parent_path(), name)));
+    xml.fail(set.child("datafile"),
+             fmt::format("<datafile> names '{}', and {}", name, recording::missing_file(path.parent_path(), name)));
   }
   const std::filesystem::path& file = named.path;
   const recording::Storage table = recording::read_storage(file);
@@ -263,7 +263,8 @@ ExternalLoads read_external_loads(const model::BodyModel& model, const std::file
   if (data.empty()) throw InvalidInput(fmt::format("{}: there are no rows", file.string()));
   ExternalLoads loads;
   for (const auto* sentences : {&xml.repairs(), &xml.ignored()})
-    for (const std::string& sentence : *sentences) loads.notes.push_back(fmt::format("{}: {}", path.string(), sentence));
+    for (const std::string& sentence : *sentences)
+      loads.notes.push_back(fmt::format("{}: {}", path.string(), sentence));
   if (!named.note.empty()) loads.notes.push_back(fmt::format("{}: <datafile>: {}", path.string(), named.note));
   for (const recording::Repair& repair : table.repairs) loads.notes.push_back(recording::to_string(file, repair));
   loads.start_s = data.time_s()[0];

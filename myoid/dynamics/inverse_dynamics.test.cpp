@@ -88,7 +88,8 @@ TEST(InverseDynamics, SpringsAndLigamentsOfABallJointActOnItsSpeeds) {
         "<socket_child_frame>/bodyset/b</socket_child_frame><coordinates><Coordinate name=\"x\"/>"
         "<Coordinate name=\"y\"/><Coordinate name=\"z\"/></coordinates></BallJoint></objects></JointSet>"
         "<ForceSet><objects><PathSpring name=\"s\"><resting_length>0.05</resting_length><stiffness>300</stiffness>"
-        "<dissipation>0</dissipation>" + path("0.1 0.1 0.2", "0.05 -0.2 0") +
+        "<dissipation>0</dissipation>" +
+            path("0.1 0.1 0.2", "0.05 -0.2 0") +
             "</PathSpring><Ligament name=\"l\"><resting_length>0.1</resting_length><pcsa_force>200</pcsa_force>" +
             path("-0.1 0.05 0.1", "0 -0.3 0.1") +
             "</Ligament><SpringGeneralizedForce name=\"g\"><coordinate>y</coordinate><stiffness>7</stiffness>"

@@ -10,7 +10,8 @@ namespace myoid::dynamics {
 /// Adds the model's passive forces (limit forces, springs, bushings, formulas, ligaments, contacts, forces over time)
 /// at the posture and speeds of `state` (compute_poses, compute_velocities) and at this time. `generalized` receives
 /// forces along coordinates [N m, N], `wrenches` forces on bodies, about the body origins. Where
-/// OpenSim's speeds differ from rates (kinematics/angular_speeds.h), springs and limits of a coordinate act on its speed.
+/// OpenSim's speeds differ from rates (kinematics/angular_speeds.h), springs and limits of a coordinate act on its
+/// speed.
 void append_passive_forces(const model::BodyModel& model,
                            const model::BodyState& state,
                            Eigen::VectorXd& generalized,

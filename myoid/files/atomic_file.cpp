@@ -55,8 +55,8 @@ int write_all(int descriptor, std::string_view content) {
   return 0;
 }
 
-/// Returns the permissions of a new file: those that the process's umask leaves of rw-rw-rw-. The umask is read from the
-/// system's record, because the call that returns the umask also sets it, for every thread.
+/// Returns the permissions of a new file: those that the process's umask leaves of rw-rw-rw-. The umask is read from
+/// the system's record, because the call that returns the umask also sets it, for every thread.
 unsigned new_permissions() {
   unsigned umask = 022;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> status(std::fopen("/proc/self/status", "re"), &std::fclose);

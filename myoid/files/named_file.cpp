@@ -103,7 +103,8 @@ std::string missing_file(const fs::path& folder, std::string_view name) {
   fs::directory_iterator entry(folder.empty() ? "." : folder, ignored);
   for (; entry != fs::directory_iterator() && seen < kMostEntries; entry.increment(ignored), ++seen) {
     const fs::path file = entry->path().filename();
-    if (equal_ignoring_case(file.extension().string(), ending) && is_file(entry->path())) alike.push_back(file.string());
+    if (equal_ignoring_case(file.extension().string(), ending) && is_file(entry->path()))
+      alike.push_back(file.string());
   }
   std::sort(alike.begin(), alike.end());
   std::string text = "there is no such file";

@@ -70,11 +70,8 @@ ResultFolder::ResultFolder(fs::path folder, const std::string& command, std::str
   lock(command, word, overwrite, true, "");
 }
 
-void ResultFolder::lock(const std::string& command,
-                        const std::string& word,
-                        bool overwrite,
-                        bool continues,
-                        std::string_view unless_only) {
+void ResultFolder::lock(
+    const std::string& command, const std::string& word, bool overwrite, bool continues, std::string_view unless_only) {
   make();
   try {
     lock_ = std::make_unique<FolderLock>(path_);
@@ -83,8 +80,8 @@ void ResultFolder::lock(const std::string& command,
     throw;
   }
   const std::optional<FolderOwner>& dead = lock_->left_behind();
-  record_ = std::make_unique<RecordedFolder>(path_, word,
-                                             RecordTerms{.earlier_version = is_of_earlier_version(path_), .alone = true});
+  record_ = std::make_unique<RecordedFolder>(
+      path_, word, RecordTerms{.earlier_version = is_of_earlier_version(path_), .alone = true});
   const bool own = record_->is_signed_by(word);
   const bool empty = !holds_content(path_, unless_only);
   const bool unfinished = dead && dead->from_empty && command_word(dead->command) == command_word(command);

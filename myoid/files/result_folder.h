@@ -45,7 +45,10 @@ class ResultFolder {
 
  private:
   void make();
-  void lock(const std::string& command, const std::string& word, bool overwrite, bool continues,
+  void lock(const std::string& command,
+            const std::string& word,
+            bool overwrite,
+            bool continues,
             std::string_view unless_only);
 
   std::filesystem::path path_;

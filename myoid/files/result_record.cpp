@@ -209,7 +209,8 @@ OpenFile open_record(const fs::path& folder) {
     (void)flock(file.get(), LOCK_EX);  // a file system without locks has one process at a time
     if (stat(path.c_str(), &named) != 0 || named.st_ino != opened.st_ino || named.st_dev != opened.st_dev) continue;
     std::string begin(kSignature.size(), '\0');
-    if (opened.st_size == 0 || (pread(file.get(), begin.data(), begin.size(), 0) > 0 && begin == kSignature)) return file;
+    if (opened.st_size == 0 || (pread(file.get(), begin.data(), begin.size(), 0) > 0 && begin == kSignature))
+      return file;
     throw InvalidInput("{} is no list of this program's results; move it elsewhere, or give another --out",
                        path.string());
   }
@@ -397,7 +398,8 @@ std::string begin_of(std::string_view head) {
   if (!trim(head).starts_with('<'))
     return head.find("endheader") == std::string_view::npos ? "" : std::string(trim(head.substr(0, head.find('\n'))));
   std::string begin;
-  for (std::size_t at = head.find('<'), tags = 0; at != std::string_view::npos && tags < 2; at = head.find('<', at + 1)) {
+  for (std::size_t at = head.find('<'), tags = 0; at != std::string_view::npos && tags < 2;
+       at = head.find('<', at + 1)) {
     const std::string_view tag = head.substr(at + 1, head.find('>', at) - at - 1);
     if (tag.starts_with('?') || tag.starts_with('!')) continue;
     const std::size_t name = tag.find("name=");
@@ -448,8 +450,8 @@ void move_aside(HeldRecord& held, const std::string& path) {
 
 std::string list_of(const std::set<std::string>& paths) {
   constexpr std::size_t kShown = 5;
-  std::vector<std::string> shown(paths.begin(), std::next(paths.begin(), static_cast<std::ptrdiff_t>(
-                                                                             std::min(kShown, paths.size()))));
+  std::vector<std::string> shown(paths.begin(),
+                                 std::next(paths.begin(), static_cast<std::ptrdiff_t>(std::min(kShown, paths.size()))));
   if (paths.size() > kShown) shown.push_back(fmt::format("{} more", paths.size() - kShown));
   return fmt::format("{}", fmt::join(shown, ", "));
 }

@@ -75,8 +75,8 @@ TEST(ResultRecord, OnlyUnchangedResultsOfTheSameCommandAreRemoved) {
   remove_earlier_results(out);
   EXPECT_FALSE(fs::exists(out / "a.sto"));
   EXPECT_FALSE(fs::exists(out / "trial/ik.mot"));
-  for (const char* kept : {"out/edited.csv", "out/trial/notes.txt", "out/report.html", "out/markers.trc",
-                           "elsewhere/id.sto"})
+  for (const char* kept :
+       {"out/edited.csv", "out/trial/notes.txt", "out/report.html", "out/markers.trc", "elsewhere/id.sto"})
     EXPECT_TRUE(fs::exists(folder / kept)) << kept;
   EXPECT_THAT(held.take_notes(), ElementsAre(HasSubstr("kept: edited.csv")));
 }

@@ -166,8 +166,8 @@ Eigen::VectorXd unbounded(const Dual& dual) {
   return h.selfadjointView<Eigen::Lower>().ldlt().solve(dual.b());
 }
 
-/// The controls of least sum |x|^q for rising q up to p, each by Newton's method from the controls before. A step is the
-/// problem of exponent 2 with weights |x|^(q-2) and targets x (q-2)/(q-1), which the dual solves.
+/// The controls of least sum |x|^q for rising q up to p, each by Newton's method from the controls before. A step is
+/// the problem of exponent 2 with weights |x|^(q-2) and targets x (q-2)/(q-1), which the dual solves.
 class RisingExponent {
  public:
   RisingExponent(const ActuatorProblem& problem, const Dual& scaled, Eigen::VectorXd start)

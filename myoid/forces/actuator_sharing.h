@@ -29,8 +29,9 @@ struct ActuatorSolution {
 
 /// Solves by Newton's method on the concave dual: given lambda, every control follows in closed form, x_i = clip((A'
 /// lambda)_i / p)^(1/(p-1)). Exact to round-off if the actuators can produce b. Where that law is too steep (large
-/// exponents), Newton's method on the controls raises the exponent step by step from 2. Otherwise a penalty of 1e6 times
-/// the cost of the greatest control distributes the rest, and `feasible` is false: no exponent changes that. Throws InvalidInput if sizes disagree, p
+/// exponents), Newton's method on the controls raises the exponent step by step from 2. Otherwise a penalty of 1e6
+/// times the cost of the greatest control distributes the rest, and `feasible` is false: no exponent changes that.
+/// Throws InvalidInput if sizes disagree, p
 /// <= 1 or a bound lies above the other.
 [[nodiscard]] ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::VectorXd* start = nullptr);
 

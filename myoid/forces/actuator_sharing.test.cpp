@@ -26,8 +26,8 @@ TEST(ActuatorSharing, TwoActuatorsShareByTheLawOfLagrange) {
 TEST(ActuatorSharing, LargeExponentsShareByTheLawOfLagrangeToo) {
   for (const double p : {8.0, 20.0, 50.0, 100.0}) {
     // Two joints; the second needs a hundredth of the first's effort.
-    ActuatorProblem problem{Eigen::MatrixXd::Zero(2, 4), Eigen::Vector2d(20.0, 0.2),
-                            Eigen::VectorXd::Constant(4, 1e-4), Eigen::VectorXd::Ones(4), p};
+    ActuatorProblem problem{Eigen::MatrixXd::Zero(2, 4), Eigen::Vector2d(20.0, 0.2), Eigen::VectorXd::Constant(4, 1e-4),
+                            Eigen::VectorXd::Ones(4), p};
     problem.forces.row(0) << 10.0, 40.0, 0.0, 0.0;
     problem.forces.row(1) << 0.0, 0.0, 10.0, 40.0;
     const ActuatorSolution s = solve_actuators(problem);

@@ -105,7 +105,8 @@ class TrialCheck {
       const double arm = arms(j).col(k).cwiseAbs().maxCoeff();
       const double tendon = data_.muscles[static_cast<std::size_t>(k)].start.tendon_slack_length_m;
       const std::string found = fmt::format(
-          "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m{}; are the files of --lengths and "
+          "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m{}; are the files of --lengths "
+          "and "
           "--moment-arms exchanged?",
           muscle(k), arm, files_.lengths, trial_.length_m.col(k).maxCoeff(),
           longer.size() > 1 ? fmt::format(", and so of {} muscles", longer.size()) : "");

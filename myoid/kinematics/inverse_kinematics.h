@@ -80,7 +80,8 @@ struct CoordinateAtEnd {
 };
 
 /// Returns the clamped coordinates that lie at one end of their range in a quarter of the frames of a motion, or more,
-/// and rotations of a body on ground that do so in two frames. There the markers pull further, or the search has met a stop.
+/// and rotations of a body on ground that do so in two frames. There the markers pull further, or the search has met a
+/// stop.
 [[nodiscard]] std::vector<CoordinateAtEnd> coordinates_at_ends(const model::BodyModel& model, const TimeSeries& q);
 
 /// Returns the same as one warning; none if there is no such coordinate.

@@ -86,7 +86,8 @@ JointMotion with_held_values(const model::BodyModel& model, JointMotion motion, 
   }
   if (!any) return motion;
   const Eigen::VectorXd time = motion.q.time_s();
-  return {TimeSeries(time, motion.q.channels(), std::move(q)), TimeSeries(time, motion.qdot.channels(), std::move(qdot)),
+  return {TimeSeries(time, motion.q.channels(), std::move(q)),
+          TimeSeries(time, motion.qdot.channels(), std::move(qdot)),
           TimeSeries(time, motion.qddot.channels(), std::move(qddot))};
 }
 

@@ -18,8 +18,8 @@ struct JointMotion {
   [[nodiscard]] Eigen::Index sample_count() const { return q.sample_count(); }
 };
 
-/// Who gives the values of a coordinate that the model locks or prescribes: the recorded motion, as in OpenSim's inverse
-/// dynamics, or the model, as in OpenSim's analyses.
+/// Who gives the values of a coordinate that the model locks or prescribes: the recorded motion, as in OpenSim's
+/// inverse dynamics, or the model, as in OpenSim's analyses.
 enum class HeldValues { of_motion, of_model };
 
 struct MotionOptions {
@@ -49,8 +49,8 @@ struct MotionResult {
 /// Returns true for a locked or prescribed coordinate.
 [[nodiscard]] bool is_held(const model::Coordinate& coordinate);
 
-/// Returns a sentence for each locked or prescribed coordinate whose values in `q` differ from those of the model by more
-/// than rounding: its name, both ranges, and which values count.
+/// Returns a sentence for each locked or prescribed coordinate whose values in `q` differ from those of the model by
+/// more than rounding: its name, both ranges, and which values count.
 [[nodiscard]] std::vector<std::string> held_notes(const model::BodyModel& model, const TimeSeries& q, HeldValues held);
 
 /// Returns the motion with the values and accelerations of locked and prescribed coordinates that the model gives, and

@@ -11,11 +11,11 @@
 namespace myoid::kinematics {
 namespace {
 
-constexpr std::size_t kWindow = 32;    // frames
-constexpr int kRounds = 4;             // searches of a limb in a window at most
-constexpr double kSearchShare = 0.25;  // of the work, for routine searches
-constexpr double kFilesOfFrame = 10.0; // postures evaluated in the time in which a frame is read and written
-constexpr double kFarBetter = 0.5;     // share of the cost at which a fresh start replaces a converged posture
+constexpr std::size_t kWindow = 32;     // frames
+constexpr int kRounds = 4;              // searches of a limb in a window at most
+constexpr double kSearchShare = 0.25;   // of the work, for routine searches
+constexpr double kFilesOfFrame = 10.0;  // postures evaluated in the time in which a frame is read and written
+constexpr double kFarBetter = 0.5;      // share of the cost at which a fresh start replaces a converged posture
 constexpr double kAnyBetter = 1.0 - 1e-6;
 constexpr double kRoundOff_m2 = 1e-13;  // of 2 J
 constexpr double kAlike = 0.01;         // relative difference of the costs of postures that fit alike

@@ -1,9 +1,8 @@
 #include "myoid/mat/results_mat.h"
 
+#include <filesystem>
 #include <set>
 #include <string>
-
-#include <filesystem>
 
 #include <gtest/gtest.h>
 

@@ -57,7 +57,8 @@ IdentificationResult finish(const Estimator& estimator,
     result.termination = math::Termination::no_descent;
     result.message = "the search did not leave its start";
     result.warnings.push_back(
-        "the search did not leave its start, which explains little of the torque: the numbers are the starting values, no "
+        "the search did not leave its start, which explains little of the torque: the numbers are the starting values, "
+        "no "
         "answer of the recording; do the muscles make any force there (lengths, slack lengths, activations)?");
   }
   if (options.predictions) add_predictions(data, options, result);

@@ -58,13 +58,14 @@ std::optional<Remark> unlikely_number(const BodyModel& model, const MuscleNumber
     if (count++ == 0) first = &muscle;
   }
   if (first == nullptr) return std::nullopt;
-  return Remark{.code = RemarkCode::muscle_impossible,
-                .about = first->name,
-                .value = first->properties.*number.member,
-                .says = fmt::format("{} of muscle {} is {:.4g} {}, expected {:g} to {:g} {}{}", number.name, first->name,
-                                    first->properties.*number.member, number.unit, number.lower, number.upper,
-                                    number.unit, count > 1 ? fmt::format(" ({} muscles are so)", count) : ""),
-                .remedy = "write lengths in m and forces in N"};
+  return Remark{
+      .code = RemarkCode::muscle_impossible,
+      .about = first->name,
+      .value = first->properties.*number.member,
+      .says = fmt::format("{} of muscle {} is {:.4g} {}, expected {:g} to {:g} {}{}", number.name, first->name,
+                          first->properties.*number.member, number.unit, number.lower, number.upper, number.unit,
+                          count > 1 ? fmt::format(" ({} muscles are so)", count) : ""),
+      .remedy = "write lengths in m and forces in N"};
 }
 
 }  // namespace

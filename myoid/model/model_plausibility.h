@@ -9,8 +9,8 @@ namespace myoid::model {
 
 /// Limits of the numbers of a model of a person or an animal.
 struct ModelLimits {
-  double heaviest_kg = 500.0;  ///< No person weighs more.
-  double lightest_kg = 0.1;    ///< A model of a hand is heavier.
+  double heaviest_kg = 500.0;                        ///< No person weighs more.
+  double lightest_kg = 0.1;                          ///< A model of a hand is heavier.
   double strongest_mps2 = 30.0, weakest_mps2 = 0.5;  ///< Gravity; 0 is a choice.
   /// Optimal fibers: those of a fly and of a giraffe.
   double shortest_fiber_m = 2e-4, longest_fiber_m = 1.0;

@@ -32,7 +32,8 @@ void place_points(const PosedPath& posed, PathWorkspace& workspace) {
       for (std::size_t k = 0; k < 3; ++k) {
         const int index = moving.coordinates[k];
         double q = 0.0;
-        if (index >= 0) q = std::clamp(state.q[index], model.coordinates[at(index)].lower, model.coordinates[at(index)].upper);
+        if (index >= 0)
+          q = std::clamp(state.q[index], model.coordinates[at(index)].lower, model.coordinates[at(index)].upper);
         p_F[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
       }
       s.p_B = moving.X_BF * p_F;

@@ -112,8 +112,7 @@ std::filesystem::path OpensimSetup::file_named(pugi::xml_node node, std::string_
   const recording::NamedFile found = recording::find_named_file(path_.parent_path(), name);
   if (found.exists) return found.path;
   const std::string_view option = option_for(node.name());
-  xml_.fail(node, "<{}> names '{}', and {}{}", node.name(), name,
-            recording::missing_file(path_.parent_path(), name),
+  xml_.fail(node, "<{}> names '{}', and {}{}", node.name(), name, recording::missing_file(path_.parent_path(), name),
             option.empty() ? std::string() : fmt::format("; {} FILE names another", option));
 }
 

@@ -93,7 +93,8 @@ TEST_F(RunTool, ATimeRangeOutsideOfTheDataIsRefusedAndNothingIsWritten) {
       EXPECT_THAT(error.what(), ::testing::HasSubstr(recorded));
     }
   }
-  for (const char* name : {"result", "t_Kinematics_q.sto"}) EXPECT_FALSE(std::filesystem::exists(folder_ / name)) << name;
+  for (const char* name : {"result", "t_Kinematics_q.sto"})
+    EXPECT_FALSE(std::filesystem::exists(folder_ / name)) << name;
 }
 
 // The shoulder has no marker task: what its coordinate tasks say from a file, it does.

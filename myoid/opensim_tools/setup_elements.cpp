@@ -102,9 +102,9 @@ void look_into(const model::OsimXml& xml, pugi::xml_node parent, Names& sentence
     if (child.type() != pugi::node_element) continue;
     if (known != nullptr && std::find(known->begin(), known->end(), child.name()) == known->end()) {
       const auto near = recording::nearest_word(child.name(), *known);
-      sentences.push_back(fmt::format(
-          "{}: <{}> has no element <{}>{}; OpenSim and this program ignore the element", xml.place_of(child),
-          parent.name(), child.name(), near ? fmt::format(" (did you mean <{}>?)", *near) : ""));
+      sentences.push_back(fmt::format("{}: <{}> has no element <{}>{}; OpenSim and this program ignore the element",
+                                      xml.place_of(child), parent.name(), child.name(),
+                                      near ? fmt::format(" (did you mean <{}>?)", *near) : ""));
     } else if (known != nullptr || std::string_view(parent.name()) == "objects") {
       look_into(xml, child, sentences);
     }

@@ -250,8 +250,7 @@ TEST_F(ToolAnalyses, LocksAndPrescribedFunctionsHold) {
   std::string motion = "motion\nnRows=30\nnColumns=3\ninDegrees=no\nendheader\ntime\t" + locked + "\telbow_flexion\n";
   for (int i = 0; i < 30; ++i) motion += fmt::format("{}\t{}\t{}\n", 0.01 * i, 0.2 + 0.01 * i, 2.0);
   write("motion.mot", motion);
-  const ToolResult result =
-      run(analyses_of("<Kinematics name=\"k\"><in_degrees>false</in_degrees></Kinematics>"));
+  const ToolResult result = run(analyses_of("<Kinematics name=\"k\"><in_degrees>false</in_degrees></Kinematics>"));
   const TimeSeries q = read("a_k_q.sto");
   const double lock = arm_.coordinates[0].default_value;
   for (Eigen::Index i = 0; i < q.sample_count(); ++i) {

@@ -97,7 +97,8 @@ model::OsimEditor::Factors factors_of(const ToolRun& run, pugi::xml_node scaler,
           }
         }
       }
-      if (used == 0) run.note("<scaling_order> asks for measurements, and no measurement is used: no factor comes from them");
+      if (used == 0)
+        run.note("<scaling_order> asks for measurements, and no measurement is used: no factor comes from them");
     } else if (method == "manualScale") {
       int used = 0;
       for (const auto node : OsimXml::objects(scaler.child("ScaleSet"))) {

@@ -187,9 +187,9 @@ TEST_F(ToolScale, MarkersThatTheStaticTrialLacksAreNamed) {
   const std::string name = arm_.markers.back().name;
   text.replace(text.find(name), name.size(), "other");
   write("m.trc", text);
-  const ToolResult result =
-      run("<ScaleTool><GenericModelMaker><model_file>arm.osim</model_file></GenericModelMaker><MarkerPlacer>"
-          "<marker_file>m.trc</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer></ScaleTool>");
+  const ToolResult result = run(
+      "<ScaleTool><GenericModelMaker><model_file>arm.osim</model_file></GenericModelMaker><MarkerPlacer>"
+      "<marker_file>m.trc</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer></ScaleTool>");
   EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("as in OpenSim: " + name)));
 }
 

@@ -118,10 +118,10 @@ class Assembly {
       if (tag.is_whole) continue;
       begin = after_tag(raw.text(), raw.end_tag(tag));
       if (first_element_of(node)) {
-        whole_.ignored.push_back(fmt::format("{}, line {}: <{}> is in the file '{}'; the elements that stand inside it "
-                                             "here are not read",
-                                             whole_.files[file].path.string(), line_at(raw.text(), tag.name),
-                                             node.name(), named_file_of(node)));
+        whole_.ignored.push_back(fmt::format(
+            "{}, line {}: <{}> is in the file '{}'; the elements that stand inside it "
+            "here are not read",
+            whole_.files[file].path.string(), line_at(raw.text(), tag.name), node.name(), named_file_of(node)));
       }
     }
     append(file, begin, raw.text().substr(begin, end - begin));
@@ -135,8 +135,7 @@ class Assembly {
     if (!found.exists && folder != first) found = recording::find_named_file(first, name);
     if (!found.exists) {
       refuse(file, raw.offset(node),
-             fmt::format("<{}> is in the file '{}', and {}", node.name(), name,
-                         recording::missing_file(folder, name)));
+             fmt::format("<{}> is in the file '{}', and {}", node.name(), name, recording::missing_file(folder, name)));
     }
     if (!found.note.empty()) whole_.found.push_back(fmt::format("<{}>: {}", node.name(), found.note));
     return found.path;
@@ -153,8 +152,8 @@ class Assembly {
       refuse(file, raw.offset(node), fmt::format("the files hold each other: {}", fmt::join(names, " -> ")));
     }
     if (static_cast<int>(chain_.size()) > kDeepestFile || whole_.files.size() > kMostFiles)
-      refuse(file, raw.offset(node), fmt::format("more than {} files, or {} within each other, make this document",
-                                                 kMostFiles, kDeepestFile));
+      refuse(file, raw.offset(node),
+             fmt::format("more than {} files, or {} within each other, make this document", kMostFiles, kDeepestFile));
     const std::size_t inner = whole_.files.size();
     whole_.files.push_back({path, recording::read_text_file(path), 0});
     const RawText other(whole_.files[inner].text, path);
@@ -210,8 +209,8 @@ void load_document(pugi::xml_document& document,
 
 RawText::RawText(std::string_view text, const fs::path& path) : text_(text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    throw ModelError(fmt::format("{}: a document in UTF-16 cannot be changed in place; save it as UTF-8",
-                                 path.string()));
+    throw ModelError(
+        fmt::format("{}: a document in UTF-16 cannot be changed in place; save it as UTF-8", path.string()));
   }
   // The parser's offsets do not count the byte-order mark.
   if (text.starts_with("\xEF\xBB\xBF")) mark_ = 3;
@@ -266,9 +265,7 @@ WholeDocument whole_document(std::string text, const fs::path& path) {
   return Assembly().run(std::move(text), path);
 }
 
-std::string read_whole_text(const fs::path& path) {
-  return whole_document(recording::read_text_file(path), path).text;
-}
+std::string read_whole_text(const fs::path& path) { return whole_document(recording::read_text_file(path), path).text; }
 
 std::vector<fs::path> files_of(const fs::path& path) {
   std::vector<fs::path> files;

@@ -62,8 +62,8 @@ struct WholeDocument {
     std::size_t at = 0, file = 0, from = 0;
   };
   std::string text;
-  std::deque<File> files;         ///< [0]: the document itself. Empty if no element stands in another file.
-  std::vector<Piece> pieces;      ///< In the order of the text; none without other files.
+  std::deque<File> files;            ///< [0]: the document itself. Empty if no element stands in another file.
+  std::vector<Piece> pieces;         ///< In the order of the text; none without other files.
   std::vector<std::string> found;    ///< A sentence for each file that is in another place than named.
   std::vector<std::string> ignored;  ///< A sentence for each element whose content a file replaces.
 

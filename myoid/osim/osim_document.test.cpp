@@ -35,8 +35,9 @@ class OsimDocument : public ::testing::Test {
 };
 
 TEST_F(OsimDocument, ADocumentWithoutOtherFilesKeepsEveryByte) {
-  const std::string text = "<OpenSimDocument><!-- file='x' -->\r\n<Model file=\"\"><model_file>f</model_file></Model>"
-                           "<S file = 'Unassigned'/></OpenSimDocument>\n";
+  const std::string text =
+      "<OpenSimDocument><!-- file='x' -->\r\n<Model file=\"\"><model_file>f</model_file></Model>"
+      "<S file = 'Unassigned'/></OpenSimDocument>\n";
   EXPECT_EQ(whole(text), text);
   EXPECT_TRUE(whole_document(text, folder_ / "a.osim").files.empty());
 }
@@ -45,9 +46,10 @@ TEST_F(OsimDocument, AnElementOfAnotherFileStandsInItsPlaceByteForByte) {
   write("sets/m.xml",
         "<?xml version='1.0'?>\n<OpenSimDocument Version=\"20302\">\n<TaskSet name='t' >\n <!-- <TaskSet> -->"
         "<objects><A/><TaskSet/></objects>\n</TaskSet></OpenSimDocument>");
-  EXPECT_EQ(whole("<OpenSimDocument><X><IKTaskSet file = 'sets\\m.xml' ><objects/></IKTaskSet>\n</X></OpenSimDocument>"),
-            "<OpenSimDocument><X><IKTaskSet name='t' >\n <!-- <TaskSet> --><objects><A/><TaskSet/></objects>\n"
-            "</IKTaskSet>\n</X></OpenSimDocument>");
+  EXPECT_EQ(
+      whole("<OpenSimDocument><X><IKTaskSet file = 'sets\\m.xml' ><objects/></IKTaskSet>\n</X></OpenSimDocument>"),
+      "<OpenSimDocument><X><IKTaskSet name='t' >\n <!-- <TaskSet> --><objects><A/><TaskSet/></objects>\n"
+      "</IKTaskSet>\n</X></OpenSimDocument>");
   // A root without <OpenSimDocument>, and one that is empty.
   write("bare.xml", "<ScaleSet/>");
   EXPECT_EQ(whole("<T><ScaleSet name=\"s\" file=\"bare.xml\"/></T>"), "<T><ScaleSet/></T>");
@@ -85,8 +87,9 @@ TEST_F(OsimDocument, AFaultIsToldWithTheFileAndLineOfTheElement) {
   write("forces.xml",
         "<OpenSimDocument Version=\"30000\"><ForceSet>\n<objects>\n<F><x>1</x>\n<y>two</y></F></objects></ForceSet>"
         "</OpenSimDocument>");
-  const OsimXml xml("<OpenSimDocument Version=\"40000\">\n\n<ForceSet file=\"forces.xml\"/>\n<z>three</z></OpenSimDocument>",
-                    folder_ / "a.osim");
+  const OsimXml xml(
+      "<OpenSimDocument Version=\"40000\">\n\n<ForceSet file=\"forces.xml\"/>\n<z>three</z></OpenSimDocument>",
+      folder_ / "a.osim");
   const auto force = OsimXml::objects(xml.root().child("ForceSet")).at(0);
   EXPECT_EQ(xml.number(force, "x", 0.0), 1.0);
   EXPECT_THAT(test::message_of([&] { (void)xml.number(force, "y", 0.0); }), HasSubstr("forces.xml:4"));
@@ -98,9 +101,10 @@ TEST_F(OsimDocument, AFaultIsToldWithTheFileAndLineOfTheElement) {
 
 TEST_F(OsimDocument, AttributesWithoutMeaningAndReplacedContentAreTold) {
   write("s.xml", "<S/>");
-  const OsimXml xml("<OpenSimDocument Version='1' xmlns:a='b'>\n<S name='s' File='s.xml'/><S file='s.xml'><objects/></S>"
-                    "<S File='t'/></OpenSimDocument>",
-                    folder_ / "a.osim");
+  const OsimXml xml(
+      "<OpenSimDocument Version='1' xmlns:a='b'>\n<S name='s' File='s.xml'/><S file='s.xml'><objects/></S>"
+      "<S File='t'/></OpenSimDocument>",
+      folder_ / "a.osim");
   ASSERT_EQ(xml.ignored().size(), 2U);
   EXPECT_THAT(xml.ignored()[0], ::testing::AllOf(HasSubstr("line 2"), HasSubstr("not read")));
   EXPECT_THAT(xml.ignored()[1], ::testing::AllOf(HasSubstr("'File'"), HasSubstr("did you mean 'file'")));

@@ -212,7 +212,8 @@ TEST(ReadFrames, AStationDefinedFrameStandsOnItsPoints) {
 TEST(ReadForces, AMovingPointMayFollowSeveralCoordinates) {
   const auto direction = [](const char* axis, const char* coordinate, const char* coefficients) {
     return fmt::format(
-        "<socket_{0}_coordinate>/jointset/{1}</socket_{0}_coordinate><{0}_location><PolynomialFunction><coefficients>{2}"
+        "<socket_{0}_coordinate>/jointset/{1}</"
+        "socket_{0}_coordinate><{0}_location><PolynomialFunction><coefficients>{2}"
         "</coefficients></PolynomialFunction></{0}_location>",
         axis, coordinate, coefficients);
   };

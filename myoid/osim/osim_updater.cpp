@@ -338,7 +338,8 @@ UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& pat
   UpdatedOsim result;
   result.old_version = source.version();
   for (const std::filesystem::path& file : source.files())
-    result.notes.push_back(fmt::format("the part in the file '{}' stands in the updated document itself", file.string()));
+    result.notes.push_back(
+        fmt::format("the part in the file '{}' stands in the updated document itself", file.string()));
   for (const auto* sentences : {&source.repairs(), &source.ignored()})
     result.notes.insert(result.notes.end(), sentences->begin(), sentences->end());
   pugi::xml_document document;

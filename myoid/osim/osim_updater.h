@@ -25,9 +25,9 @@ struct UpdatedOsim {
 /// Writes an OpenSim document of any version (a model, a set-up, a set of forces, markers or tasks) in the newest form:
 /// joints out of the bodies into a JointSet, with frames and sockets; `Ground`; sockets in place of names of bodies and
 /// of older sockets; the classes' and elements' present names; values of <defaults> in the objects that take them;
-/// meshes of bodies. Elements that stand in files of their own come into the document. The reader gives the same model for
-/// both texts. A document of the newest version keeps its
-/// elements. Throws ReadError if the text is no XML or a joint does not name its parent.
+/// meshes of bodies. Elements that stand in files of their own come into the document. The reader gives the same model
+/// for both texts. A document of the newest version keeps its elements. Throws ReadError if the text is no XML or a
+/// joint does not name its parent.
 [[nodiscard]] UpdatedOsim updated_osim(std::string_view text,
                                        const std::filesystem::path& path,
                                        const OsimUpdateOptions& options = {});

@@ -16,9 +16,10 @@ struct OsimChange {
 };
 
 /// Returns the text of an .osim with these numbers; every other byte stays, and a number that is already equal keeps
-/// its digits. Elements that stand in files of their own come into the text, byte for byte (osim_document.h). New numbers have the fewest digits that read back the same. An element that the object omits is added
-/// after the object's opening tag with the indentation of its siblings. Throws ReadError if the text is no model,
-/// ModelError for an unknown object or a value that is not finite.
+/// its digits. Elements that stand in files of their own come into the text, byte for byte (osim_document.h). New
+/// numbers have the fewest digits that read back the same. An element that the object omits is added after the object's
+/// opening tag with the indentation of its siblings. Throws ReadError if the text is no model, ModelError for an
+/// unknown object or a value that is not finite.
 [[nodiscard]] std::string changed_osim(std::string_view text,
                                        const std::filesystem::path& path,
                                        const std::vector<OsimChange>& changes);

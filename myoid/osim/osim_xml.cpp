@@ -207,8 +207,8 @@ pugi::xml_node OsimXml::first_element(pugi::xml_node parent, std::initializer_li
 std::vector<std::string_view> list_items(std::string_view text) {
   text = trim(text);
   if (text.starts_with('~')) text = trim(text.substr(1));
-  const bool in_brackets = text.size() > 1 && ((text.front() == '(' && text.back() == ')') ||
-                                               (text.front() == '[' && text.back() == ']'));
+  const bool in_brackets =
+      text.size() > 1 && ((text.front() == '(' && text.back() == ')') || (text.front() == '[' && text.back() == ']'));
   if (in_brackets) text = text.substr(1, text.size() - 2);
   if (text.find(',') == std::string_view::npos) return split_words(text);
   std::vector<std::string_view> items;

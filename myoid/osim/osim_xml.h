@@ -16,8 +16,8 @@
 namespace myoid::model {
 
 /// An OpenSim document in memory with the one way to read its values. Elements that stand in files of their own are in
-/// their places (osim_document.h). For an element that an object omits, the prototype of its class in `<defaults>` gives
-/// the value. A text that is no value of the expected kind throws ReadError with the file and the line.
+/// their places (osim_document.h). For an element that an object omits, the prototype of its class in `<defaults>`
+/// gives the value. A text that is no value of the expected kind throws ReadError with the file and the line.
 class OsimXml {
  public:
   /// The element that the document must have at its root. With `any`, root() is the document itself

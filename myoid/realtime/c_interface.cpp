@@ -160,8 +160,8 @@ int myoid_evaluate(const myoid_model* model,
   put(w.force_n, w.force_sd_n, done, places.force_n, places.force_low_n, places.force_high_n);
   if (end == myoid::Prediction::not_a_number) return MYOID_NOT_A_NUMBER;
   if (!done) return MYOID_OUT_OF_RANGE;
-  const bool plausible = all_at_most(envelope, p.channels.size(), 1.0) &&
-                         all_at_most(speed_radps, p.joints.size(), MYOID_FASTEST_RADPS);
+  const bool plausible =
+      all_at_most(envelope, p.channels.size(), 1.0) && all_at_most(speed_radps, p.joints.size(), MYOID_FASTEST_RADPS);
   return plausible ? MYOID_DONE : MYOID_IMPLAUSIBLE;
 }
 

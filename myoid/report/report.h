@@ -11,16 +11,16 @@ namespace myoid::report {
 
 /// The meaning of a curve. It decides how the curve is drawn, alike in every figure.
 enum class Role {
-  reference,   ///< Measured, or the reference of the others: solid blue.
-  literature,  ///< Computed with the literature's parameters: dashed grey.
-  identified,  ///< Computed with the identified parameters: dashed orange-red.
-  truth,       ///< Known truth of a virtual recording: solid black, thin.
-  raw,         ///< As recorded, before processing: thin light grey.
-  band,        ///< Area between y and y_upper: light.
-  unseen,      ///< Predicted without this recording: dash-dotted green.
-  range,       ///< Area between y and y_upper that the recording visited: grey.
-  norm,        ///< Area between y and y_upper of a group of people: light blue.
-  points,      ///< Markers without a line; with y_lower/y_upper an error bar.
+  reference,      ///< Measured, or the reference of the others: solid blue.
+  literature,     ///< Computed with the literature's parameters: dashed grey.
+  identified,     ///< Computed with the identified parameters: dashed orange-red.
+  truth,          ///< Known truth of a virtual recording: solid black, thin.
+  raw,            ///< As recorded, before processing: thin light grey.
+  band,           ///< Area between y and y_upper: light.
+  unseen,         ///< Predicted without this recording: dash-dotted green.
+  range,          ///< Area between y and y_upper that the recording visited: grey.
+  norm,           ///< Area between y and y_upper of a group of people: light blue.
+  points,         ///< Markers without a line; with y_lower/y_upper an error bar.
   points_beside,  ///< The same of a second group, in another color and shape.
 };
 

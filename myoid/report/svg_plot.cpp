@@ -59,8 +59,8 @@ std::string point_mark(Role role, double x, double y, double radius, const char*
   if (role == Role::points)
     return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y, radius, color);
   const double half = 1.4 * radius;
-  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z\" fill=\"{}\"/>\n", x, y - half,
-                     x + half, y, x, y + half, x - half, y, color);
+  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z\" fill=\"{}\"/>\n", x,
+                     y - half, x + half, y, x, y + half, x - half, y, color);
 }
 
 struct Range {

@@ -140,9 +140,8 @@ ordered_json figure_json(const Figure& figure) {
 bool is_live(const Figure& figure) {
   return !figure.in_workbench && std::ranges::all_of(figure.panels, [](const Panel& panel) {
     return panel.x.categories.empty() && panel.y.categories.empty() &&
-           std::ranges::none_of(panel.series, [](const Series& s) {
-             return s.role == Role::points || s.role == Role::points_beside;
-           });
+           std::ranges::none_of(
+               panel.series, [](const Series& s) { return s.role == Role::points || s.role == Role::points_beside; });
   });
 }
 

@@ -93,7 +93,8 @@ Run read_run(const std::filesystem::path& folder) {
 
 /// Returns true if the session's recording determines the number.
 bool told(const ParameterEstimate& e) {
-  return rests_on_measurement(e.method) && (e.verdict == Verdict::identified || e.verdict == Verdict::weak) && e.std_error && *e.std_error > 0.0;
+  return rests_on_measurement(e.method) && (e.verdict == Verdict::identified || e.verdict == Verdict::weak) &&
+         e.std_error && *e.std_error > 0.0;
 }
 
 /// Returns a number's standard error between sessions of one person. Moment arms, tendons and the torque's scale have
@@ -260,10 +261,12 @@ report::Section method_section(const RunComparison& comparison, const std::strin
                       .caption = "Estimate with its 95 % interval. p-values are adjusted for their number (Holm).",
                       .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
                                   session_name("second", comparison.second_date), "difference", "%", "verdict"}};
-  report::Figure figure{.id = "intervals_" + method,
-                        .title = "Both sessions",
-                        .caption = "Estimates with 95 % intervals; 1 and a blue disc are the first session, 2 and a red diamond the second.",
-                        .columns = 2};
+  report::Figure figure{
+      .id = "intervals_" + method,
+      .title = "Both sessions",
+      .caption =
+          "Estimates with 95 % intervals; 1 and a blue disc are the first session, 2 and a red diamond the second.",
+      .columns = 2};
   std::set<std::pair<std::string, std::string>> shown;
   for (const ComparedParameter& p : comparison.parameters) {
     const ParameterEstimate& e = p.first;

@@ -21,7 +21,8 @@ namespace myoid {
 /// entry with other bytes counts as absent. Several threads may use one store.
 class StageStore {
  public:
-  explicit StageStore(std::filesystem::path folder) : folder_(std::move(folder)), record_(folder_, "stages", {.replaces_changed = true}) {}
+  explicit StageStore(std::filesystem::path folder)
+      : folder_(std::move(folder)), record_(folder_, "stages", {.replaces_changed = true}) {}
 
   /// Returns the stored result, to the last bit; empty if there is no entry, or a damaged one.
   [[nodiscard]] std::optional<kinematics::IkResult> find(const std::string& key);

@@ -182,8 +182,7 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   require_finite(raw, "EMG");
   EmgStages stages;
   Eigen::MatrixXd values = take_out_spikes(raw, stages);
-  if (options.remove_ecg && !options.as_published)
-    take_out_heart(raw.mean_rate_hz(), raw.channels(), values, stages);
+  if (options.remove_ecg && !options.as_published) take_out_heart(raw.mean_rate_hz(), raw.channels(), values, stages);
   const Eigen::RowVectorXd mean = values.colwise().mean();
   values.rowwise() -= mean;
   stages.raw = TimeSeries(raw.time_s(), raw.channels(), std::move(values));

@@ -15,8 +15,8 @@ struct EnvelopeOptions {
                               ///< forwards and backwards).
   double lowpass_hz = 6.0;    ///< Low-pass of the rectified EMG; -3 dB of both passes together.
   bool rectify = true;
-  bool notch = true;  ///< Removes mains hum where it holds a tenth of the power (`find_hum`);
-                      ///< ignored with `as_published`.
+  bool notch = true;        ///< Removes mains hum where it holds a tenth of the power (`find_hum`);
+                            ///< ignored with `as_published`.
   bool remove_ecg = false;  ///< Takes the heart out of channels that hold it (`find_ecg`); ignored with `as_published`.
   /// Empty: whitens if the recording allows (`decide_whitening`). Never whitens with `as_published`
   /// or without `rectify`.
@@ -117,8 +117,8 @@ struct NormalisationOptions {
 };
 
 /// Returns one entry for each channel of the first trial. Half seconds that no other effort confirms (`lone_peaks`) are
-/// not the reference while another effort can be; `check_emg_levels` names them. All trials must have the same channels. Throws InvalidInput
-/// if a channel is missing in a trial or flat, or no trial is as long as the window.
+/// not the reference while another effort can be; `check_emg_levels` names them. All trials must have the same
+/// channels. Throws InvalidInput if a channel is missing in a trial or flat, or no trial is as long as the window.
 [[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelope> trials,
                                                                    const NormalisationOptions& options = {});
 

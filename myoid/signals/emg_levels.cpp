@@ -123,14 +123,14 @@ Remark above_reference(const std::string& channel,
 }
 
 Remark unconfirmed(const std::string& channel, const LonePeak& peak, const std::string& trial) {
-  Remark remark{.code = RemarkCode::emg_over_reference,
-                .severity = Severity::warning,
-                .about = channel,
-                .when = Stretch{peak.begin_s, peak.end_s},
-                .value = peak.ratio,
-                .says = fmt::format("channel '{}': the half second from {:.6g} s of {}{} is {:.3g} times every other; ",
-                                    channel, peak.begin_s, trial, peak.at_end ? ", at an end of the recording," : "",
-                                    peak.ratio)};
+  Remark remark{
+      .code = RemarkCode::emg_over_reference,
+      .severity = Severity::warning,
+      .about = channel,
+      .when = Stretch{peak.begin_s, peak.end_s},
+      .value = peak.ratio,
+      .says = fmt::format("channel '{}': the half second from {:.6g} s of {}{} is {:.3g} times every other; ", channel,
+                          peak.begin_s, trial, peak.at_end ? ", at an end of the recording," : "", peak.ratio)};
   if (peak.replaced) {
     remark.says += "nothing confirms such an effort, and it does not count as 1: the next greatest does";
     remark.remedy =
@@ -355,7 +355,8 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
   for (auto i = scaled.rbegin(); i != scaled.rend(); ++i)
     of_trials.erase(of_trials.begin() + static_cast<std::ptrdiff_t>(*i));
   for (const std::string& channel : names) {
-    for (const LonePeak& peak : peaks.at(channel)) faults.push_back(unconfirmed(channel, peak, trials[peak.trial].trial));
+    for (const LonePeak& peak : peaks.at(channel))
+      faults.push_back(unconfirmed(channel, peak, trials[peak.trial].trial));
     Levels all;
     all.flatness = 1.0;
     Levels mvc;

@@ -11,8 +11,8 @@
 #include "myoid/math/butterworth.h"
 #include "myoid/math/statistics.h"
 #include "myoid/math/zero_phase.h"
-#include "myoid/signals/emg_kind.h"
 #include "myoid/signals/ecg.h"
+#include "myoid/signals/emg_kind.h"
 #include "myoid/signals/emg_spikes.h"
 #include "myoid/signals/mains_hum.h"
 
@@ -105,15 +105,14 @@ class ChannelCheck {
   void heart(std::vector<Remark>& faults) const {
     const std::optional<EcgBeats> beats = find_ecg(x_, rate_hz_);
     if (!beats) return;
-    faults.push_back(
-        {.code = RemarkCode::emg_artifact,
-         .severity = Severity::note,
-         .about = name_,
-         .when = Stretch{time_s_[beats->at.front()], time_s_[beats->at.back()]},
-         .value = beats->alike,
-         .says = fmt::format("channel '{}' holds the heart: {} alike waves of {:.2g} uV, {:.0f} a minute", name_,
-                             beats->at.size(), 1e6 * beats->amplitude, 60.0 * beats->rate_hz),
-         .remedy = remedy("[emg] remove_ecg = true takes it out", "--remove-ecg takes it out", "")});
+    faults.push_back({.code = RemarkCode::emg_artifact,
+                      .severity = Severity::note,
+                      .about = name_,
+                      .when = Stretch{time_s_[beats->at.front()], time_s_[beats->at.back()]},
+                      .value = beats->alike,
+                      .says = fmt::format("channel '{}' holds the heart: {} alike waves of {:.2g} uV, {:.0f} a minute",
+                                          name_, beats->at.size(), 1e6 * beats->amplitude, 60.0 * beats->rate_hz),
+                      .remedy = remedy("[emg] remove_ecg = true takes it out", "--remove-ecg takes it out", "")});
   }
 
   [[nodiscard]] double seconds(Eigen::Index samples) const { return static_cast<double>(samples) / rate_hz_; }

@@ -78,8 +78,8 @@ TimeSeries opensim_lowpass(const TimeSeries& motion, double cutoff_hz) {
         "there rows of nearly the same time?",
         interval_s, intervals);
   }
-  const bool is_even =
-      (t[t.size() - 1] - t[0]) / static_cast<double>(t.size() - 1) - interval_s <= std::numeric_limits<double>::epsilon();
+  const bool is_even = (t[t.size() - 1] - t[0]) / static_cast<double>(t.size() - 1) - interval_s <=
+                       std::numeric_limits<double>::epsilon();
   Eigen::VectorXd even = is_even ? t : added_times(t[0], t[t.size() - 1], interval_s);
   const ThirdOrder filter = design(std::min(cutoff_hz, 0.49 / interval_s), interval_s);
   Eigen::MatrixXd values(even.size(), motion.channel_count());

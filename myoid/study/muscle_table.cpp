@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
-#include "myoid/identification/parameter_fields.h"
 #include "myoid/files/text_file.h"
+#include "myoid/identification/parameter_fields.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/study/study_ids.h"
 

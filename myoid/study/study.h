@@ -114,9 +114,9 @@ struct EmgSpec {
   EmgKind kind = EmgKind::raw;
   std::string unit;  ///< "uV", ...; empty: as the file states.
   bool rectify = true;
-  bool notch = true;      ///< Removes mains hum if the EMG has any.
+  bool notch = true;        ///< Removes mains hum if the EMG has any.
   bool remove_ecg = false;  ///< Takes the heart out of channels that hold it.
-  bool whitening = true;  ///< Whitens raw EMG if the recording allows.
+  bool whitening = true;    ///< Whitens raw EMG if the recording allows.
   double highpass_hz = 20.0;
   double lowpass_hz = 6.0;
   bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.
@@ -194,7 +194,7 @@ struct TrialSpec {
   std::optional<std::filesystem::path> load_cell;        ///< File of the load cell's channels.
   std::optional<PlateSpec> plates;
   Use use = Use::calibration;
-  std::optional<double> held_mass_kg;    ///< Empty: the study does not say what was held.
+  std::optional<double> held_mass_kg;  ///< Empty: the study does not say what was held.
   ExcludeSpec exclude;
   std::string condition;                 ///< Trials of one condition are left out together by folds = "condition".
   std::optional<double> start_s, end_s;  ///< On the clock of the motion.

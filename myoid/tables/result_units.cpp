@@ -16,8 +16,7 @@ bool is_translation(const std::string& coordinate) {
 
 bool speaks_of_other(const std::string& name) {
   const std::string text = small_letters(name);
-  constexpr std::string_view kOthers[] = {"force",      "torque",     "moment",    "emg",
-                                          "electromyo", "activation", "excitation"};
+  constexpr std::string_view kOthers[] = {"force", "torque", "moment", "emg", "electromyo", "activation", "excitation"};
   return std::ranges::any_of(kOthers, [&](std::string_view word) { return text.find(word) != std::string::npos; });
 }
 

@@ -36,12 +36,12 @@ using Words = std::vector<std::string>;
 struct Recipe {
   std::string command;
   std::function<Words(const std::string& in, const std::string& out)> words;
-  std::string spoil;              ///< The input that a failing case spoils.
-  bool to_folder = true;          ///< The output is a folder, not a file.
-  Words inputs{};                 ///< Of a command whose output is a file: its inputs, as places of the output.
-  std::string ending{};           ///< Of that file.
-  bool needs_runs = false;        ///< `in` holds two finished runs.
-  bool is_slow = false;           ///< Succeeds in a few places only.
+  std::string spoil;               ///< The input that a failing case spoils.
+  bool to_folder = true;           ///< The output is a folder, not a file.
+  Words inputs{};                  ///< Of a command whose output is a file: its inputs, as places of the output.
+  std::string ending{};            ///< Of that file.
+  bool needs_runs = false;         ///< `in` holds two finished runs.
+  bool is_slow = false;            ///< Succeeds in a few places only.
   std::string may_change{"none"};  ///< Begin of the names in `in` that the command is asked to make anew.
 };
 
@@ -49,74 +49,249 @@ std::vector<Recipe> recipes() {
   const std::string typo = "study.toml";
   const auto model = [](const std::string& in) { return in + "/model.osim"; };
   return {
-      {"run", [](auto& in, auto& out) { return Words{"run", in + "/study.toml", "--out", out}; }, typo, true, {}, "",
-       false, true},
-      {"init", [](auto& in, auto& out) { return Words{"init", out, "--from", in}; }, "lift.trc"},
-      {"compare", [](auto& in, auto& out) { return Words{"compare", in + "/run", in + "/run2", "--out", out}; },
-       "run/parameters.json", true, {}, "", true},
-      {"cohort", [](auto& in, auto& out) { return Words{"cohort", in + "/persons.csv", "--out", out}; }, typo, true, {},
-       "", false, true},
-      {"bids", [](auto& in, auto& out) { return Words{"bids", in, out, "participant"}; }, "code/study.toml", true, {},
-       "", false, true},
-      {"bids", [](auto& in, auto& out) { return Words{"bids", in, out, "group"}; }, "code/study.toml"},
-      {"info", [=](auto& in, auto& out) { return Words{"info", model(in), "--html", out}; }, "model.osim", false,
-       {"model.osim"}, ".html"},
-      {"convert", [](auto& in, auto& out) { return Words{"convert", in + "/lift.trc", out}; }, "lift.trc"},
-      {"convert", [](auto& in, auto& out) { return Words{"convert", in + "/run", out}; }, "run/parameters.csv", true,
-       {}, "", true},
-      {"convert", [](auto& in, auto& out) { return Words{"convert", in + "/lift.trc", out}; }, "lift.trc", false,
-       {"lift.trc"}, ".trc"},
-      {"emg", [](auto& in, auto& out) { return Words{"emg", in + "/raw.csv", in + "/raw2.csv", "--out", out}; },
-       "raw.csv"},
-      {"emg", [](auto& in, auto& out) { return Words{"emg", in + "/raw.csv", "--out", out}; }, "raw.csv", false,
-       {"raw.csv"}, ".csv"},
-      {"ik", [=](auto& in, auto& out) {
-         return Words{"ik", "--model", model(in), "--markers", in + "/lift.trc", "--out", out};
-       }, "lift.trc", false, {"lift.trc", "model.osim"}, ".mot"},
-      {"id", [=](auto& in, auto& out) {
-         return Words{"id", "--model", model(in), "--motion", in + "/ik.mot", "--external-loads", in + "/loads.xml",
-                      "--out", out};
-       }, "ik.mot", false, {"ik.mot", "loads.sto", "loads.xml"}, ".sto"},
-      {"paths", [=](auto& in, auto& out) {
-         return Words{"paths", "--model", model(in), "--motion", in + "/ik.mot", "--out", out};
-       }, "ik.mot"},
-      {"so", [=](auto& in, auto& out) {
-         return Words{"so", "--model", model(in), "--motion", in + "/ik.mot", "--start", "1", "--end", "1.2", "--out",
-                      out};
-       }, "ik.mot"},
-      {"identify", [](auto& in, auto& out) {
-         return Words{"identify", "--method", "torque", "--folds", "none", "--muscles", in + "/muscles.csv",
-                      "--activations", in + "/activation.sto", "--lengths", in + "/length.sto", "--velocities",
-                      in + "/velocity.sto", "--moment-arms", in + "/arm.sto", "--torques", in + "/id.sto",
-                      "--coordinate", "elbow_flexion", "--out", out};
-       }, "muscles.csv"},
-      {"muscle", [](auto& in, auto& out) {
-         return Words{"muscle", "--muscle", in + "/soleus.toml", "--length", in + "/l.csv", "--excitation", "1",
-                      "--out", out};
-       }, "l.csv", false, {"l.csv", "soleus.toml"}, ".sto"},
-      {"simulate", [=](auto& in, auto& out) {
-         return Words{"simulate", "--model", model(in), "--excite", "BIC=0.1@0.02+0.03", "--end", "0.1", "--out", out};
-       }, "model.osim"},
-      {"twin", [](auto& in, auto& out) { return Words{"twin", "--protocol", in + "/protocol.toml", "--out", out}; },
-       "protocol.toml"},
-      {"twin-study", [](auto& in, auto& out) {
-         return Words{"twin-study", "--protocol", in + "/protocol.toml", "--subjects", "1", "--out", out};
-       }, "protocol.toml", true, {}, "", false, true},
-      {"predict", [](auto& in, auto& out) { return Words{"predict", in + "/run", "--trials", "lift", "--out", out}; },
-       "run/run.json", true, {}, "", true},
-      {"report", [](auto& in, auto& out) {
-         return Words{"report", "--group", in + "/run", in + "/run2", "--out", out};
-       }, "run/parameters.csv", true, {}, "", true},
-      {"report", [](auto& in, auto&) { return Words{"report", in + "/run"}; }, "run/run.json", true, {}, "", true, true,
-       "run/"},
-      {"run-tool", [](auto& in, auto& out) { return Words{"run-tool", in + "/setup.xml", "--out", out}; }, "lift.trc"},
-      {"update-file", [=](auto& in, auto& out) { return Words{"update-file", model(in), out}; }, "model.osim", false,
-       {"model.osim"}, ".osim"},
-      // Commands without an output.
-      {"check", [](auto& in, auto&) { return Words{"check", in + "/study.toml"}; }, typo, true, {}, "", false, true},
-      {"settings", [](auto& in, auto&) { return Words{"settings", in + "/study.toml"}; }, typo, true, {}, "", false,
+      {"run",
+       [](auto& in, auto& out) {
+         return Words{"run", in + "/study.toml", "--out", out};
+       },
+       typo,
+       true,
+       {},
+       "",
+       false,
        true},
-      {"design", [](auto& in, auto&) { return Words{"design", in + "/none.toml"}; }, typo, true, {}, "", false, true},
+      {"init",
+       [](auto& in, auto& out) {
+         return Words{"init", out, "--from", in};
+       },
+       "lift.trc"},
+      {"compare",
+       [](auto& in, auto& out) {
+         return Words{"compare", in + "/run", in + "/run2", "--out", out};
+       },
+       "run/parameters.json",
+       true,
+       {},
+       "",
+       true},
+      {"cohort",
+       [](auto& in, auto& out) {
+         return Words{"cohort", in + "/persons.csv", "--out", out};
+       },
+       typo,
+       true,
+       {},
+       "",
+       false,
+       true},
+      {"bids",
+       [](auto& in, auto& out) {
+         return Words{"bids", in, out, "participant"};
+       },
+       "code/study.toml",
+       true,
+       {},
+       "",
+       false,
+       true},
+      {"bids",
+       [](auto& in, auto& out) {
+         return Words{"bids", in, out, "group"};
+       },
+       "code/study.toml"},
+      {"info",
+       [=](auto& in, auto& out) {
+         return Words{"info", model(in), "--html", out};
+       },
+       "model.osim",
+       false,
+       {"model.osim"},
+       ".html"},
+      {"convert",
+       [](auto& in, auto& out) {
+         return Words{"convert", in + "/lift.trc", out};
+       },
+       "lift.trc"},
+      {"convert",
+       [](auto& in, auto& out) {
+         return Words{"convert", in + "/run", out};
+       },
+       "run/parameters.csv",
+       true,
+       {},
+       "",
+       true},
+      {"convert",
+       [](auto& in, auto& out) {
+         return Words{"convert", in + "/lift.trc", out};
+       },
+       "lift.trc",
+       false,
+       {"lift.trc"},
+       ".trc"},
+      {"emg",
+       [](auto& in, auto& out) {
+         return Words{"emg", in + "/raw.csv", in + "/raw2.csv", "--out", out};
+       },
+       "raw.csv"},
+      {"emg",
+       [](auto& in, auto& out) {
+         return Words{"emg", in + "/raw.csv", "--out", out};
+       },
+       "raw.csv",
+       false,
+       {"raw.csv"},
+       ".csv"},
+      {"ik",
+       [=](auto& in, auto& out) {
+         return Words{"ik", "--model", model(in), "--markers", in + "/lift.trc", "--out", out};
+       },
+       "lift.trc",
+       false,
+       {"lift.trc", "model.osim"},
+       ".mot"},
+      {"id",
+       [=](auto& in, auto& out) {
+         return Words{"id",    "--model", model(in), "--motion", in + "/ik.mot", "--external-loads", in + "/loads.xml",
+                      "--out", out};
+       },
+       "ik.mot",
+       false,
+       {"ik.mot", "loads.sto", "loads.xml"},
+       ".sto"},
+      {"paths",
+       [=](auto& in, auto& out) {
+         return Words{"paths", "--model", model(in), "--motion", in + "/ik.mot", "--out", out};
+       },
+       "ik.mot"},
+      {"so",
+       [=](auto& in, auto& out) {
+         return Words{"so",    "--model", model(in), "--motion", in + "/ik.mot", "--start", "1",
+                      "--end", "1.2",     "--out",   out};
+       },
+       "ik.mot"},
+      {"identify",
+       [](auto& in, auto& out) {
+         return Words{"identify",
+                      "--method",
+                      "torque",
+                      "--folds",
+                      "none",
+                      "--muscles",
+                      in + "/muscles.csv",
+                      "--activations",
+                      in + "/activation.sto",
+                      "--lengths",
+                      in + "/length.sto",
+                      "--velocities",
+                      in + "/velocity.sto",
+                      "--moment-arms",
+                      in + "/arm.sto",
+                      "--torques",
+                      in + "/id.sto",
+                      "--coordinate",
+                      "elbow_flexion",
+                      "--out",
+                      out};
+       },
+       "muscles.csv"},
+      {"muscle",
+       [](auto& in, auto& out) {
+         return Words{"muscle", "--muscle", in + "/soleus.toml", "--length", in + "/l.csv", "--excitation", "1",
+                      "--out",  out};
+       },
+       "l.csv",
+       false,
+       {"l.csv", "soleus.toml"},
+       ".sto"},
+      {"simulate",
+       [=](auto& in, auto& out) {
+         return Words{"simulate", "--model", model(in), "--excite", "BIC=0.1@0.02+0.03", "--end", "0.1", "--out", out};
+       },
+       "model.osim"},
+      {"twin",
+       [](auto& in, auto& out) {
+         return Words{"twin", "--protocol", in + "/protocol.toml", "--out", out};
+       },
+       "protocol.toml"},
+      {"twin-study",
+       [](auto& in, auto& out) {
+         return Words{"twin-study", "--protocol", in + "/protocol.toml", "--subjects", "1", "--out", out};
+       },
+       "protocol.toml",
+       true,
+       {},
+       "",
+       false,
+       true},
+      {"predict",
+       [](auto& in, auto& out) { return Words{"predict", in + "/run", "--trials", "lift", "--out", out}; },
+       "run/run.json",
+       true,
+       {},
+       "",
+       true},
+      {"report",
+       [](auto& in, auto& out) { return Words{"report", "--group", in + "/run", in + "/run2", "--out", out}; },
+       "run/parameters.csv",
+       true,
+       {},
+       "",
+       true},
+      {"report",
+       [](auto& in, auto&) {
+         return Words{"report", in + "/run"};
+       },
+       "run/run.json",
+       true,
+       {},
+       "",
+       true,
+       true,
+       "run/"},
+      {"run-tool",
+       [](auto& in, auto& out) {
+         return Words{"run-tool", in + "/setup.xml", "--out", out};
+       },
+       "lift.trc"},
+      {"update-file",
+       [=](auto& in, auto& out) {
+         return Words{"update-file", model(in), out};
+       },
+       "model.osim",
+       false,
+       {"model.osim"},
+       ".osim"},
+      // Commands without an output.
+      {"check",
+       [](auto& in, auto&) {
+         return Words{"check", in + "/study.toml"};
+       },
+       typo,
+       true,
+       {},
+       "",
+       false,
+       true},
+      {"settings",
+       [](auto& in, auto&) {
+         return Words{"settings", in + "/study.toml"};
+       },
+       typo,
+       true,
+       {},
+       "",
+       false,
+       true},
+      {"design",
+       [](auto& in, auto&) {
+         return Words{"design", in + "/none.toml"};
+       },
+       typo,
+       true,
+       {},
+       "",
+       false,
+       true},
   };
 }
 
@@ -157,8 +332,8 @@ struct Case {
   /// Prepares the folder D, which holds `in`, and returns the place of the output.
   std::function<fs::path(const fs::path& D)> place;
   bool overwrite = false, spoilt = false;
-  std::string may_go{};           ///< A file that the command line itself gives away.
-  std::string edited{};           ///< An edit in a result, which must be found below D; other results may change.
+  std::string may_go{};  ///< A file that the command line itself gives away.
+  std::string edited{};  ///< An edit in a result, which must be found below D; other results may change.
 };
 
 class NothingIsLost : public testing::Test {
@@ -207,8 +382,9 @@ class NothingIsLost : public testing::Test {
                "</force_expressed_in_body><point_expressed_in_body>forearm_hand</point_expressed_in_body>"
                "<force_identifier>f_v</force_identifier><point_identifier>f_p</point_identifier></ExternalForce>"
                "</objects><datafile>loads.sto</datafile></ExternalLoads></OpenSimDocument>\n");
-    std::string loads = "loads\nversion=1\nnRows=2\nnColumns=7\ninDegrees=no\nendheader\n"
-                        "time\tf_vx\tf_vy\tf_vz\tf_px\tf_py\tf_pz\n";
+    std::string loads =
+        "loads\nversion=1\nnRows=2\nnColumns=7\ninDegrees=no\nendheader\n"
+        "time\tf_vx\tf_vy\tf_vz\tf_px\tf_py\tf_pz\n";
     for (const char* time : {"0", "9"}) loads += std::string(time) + "\t0\t-10\t0\t0\t-0.3\t0\n";
     write_text(in + "/loads.sto", loads);
     write_text(in + "/muscles.csv",
@@ -242,7 +418,8 @@ class NothingIsLost : public testing::Test {
     const TemporaryFolder folder;
     make_inputs(recipe, folder.path());
     fs::create_directories(folder / "fresh");
-    (void)call(recipe, folder.path(), recipe.to_folder ? folder / "fresh" : folder / ("fresh/x" + recipe.ending), false);
+    (void)call(recipe, folder.path(), recipe.to_folder ? folder / "fresh" : folder / ("fresh/x" + recipe.ending),
+               false);
     std::vector<std::string> names;
     for (const auto& [name, text] : snapshot(folder / "fresh"))
       if (!is_hidden(name)) names.push_back(name);
@@ -267,8 +444,8 @@ class NothingIsLost : public testing::Test {
       if (found != after.end() && found->second != text) lost += " " + name + " is another;";
     }
     const bool kept = c.edited.empty() || std::ranges::any_of(after, [&](const auto& file) {
-      return file.second.find(c.edited) != std::string::npos;
-    });
+                        return file.second.find(c.edited) != std::string::npos;
+                      });
     const std::scoped_lock lock(mutex_);
     EXPECT_TRUE(lost.empty() && kept) << c.recipe->command << ": " << c.says << (c.overwrite ? ", --overwrite" : "")
                                       << (c.spoilt ? ", spoilt" : "") << ":" << lost << (kept ? "" : " edits are lost")
@@ -379,8 +556,7 @@ TEST_F(NothingIsLost, WhereAFileIsTheOutput) {
     for (const bool overwrite : {false, true}) {
       for (const std::string& input : recipe.inputs) {
         const auto on = [&](const char* how, auto place) {
-          for (const bool spoilt : {false, true})
-            cases.push_back({&recipe, how + input, place, overwrite, spoilt});
+          for (const bool spoilt : {false, true}) cases.push_back({&recipe, how + input, place, overwrite, spoilt});
         };
         on("on ", [=](const fs::path& D) { return D / "in" / input; });
         on("on a link to ", [=, ending = recipe.ending](const fs::path& D) {
