@@ -129,14 +129,10 @@ std::vector<Recipe> recipes() {
        {"lift.trc"},
        ".trc"},
       {"emg",
-       [](auto& in, auto& out) {
-         return Words{"emg", in + "/raw.csv", in + "/raw2.csv", "--out", out};
-       },
+       [](auto& in, auto& out) { return Words{"emg", in + "/raw.csv", in + "/raw2.csv", "--unit", "V", "--out", out}; },
        "raw.csv"},
       {"emg",
-       [](auto& in, auto& out) {
-         return Words{"emg", in + "/raw.csv", "--out", out};
-       },
+       [](auto& in, auto& out) { return Words{"emg", in + "/raw.csv", "--unit", "V", "--out", out}; },
        "raw.csv",
        false,
        {"raw.csv"},
@@ -151,8 +147,8 @@ std::vector<Recipe> recipes() {
        ".mot"},
       {"id",
        [=](auto& in, auto& out) {
-         return Words{"id",    "--model", model(in), "--motion", in + "/ik.mot", "--external-loads", in + "/loads.xml",
-                      "--out", out};
+         return Words{"id",      "--model",         model(in), "--motion", in + "/ik.mot",
+                      "--loads", in + "/loads.xml", "--out",   out};
        },
        "ik.mot",
        false,
@@ -389,7 +385,7 @@ class NothingIsLost : public testing::Test {
     write_text(in + "/loads.sto", loads);
     write_text(in + "/muscles.csv",
                "muscle,max_isometric_force,optimal_fiber_length,max_shortening_speed,tendon_slack_length\n"
-               "BIC,600,0.13,1.3,0.19\nBRA,900,0.09,0.9,0.05\nBRD,260,0.17,1.7,0.13\nTRI,1800,0.12,1.2,0.16\n");
+               "BIC,600,0.13,1.3,0.19\nBRD,260,0.17,1.7,0.13\nTRI,1800,0.12,1.2,0.16\n");
     fs::copy_file(myoid::test::source_dir() / "examples/rat_soleus/muscle.toml", in + "/soleus.toml");
     write_text(in + "/l.csv", "time,length\n0,0.04\n0.1,0.041\n0.2,0.042\n0.3,0.041\n");
     write_text(in + "/setup.xml",
