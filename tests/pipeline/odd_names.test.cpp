@@ -31,7 +31,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 /// Four names for each person: of muscles, their electrodes and trials. Each four holds what one list may not confuse.
-const std::vector<std::array<std::string, 4>> kNames{
+const std::vector<std::array<std::string, 4>> kOddNames{
     {"slow 2 kg", "slow_2_kg", "slow  2 kg", "slow-2-kg"},
     {"BIC (long)", "BIC [short]", "O'Neil", "say \"x\""},
     {"Müller", "Möller", "李 小龙", "王"},
@@ -140,11 +140,11 @@ void expect_results(const fs::path& results, const std::array<std::string, 4>& n
 
 TEST_F(OddNames, OfPersonsTrialsMusclesAndElectrodesGoThroughACohort) {
   std::string table = "name,study\n";
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    (void)study(kNames[i], "study" + std::to_string(i));
+  for (std::size_t i = 0; i < kOddNames.size(); ++i) {
+    (void)study(kOddNames[i], "study" + std::to_string(i));
     // Three persons of the four are refused at once: their studies are not there.
     for (std::size_t k = 0; k < 4; ++k)
-      table += csv_quoted(kNames[i][k]) + ",study" + std::to_string(i) + (k == 0 ? "/study.toml\n" : "/none.toml\n");
+      table += csv_quoted(kOddNames[i][k]) + ",study" + std::to_string(i) + (k == 0 ? "/study.toml\n" : "/none.toml\n");
   }
   write_text(folder_ / "persons.csv", table);
   const std::string out = folder_ / "it's a {cohort} $(touch x)";
@@ -152,7 +152,7 @@ TEST_F(OddNames, OfPersonsTrialsMusclesAndElectrodesGoThroughACohort) {
   EXPECT_EQ(cohort.exit_code, 5) << cohort.err;
   expect_steady_terminal(cohort);
   const auto persons = read_rows(fs::path(out) / "persons.csv");
-  ASSERT_EQ(persons.size(), 4 * kNames.size());
+  ASSERT_EQ(persons.size(), 4 * kOddNames.size());
   std::set<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(fs::path(out) / "persons")) folders.insert(entry.path());
   EXPECT_EQ(folders.size(), persons.size());
@@ -162,17 +162,17 @@ TEST_F(OddNames, OfPersonsTrialsMusclesAndElectrodesGoThroughACohort) {
     ++computed;
     const json run = json::parse(read_text(place / "run.json"));
     const std::string first = run.at("trials").at(0).at("name");
-    for (const auto& names : kNames) {
+    for (const auto& names : kOddNames) {
       if (names[0] == first) expect_results(place, names);
     }
   }
-  EXPECT_EQ(computed, kNames.size());
+  EXPECT_EQ(computed, kOddNames.size());
   EXPECT_FALSE(fs::exists("x"));
 }
 
 TEST_F(OddNames, GoThroughEveryCommandOfAStudy) {
   for (const std::size_t which : {std::size_t{1}, std::size_t{7}, std::size_t{14}}) {
-    const std::array<std::string, 4>& names = kNames[which];
+    const std::array<std::string, 4>& names = kOddNames[which];
     const fs::path file = study(names, "study");
     const fs::path results = folder_ / ("results" + std::to_string(which)), again = folder_ / "again";
     const Finished check = myoid({"check", file});
