@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <fmt/format.h>
@@ -172,7 +173,7 @@ TEST(CheckStudy, AWeightOfAMarkerThatTheModelLacksIsAnError) {
 
 TEST(CheckStudy, AWindowOfNormalisationLongerThanTheRecordingIsAnError) {
   WrittenStudy study;
-  study.text.insert(study.text.find("[[trial]]"), "normalise_window_s = 30\n");
+  study.text.insert(study.text.find("[ik]"), "normalise_window_s = 30\n");
   EXPECT_NE(study.error().find("longer than every recording"), std::string::npos) << study.error();
 }
 
@@ -222,7 +223,9 @@ std::vector<Remark> warnings_of(const std::filesystem::path& file) {
 TEST(CheckRecording, NoiseAloneIsNoEmg) {
   const test::TemporaryFolder folder;
   std::string text = "time,a [mV]\n";
-  for (int i = 0; i < 4000; ++i) text += fmt::format("{:.3f},{:.9f}\n", 0.001 * i, ((i * 7919) % 2003) / 2003.0 - 0.5);
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0.0, 0.3);
+  for (int i = 0; i < 4000; ++i) text += fmt::format("{:.3f},{:.9f}\n", 0.001 * i, normal(random));
   recording::write_file(folder / "emg.csv", text);
   const std::vector<Remark> found = warnings_of(folder / "emg.csv");
   ASSERT_EQ(found.size(), 1U);

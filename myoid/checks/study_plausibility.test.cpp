@@ -200,8 +200,7 @@ TEST(StudyPlausibility, ForcesOfTheWrongSignAreAnErrorAndOfAnotherUnitAWarning) 
   Study study;
   study.model.file = "person.osim";
   study.model.coordinate = "knee_angle";
-  model::BodyModel model = stander();
-  for (model::Coordinate& c : model.coordinates) c.locked = c.name != "knee_angle";
+  const model::BodyModel model = stander();
   const auto found = [&](double force_n) {
     const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 1.0);
     TrialInput input;
@@ -216,7 +215,9 @@ TEST(StudyPlausibility, ForcesOfTheWrongSignAreAnErrorAndOfAnotherUnitAWarning) 
     trial.external_loads = "folder/grf.xml";
     StudyPlausibility plausibility(study, model);
     plausibility.look_at(trial, input);
-    return plausibility.findings();
+    std::vector<Remark> all = plausibility.findings();
+    std::erase_if(all, [](const Remark& r) { return r.code == RemarkCode::coordinate_absent; });
+    return all;
   };
   EXPECT_TRUE(found(680.0).empty());
   ASSERT_EQ(found(-680.0).size(), 1U);

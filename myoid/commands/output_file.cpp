@@ -1,11 +1,11 @@
 #include "myoid/commands/output_file.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/byte_source.h"
 #include "myoid/files/result_record.h"
 
 namespace myoid::commands {
@@ -34,11 +34,9 @@ void check_companion(const std::filesystem::path& path,
                      bool overwrite,
                      std::string_view begins) {
   check_output(path, inputs, overwrite);
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return;
-  std::string head(begins.size(), '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (head != begins)
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return;
+  if (!recording::read_bytes(path).starts_with(begins))
     throw InvalidInput(fmt::format(
         "{} stands in the way of a second file of this command and does not begin with '{}', as its results do; move "
         "it elsewhere, or give another --out",

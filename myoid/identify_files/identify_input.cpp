@@ -27,6 +27,7 @@ using identification::TrialData;
 constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
 constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
+constexpr double kAsGiven = 0.9;          // share of dl that -r dq explains where the files are not exchanged
 constexpr double kLongestMuscle_m = 1.0;  // no musculotendon unit is longer: such numbers are no exchanged lengths
 constexpr double kHighestActivation = 1.25, kCertainlyHigh = 2.0;
 constexpr double kPercent = 20.0;  ///< the largest activation in percent exceeds this
@@ -130,7 +131,7 @@ class TrialCheck {
     std::vector<const Eigen::MatrixXd*> all;
     for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) all.push_back(&arms(j));
     const double own = share(trial_.length_m, all), other = share(arms(joint), {&trial_.length_m});
-    if (own >= kDoubtful && own >= other) return Exchange::as_given;
+    if (own >= kAsGiven && own >= other) return Exchange::as_given;
     return other > kDoubtful && other > own + kClearly ? Exchange::exchanged : Exchange::unknown;
   }
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "myoid/files/marker_series.h"
-#include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/kinematics/ik_options.h"
 #include "myoid/kinematics/range_barrier.h"
 #include "myoid/model/kinematic_tree.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "myoid/c3d/c3d_file.h"
-#include "myoid/recording/recording.h"
+#include "myoid/recording/recorded_trial.h"
 
 namespace myoid::recording {
 

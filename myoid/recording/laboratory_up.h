@@ -11,7 +11,7 @@
 #include "myoid/core/geometry.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/recording/force_plate.h"
-#include "myoid/recording/recording.h"
+#include "myoid/recording/recorded_trial.h"
 
 namespace myoid::recording {
 

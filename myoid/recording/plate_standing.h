@@ -6,7 +6,7 @@
 #include "myoid/core/geometry.h"
 #include "myoid/recording/force_plate.h"
 #include "myoid/recording/laboratory_up.h"
-#include "myoid/recording/recording.h"
+#include "myoid/recording/recorded_trial.h"
 
 namespace myoid::recording {
 

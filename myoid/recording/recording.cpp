@@ -116,22 +116,6 @@ MarkerFile read_markers(const std::filesystem::path& path) {
                   endings_text([](const FormatEntry& entry) { return entry.markers; }), extension_of(path));
 }
 
-std::vector<const AnalogChannels*> Recording::clocks() const {
-  std::vector<const AnalogChannels*> list{&analog};
-  for (const AnalogChannels& other : other_clocks) list.push_back(&other);
-  return list;
-}
-
-ForcePlate Recording::force_plate(const PlateSetup& plate) const {
-  return recording::force_plate(plate, analog.time_s(), analog.as_written(plate.channels));
-}
-
-std::vector<ForcePlate> Recording::force_plates() const {
-  std::vector<ForcePlate> list;
-  for (const PlateSetup& plate : plates) list.push_back(force_plate(plate));
-  return list;
-}
-
 Recording read_recording(const std::filesystem::path& path) {
   refuse_folder(path);
   if (const auto format = format_of(path)) {

@@ -101,6 +101,7 @@ function reads_rows_one_by_one(work)
   fails(@() myoid.read_sto(file), 'myoid:badInput', 'time does not increase');
   write_text(file, ['x' char(10) 'nRows=3' char(10) 'endheader' char(10) labels sprintf('0\t1\t2\n0.5\t3\t4\n')]);
   lastwarn('', '');
+  warning('on', 'myoid:rowCount');
   myoid.read_sto(file);
   [~, identifier] = lastwarn();
   assert(strcmp(identifier, 'myoid:rowCount'), 'a count that disagrees is a warning, as for the program');

@@ -33,6 +33,7 @@ def test_names_are_the_users(recording, tmp_path):
     study = recording.parent / "odd names.toml"
     text = recording.read_text(encoding="utf-8")
     text = text.replace('name = "lift"', f'name = "{trial}"').replace('name = "BIC"', f'name = "{muscle}"')
+    text = text.replace('same_as = "BIC"', f'same_as = "{muscle}"')
     study.write_text(text, encoding="utf-8")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", myoid.MyoidWarning)
@@ -76,8 +77,11 @@ def test_a_result_reads_its_folder(result, tmp_path):
     assert "numbers identified" in repr(result)
 
 
-def test_a_pickled_result_carries_its_tables_and_series(result, tmp_path):
-    # `result` has no folder of its own name: the copy has all files, in another folder, and outlives the first.
+def test_a_pickled_result_carries_its_tables_and_series(recording, tmp_path):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        result = myoid.run(recording)
+    # Nobody named a folder: the copy has all files, in another folder, and outlives the first.
     there = pickle.loads(pickle.dumps(result))
     assert there.path != result.path and list(there.parameters) == list(result.parameters)
     assert np.array_equal(there.trials["lift"]["ik"].values, result.trials["lift"]["ik"].values)

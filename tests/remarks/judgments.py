@@ -7,6 +7,16 @@ what is known of the folder, not sample by sample ("by kind")."""
 ANY = ""
 
 JUDGED = [
+    # Studies and remarks that this page met last.
+    ("no_maximal_contraction", "examples/*", ANY, True, "none of these recordings holds a maximal contraction"),
+    ("coordinate_absent", "examples/*", ANY, True, "the motion holds the elbow's angle alone"),
+    ("segment_not_rigid", "examples/elbow_emg/*", ANY, True, "the authors say that the forearm differs by session"),
+    ("segment_not_rigid", "examples/upper_limb/*", ANY, False, "skin over the scapula moves so in a full abduction"),
+    ("angle_jump", "ceinms-rt-leg/*", ANY, True, "single frames of inverse kinematics jump at foot strike"),
+    ("angle_jump", "upper-limb-optical/*kalman*", ANY, True, "the angles of the shoulder pass their singular posture"),
+    ("emg_artifact", "elderly-isometric/*", "holds the heart", False, "an electrode on the thigh hardly sees the heart"),
+    ("emg_over_reference", "tables/nexus_devices.csv", ANY, False, "the file ends after 0.6 s of rest and effort"),
+    ("emg_over_reference", "upper-limb-optical/*", ANY, False, "one strong movement of a muscle that rests else"),
     # Markers. Five jumps were looked at frame by frame, in four recordings; each is there.
     ("marker_gap", "c3d/*", "is in no frame", True, "a label of the laboratory's list without any sample"),
     ("marker_gap", "trc/*", "is in no frame", True, "the same"),
