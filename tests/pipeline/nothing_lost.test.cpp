@@ -498,6 +498,7 @@ void add_taken_places(const Recipe& recipe, const std::vector<std::string>& name
           if (by[2] == 'h') fs::create_hard_link(D / "in" / recipe.spoil, file);
           if (by[2] == 'l') fs::create_symlink(D / "in" / recipe.spoil, file);
         }
+        fs::create_directories(D / "out");
         write_text(D / "out/notes.txt", "of a person");
         return D / "out";
       };

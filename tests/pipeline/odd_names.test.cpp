@@ -66,6 +66,7 @@ class OddNames : public testing::Test {
   [[nodiscard]] fs::path study(const std::array<std::string, 4>& names, const std::string& place) const {
     constexpr std::array kMuscles{"BIC", "BRA", "BRD", "TRI"};
     constexpr std::size_t kWithoutElectrode = 1;
+    std::filesystem::create_directories(folder_ / place);
     for (const char* file : {"mvc_emg.sto", "lift_emg.sto", "more_emg.sto"}) {
       std::string text = read_text(folder_ / "rec" / file);
       const std::size_t begin = text.find("\ntime") + 1;

@@ -168,12 +168,14 @@ TEST(PlausibleInput, AModelThatCannotBeIsSaidAlike) {
     std::filesystem::copy_file(rec / "model.osim", folder / "m.osim",
                                std::filesystem::copy_options::overwrite_existing);
     replace_in(folder / "m.osim", from, to);
-    EXPECT_THAT(
-        myoid({"id", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "c.sto"}).err,
-        HasSubstr(says));
-    EXPECT_THAT(
-        myoid({"paths", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "p"}).err,
-        HasSubstr(says));
+    EXPECT_THAT(myoid({"id", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "c.sto",
+                       "--overwrite"})
+                    .err,
+                HasSubstr(says));
+    EXPECT_THAT(myoid({"paths", "--model", folder / "m.osim", "--motion", folder / "usual.mot", "--out", folder / "p",
+                       "--overwrite"})
+                    .err,
+                HasSubstr(says));
     const Finished check = myoid({"check", folder / "m.osim"});
     EXPECT_EQ(check.exit_code, 3);
     EXPECT_THAT(check.out, HasSubstr(says));
