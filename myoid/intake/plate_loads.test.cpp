@@ -12,6 +12,7 @@
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/plate_standing.h"
+#include "myoid/recording/recording.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/trial_up.h"
 
