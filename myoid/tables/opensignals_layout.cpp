@@ -18,7 +18,8 @@ using Kind = TableColumn::Kind;
 std::vector<std::string> texts_of(const nlohmann::ordered_json& device, const char* key) {
   std::vector<std::string> texts;
   if (!device.contains(key) || !device[key].is_array()) return texts;
-  for (const auto& entry : device[key]) texts.push_back(entry.is_string() ? entry.get<std::string>() : json_text(entry, -1));
+  for (const auto& entry : device[key])
+    texts.push_back(entry.is_string() ? entry.get<std::string>() : json_text(entry, -1));
   return texts;
 }
 

@@ -119,8 +119,11 @@ std::vector<Row> read_rows(const std::filesystem::path& file) {
   const auto cells_of = [](const std::string& line) {
     std::vector<std::string> cells(1);
     bool quoted = false;
-    for (const char c : line) {
-      if (c == '"') {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const char c = line[i];
+      if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+        cells.back() += line[++i];  // a doubled quote is one
+      } else if (c == '"') {
         quoted = !quoted;
       } else if (c == ',' && !quoted) {
         cells.emplace_back();
