@@ -11,7 +11,7 @@
 
 namespace myoid {
 
-/// What was found of contacts that belong to another body.
+/// Contacts that belong to another body, as the check found them.
 struct ForeignContacts {
   std::vector<Remark> remarks;
   std::vector<Stretch> times;  ///< On the clock of the motion.

@@ -33,7 +33,7 @@ struct NamedMass {
 [[nodiscard]] std::vector<std::string> load_channels(const TimeSeries& analog,
                                                      const std::vector<recording::PlateSetup>& plates);
 
-/// What a recording tells of the loads on the person.
+/// Signs of loads on the person that a recording holds.
 struct LoadHints {
   std::vector<std::string> object_markers = {}, channels = {};
 };

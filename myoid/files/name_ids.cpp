@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kHashDigits = 8;
 
-/// How ids of one place look.
+/// The form of the ids of one place.
 struct IdForm {
   std::string_view marks;   ///< Allowed beside letters and digits.
   std::string_view joiner;  ///< For a run of other characters.

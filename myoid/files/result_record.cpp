@@ -13,7 +13,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <openssl/evp.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -31,200 +30,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kSignature =
-    "# myoid: files that this program wrote into this folder, with the SHA-256 of each; it removes and replaces no "
-    "others\n";
-constexpr std::string_view kBy = "# by ";
-constexpr std::string_view kUnfinished = ", unfinished";
 constexpr std::string_view kEarlier = "an earlier version that kept no list";
 constexpr std::size_t kHead = 16384;  ///< Bytes that tell the kind of a file.
-constexpr std::size_t kRecordHashDigits = 64;
-
-}  // namespace
-
-/// One statement of a list about a file.
-struct RecordedFile {
-  std::string sha256, command;
-  bool whole = true;
-};
-
-/// A list: the statements about each path, the last one last, and the commands that signed.
-struct RecordContent {
-  std::map<std::string, std::vector<RecordedFile>> files;
-  std::set<std::string> commands;
-  bool exists = false;
-};
-
-namespace {
-
-/// A descriptor that is closed with this object.
-class OpenFile {
- public:
-  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
-  OpenFile(OpenFile&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  OpenFile& operator=(OpenFile&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  ~OpenFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  [[nodiscard]] int get() const { return descriptor_; }
-  explicit operator bool() const { return descriptor_ >= 0; }
-
- private:
-  int descriptor_;
-};
-
-/// Reads a file from its begin; empty if the reading fails.
-std::optional<std::string> content_of(int descriptor) {
-  struct stat status {};
-  if (fstat(descriptor, &status) != 0) return std::nullopt;
-  std::string content;
-  content.reserve(static_cast<std::size_t>(status.st_size));
-  std::array<char, std::size_t{1} << 16U> part{};
-  for (;;) {
-    const ssize_t got = pread(descriptor, part.data(), part.size(), static_cast<off_t>(content.size()));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return std::nullopt;
-    if (got == 0) return content;
-    content.append(part.data(), static_cast<std::size_t>(got));
-  }
-}
-
-/// Returns the SHA-256 of a file, read part by part; empty if the reading fails.
-std::string hash_of(int descriptor) {
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-  std::array<char, std::size_t{1} << 16U> part{};
-  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1) return "";
-  for (off_t at = 0;;) {
-    const ssize_t got = pread(descriptor, part.data(), part.size(), at);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0 || EVP_DigestUpdate(context.get(), part.data(), static_cast<std::size_t>(got)) != 1) return "";
-    if (got == 0) break;
-    at += got;
-  }
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int size = 0;
-  if (EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1) return "";
-  return fmt::format("{:02x}", fmt::join(digest.begin(), digest.begin() + size, ""));
-}
-
-/// Writes a path as sha256sum does: a line with a backslash or a line end in the name begins with a backslash.
-std::string record_line(const std::string& sha256, const std::string& path) {
-  std::string escaped;
-  for (const char c : path) {
-    if (c == '\\') {
-      escaped += "\\\\";
-    } else if (c == '\n') {
-      escaped += "\\n";
-    } else if (c == '\r') {
-      escaped += "\\r";
-    } else {
-      escaped += c;
-    }
-  }
-  return fmt::format("{}{}  {}\n", escaped == path ? "" : "\\", sha256, escaped);
-}
-
-std::string unescaped(std::string_view text) {
-  std::string path;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '\\' || i + 1 == text.size()) {
-      path += text[i];
-      continue;
-    }
-    ++i;
-    path += text[i] == 'n' ? '\n' : text[i] == 'r' ? '\r' : text[i];
-  }
-  return path;
-}
-
-/// Returns true for a path that stays in its folder.
-bool stays_inside(const fs::path& path) {
-  return !path.empty() && path.is_relative() &&
-         std::ranges::none_of(path, [](const fs::path& part) { return part == ".." || part == "." || part.empty(); });
-}
-
-RecordContent parse_record(std::string_view text) {
-  RecordContent record;
-  if (!text.starts_with(kSignature)) return record;
-  record.exists = true;
-  std::string command;
-  bool whole = true;
-  for (const std::string_view line : split(text, '\n')) {
-    if (line.starts_with(kBy)) {
-      whole = !line.ends_with(kUnfinished);
-      command = line.substr(kBy.size(), line.size() - kBy.size() - (whole ? 0 : kUnfinished.size()));
-      record.commands.insert(command);
-      continue;
-    }
-    const std::size_t begin = line.starts_with('\\') ? 1 : 0;
-    if (line.starts_with('#') || line.size() < begin + kRecordHashDigits + 3) continue;
-    const std::string_view name = line.substr(begin + kRecordHashDigits + 2);
-    const std::string path = begin == 1 ? unescaped(name) : std::string(name);
-    if (!stays_inside(path)) continue;
-    RecordedFile statement{std::string(line.substr(begin, kRecordHashDigits)), command, whole};
-    std::vector<RecordedFile>& earlier = record.files[path];
-    std::erase_if(earlier, [&](const RecordedFile& other) {
-      return other.sha256 == statement.sha256 && other.command == statement.command;
-    });
-    earlier.push_back(std::move(statement));
-  }
-  return record;
-}
-
-std::string record_text(const RecordContent& record) {
-  std::string text(kSignature);
-  for (const std::string& command : record.commands) {
-    for (const bool whole : {true, false}) {
-      std::string lines;
-      for (const auto& [path, statements] : record.files) {
-        for (const RecordedFile& statement : statements)
-          if (statement.command == command && statement.whole == whole) lines += record_line(statement.sha256, path);
-      }
-      if (whole || !lines.empty()) text += fmt::format("{}{}{}\n{}", kBy, command, whole ? "" : kUnfinished, lines);
-    }
-  }
-  return text;
-}
-
-RecordContent read_record(const fs::path& folder) {
-  const OpenFile file(open((folder / kRecordFile).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-  if (!file) return {};
-  return parse_record(content_of(file.get()).value_or(""));
-}
-
-/// Opens the list for changes, locked; a list that another process replaces meanwhile is opened again.
-OpenFile open_record(const fs::path& folder) {
-  const fs::path path = folder / kRecordFile;
-  for (;;) {
-    OpenFile file(open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
-    struct stat opened {};
-    struct stat named {};
-    if (!file || fstat(file.get(), &opened) != 0 || !S_ISREG(opened.st_mode))
-      throw InvalidInput("cannot write into the folder {}: {}: {}", folder.string(), kRecordFile, std::strerror(errno));
-    (void)flock(file.get(), LOCK_EX);  // a file system without locks has one process at a time
-    if (stat(path.c_str(), &named) != 0 || named.st_ino != opened.st_ino || named.st_dev != opened.st_dev) continue;
-    std::string begin(kSignature.size(), '\0');
-    if (opened.st_size == 0 || (pread(file.get(), begin.data(), begin.size(), 0) > 0 && begin == kSignature))
-      return file;
-    throw InvalidInput("{} is no list of this program's results; move it elsewhere, or give another --out",
-                       path.string());
-  }
-}
-
-void write_text(const fs::path& folder, const OpenFile& file, std::string_view text) {
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t written = write(file.get(), text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0)
-      throw InvalidInput("cannot write into the folder {}: {}: {}", folder.string(), kRecordFile, std::strerror(errno));
-    done += static_cast<std::size_t>(written);
-  }
-}
 
 /// A file below a folder, reached without any symbolic link.
 struct Reached {
@@ -279,7 +86,7 @@ void append_to_record(HeldRecord& held, std::string lines) {
   if (fstat(file.get(), &status) == 0 && status.st_size == 0)
     lines = fmt::format("{}{}{}", kSignature, held.terms.earlier_version ? fmt::format("{}{}\n", kBy, kEarlier) : "",
                         lines);
-  write_text(held.root, file, lines);
+  append_text(held.root, file, lines);
   held.record.exists = true;
   held.record.commands.insert(held.command);
 }
@@ -478,7 +285,7 @@ void replace_record(const HeldRecord& held, const OpenFile& locked) {
   struct stat old {};
   if (!file || fstat(locked.get(), &old) != 0 || fchmod(file.get(), old.st_mode & 07777) != 0) return;
   try {
-    write_text(held.root, file, record_text(now));
+    append_text(held.root, file, record_text(now));
     if (rename(name.c_str(), (held.root / kRecordFile).c_str()) != 0) unlink(name.c_str());
   } catch (const InvalidInput&) {  // the longer list holds the same
     unlink(name.c_str());

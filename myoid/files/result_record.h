@@ -8,14 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "myoid/files/record_list.h"
+
 namespace myoid::recording {
 
-/// The list of the files that this program wrote into a folder, with the SHA-256 of the content of each: the signature
-/// of a folder of results. `sha256sum -c .myoid.files` compares a folder with its list. The list names the command
-/// that wrote each file.
-inline constexpr std::string_view kRecordFile = ".myoid.files";
-
-/// What stands at the place of a file.
+/// The kind of file that stands at a place.
 enum class Standing {
   absent,
   result,      ///< Written by the same command, and unchanged since.
@@ -26,7 +23,7 @@ enum class Standing {
   input,       ///< An input of the running command (InputLog).
 };
 
-/// How a command treats files in its folder of results.
+/// The rules by which a command treats files in its folder of results.
 struct RecordTerms {
   /// The folder was filled by a version of this program that kept no list: what stands in the way is moved aside.
   bool earlier_version = false;

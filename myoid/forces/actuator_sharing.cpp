@@ -313,7 +313,7 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
     if (!best.balanced) take_nearest(problem, dual, scale, solution);
     return solution;
   }
-  // Whether the actuators can produce b does not depend on the exponent.
+  // The exponent has no part in the question whether the actuators can produce b.
   Dual squares(dual.a(), dual.b(), problem.lower, problem.upper, 2.0);
   const Maximum least = maximize(squares, unbounded(squares));
   if (!least.balanced) {

@@ -21,7 +21,7 @@ Eigen::MatrixXd two_muscles() {
 TEST(SignsExplained, AMuscleThatIsTooStrongTurnsNoSign) {
   const Eigen::MatrixXd muscles = two_muscles();
   const Eigen::VectorXd torque = muscles * Eigen::Vector2d(3.0, 0.5);
-  // By the starting strengths, of which the extensor's is ten times the flexor's, the torque seems reversed.
+  // The torque seems reversed, because the extensor starts ten times as strong as the flexor.
   const Eigen::MatrixXd start = muscles * Eigen::Vector2d(1.0, 10.0).asDiagonal();
   EXPECT_LT(start.rowwise().sum().dot(torque), 0.0);
   const SignsExplained found = signs_explained(start, torque);

@@ -105,7 +105,7 @@ std::vector<Remark> implausible(const TimeSeries& motion, const Stretch& within)
   std::vector<Remark> found;
   if (auto clock = doubtful_clock(motion)) found.push_back(std::move(*clock));
   if (auto fast = too_fast(motion, within)) found.push_back(std::move(*fast));
-  // Where all is too fast, a jump is no news.
+  // A jump says nothing more where every speed is impossible.
   if (!found.empty()) return found;
   for (const signals::MotionJump& jump : signals::find_motion_jumps(motion, within))
     found.push_back(
