@@ -147,7 +147,8 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
   const recording::Storage file = recording::read_storage(path);
   warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries q = in_si(file, model);
-  if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty()) remarks.warn(doubt);
+  if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty())
+    remarks.warn(fmt::format("{}: {}", path.filename().string(), doubt));
   const Stretch asked{call.start_s.value_or(-1e300), call.end_s.value_or(1e300)};
   remarks.add(kinematics::implausible(model, q, asked), path.string());
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)

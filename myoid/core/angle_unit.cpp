@@ -34,9 +34,9 @@ std::string check_angle_unit(const std::filesystem::path& path, bool says_degree
   const bool moves = widest_rad > 0.2 * kDegree || (widest_rad > 0.02 * kDegree && widest_rad > 0.3 * largest_rad);
   if (says_degrees && largest_rad < 3.5 * kDegree && moves) {
     return fmt::format(
-        "{}: no angle reaches 3.5 degrees (the largest is '{}') although the header says inDegrees=yes; if these are "
+        "no angle reaches 3.5 degrees (the largest is '{}') although the header says inDegrees=yes; if these are "
         "radians, write inDegrees=no",
-        path.filename().string(), largest_name);
+        largest_name);
   }
   return {};
 }

@@ -302,7 +302,8 @@ class TrialReader {
     for (const recording::Repair& repair : file.repairs) remark_(recording::to_string(path, repair));
     TimeSeries angles = recording::to_si(file, [](const std::string&) { return true; });
     require_finite(angles, path);
-    if (const std::string doubt = check_angle_unit(path, file.in_degrees, angles); !doubt.empty()) remark_(doubt);
+    if (const std::string doubt = check_angle_unit(path, file.in_degrees, angles); !doubt.empty())
+      remark_(fmt::format("{}: {}", path.filename().string(), doubt));
     return angles;
   }
 

@@ -47,7 +47,7 @@ TimeSeries read_motion(const std::filesystem::path& path, const model::BodyModel
   bool any = false;
   for (const Channel& channel : motion.channels()) any |= model.find_coordinate(channel.name).has_value();
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
-    warn(input, RemarkCode::unit_doubtful, doubt);
+    warn(input, RemarkCode::unit_doubtful, fmt::format("{}: {}", path.filename().string(), doubt));
   if (!any)
     throw ReadError(
         path, 0,

@@ -78,8 +78,8 @@ TimeSeries read_coordinates(const model::BodyModel& model,
   }
   TimeSeries result(file.data.time_s(), std::move(channels), std::move(q));
   require_finite(result, path.string());
-  if (std::string doubt = check_angle_unit(path, file.in_degrees, result); !doubt.empty())
-    notes.push_back(std::move(doubt));
+  if (const std::string doubt = check_angle_unit(path, file.in_degrees, result); !doubt.empty())
+    notes.push_back(fmt::format("{}: {}", path.filename().string(), doubt));
   return result;
 }
 
