@@ -146,6 +146,10 @@ TEST(VerdictCaps, EmgThatIsCutOffInTheMaximalContractionCapsTheStrengthThatRests
   // Not that of the other channel, and no length.
   result.fit.methods[0].estimates[0].muscle = "TRI";
   EXPECT_EQ(verdict_of(result), Verdict::identified);
+  // The exponent of the channel is that of a scale which ends at activation 1.
+  result.fit.methods[0].estimates[0].muscle = "emg BIC";
+  result.fit.methods[0].estimates[0].parameter = "emg_exponent";
+  EXPECT_EQ(verdict_of(result), Verdict::weak);
   result.fit.methods[0].estimates[0].muscle = "BIC";
   result.fit.methods[0].estimates[0].parameter = "optimal_fiber_length";
   EXPECT_EQ(verdict_of(result), Verdict::identified);

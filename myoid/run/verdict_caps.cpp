@@ -37,8 +37,8 @@ std::vector<std::string> owners_of(const Study& study, const std::string& channe
   return owners;
 }
 
-/// Parameters that are proportional to activation 1.
-std::vector<std::string> strengths() { return {"max_isometric_force", "emg_gain", "activation_share"}; }
+/// Parameters that rest on activation 1: proportional to it, or the shape of the scale that ends there.
+std::vector<std::string> strengths() { return {"max_isometric_force", "emg_gain", "emg_exponent", "activation_share"}; }
 
 bool is_fitted(const TrialSpec& trial) { return trial.use == Use::calibration || trial.use == Use::isometric; }
 
