@@ -87,7 +87,7 @@ def virtual_person(program, folder):
         '<?xml version="1.0"?>\n<OpenSimDocument Version="40000">\n<InverseKinematicsTool name="ik">\n'
         "<model_file>rec/model.osim</model_file>\n<marker_file>rec/lift.trc</marker_file>\n"
         "<output_motion_file>out.mot</output_motion_file>\n</InverseKinematicsTool>\n</OpenSimDocument>\n")
-    (folder / "persons.csv").write_text("person,study\nA,rec/study.toml\n")
+    (folder / "persons.csv").write_text("name,study\nA,rec/study.toml\n")
     study = ["rec"]
     model, markers, emg, motion = "rec/model.osim", "rec/lift.trc", "rec/lift_emg.sto", "ik.mot"
     return [
