@@ -1,6 +1,7 @@
 #include "myoid/identify_files/identify_trial.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -303,7 +304,7 @@ class TrialReader {
     TimeSeries angles = recording::to_si(file, [](const std::string&) { return true; });
     require_finite(angles, path);
     if (const std::string doubt = check_angle_unit(path, file.in_degrees, angles); !doubt.empty())
-      remark_(fmt::format("{}: {}", path.filename().string(), doubt));
+      remark_(fmt::format("{}: {}", std::filesystem::path(path).filename().string(), doubt));
     return angles;
   }
 
