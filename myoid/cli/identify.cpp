@@ -56,7 +56,7 @@ void print_samples(const identification::IdentificationResult& result,
   Eigen::Index all = 0;
   for (const TrialData& trial : data.trials) all += trial.time_s.size();
   all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size() : joint_count(data.trials.front()));
-  if (o.method == "torque" && o.estimator == "posterior") {
+  if (o.method == "torque" && o.estimator == "posterior" && !o.no_priors && !result.exact) {
     say("{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as {:.0f} independent "
         "ones.\n",
         result.samples_used, all, result.effective_samples);

@@ -31,9 +31,14 @@ void print_method(const identification::IdentificationResult& method, std::size_
     owner = std::max(owner, in_column(line.owners).size());
     parameter = std::max(parameter, labelled(*line.estimate).size());
   }
+  const bool readings = std::ranges::any_of(method.estimates, [](const auto& e) { return e.given_ci_low.has_value(); });
+  const auto given = [&](const std::string& text) { return readings ? fmt::format(" {:>24}", text) : std::string(); };
   say("\nmethod {}: {}\n", method.method, method.message);
-  say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter", parameter, "case", "initial",
-      "estimate", "95 % interval", "verdict");
+  if (readings)
+    say("95 % interval: of the person. Given: if geometry and sensors were exact, to compare sessions of the "
+        "person.\n");
+  say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}{}  {}\n", "muscle", owner, "parameter", parameter, "case", "initial",
+      "estimate", "95 % interval", given("given"), "verdict");
   bool nuisances = false;
   for (const EstimateLine& line : lines) {
     const ParameterEstimate& e = *line.estimate;
@@ -48,8 +53,12 @@ void print_method(const identification::IdentificationResult& method, std::size_
     const std::string ends = interval ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", "))
                              : is_undetermined(e) ? "not determined"
                                                   : "-";
-    say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", in_column(line.owners), owner, labelled(e), parameter,
-        e.fit_case, report::format_value(e.initial), estimate, ends, identification::name(e.verdict));
+    const std::string second =
+        interval && e.given_ci_low && e.given_ci_high
+            ? fmt::format("[{}]", report::format_interval(*e.given_ci_low, *e.given_ci_high, ", "))
+            : "-";
+    say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}{}  {}\n", in_column(line.owners), owner, labelled(e), parameter,
+        e.fit_case, report::format_value(e.initial), estimate, ends, given(second), identification::name(e.verdict));
   }
 }
 

@@ -18,18 +18,22 @@ std::string percent(double share) { return std::isfinite(share) ? fmt::format("{
 
 void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_muscle) {
   const auto print = [](auto... cells) {
-    say("{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>9} {:>9}\n",
+    say("{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>7} {:>9} "
+        "{:>9}\n",
         cells...);
   };
+  say("given: the reading with exact geometry and sensors\n");
   print("method", "case", "muscle", "parameter", "n", "bias", "error", "rmse", "<5 %", "<10 %", "<20 %", "prior",
-        "cover", "half w.", "identif.", "of these");
-  print("", "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "[%]", "[%]", "<15 % [%]");
+        "cover", "half w.", "given:", "cover", "half w.", "identif.", "of these");
+  print("", "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "[%]", "error", "[%]", "[%]",
+        "[%]", "<15 % [%]");
   for (const twin::TwinSummary& s : summaries) {
     if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
     const int identified = s.verdicts[0];
     print(s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias), percent(s.median_error),
           percent(s.rmse), percent(s.within_5), percent(s.within_10), percent(s.within_20), percent(s.prior_within_10),
-          percent(s.coverage), percent(s.half_width), percent(static_cast<double>(identified) / s.count),
+          percent(s.coverage), percent(s.half_width), percent(s.given_median_error), percent(s.given_coverage),
+          percent(s.given_half_width), percent(static_cast<double>(identified) / s.count),
           identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
   }
 }

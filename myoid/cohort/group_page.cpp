@@ -62,7 +62,8 @@ StripCell cell_of(const GroupNumber& number) {
 }
 
 bool counts(const StripCell& cell) {
-  return cell.value && (cell.verdict.empty() || cell.badge == Badge::good || cell.badge == Badge::weak);
+  return cell.value && (cell.verdict.empty() || cell.badge == Badge::good || cell.badge == Badge::repeat ||
+                        cell.badge == Badge::weak);
 }
 
 /// Marks the outliers of a column, and draws median and spread behind it.

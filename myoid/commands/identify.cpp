@@ -14,6 +14,7 @@
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/paper.h"
 #include "myoid/methods/torque.h"
+#include "myoid/posterior/posterior.h"
 #include "myoid/results/prediction_files.h"
 
 namespace myoid::commands {
@@ -75,6 +76,12 @@ IdentificationResult fit_data(const IdentifyOptions& o,
   IdentificationResult fit = fit_torque(table, options, data);
   identification::look_around(data, options, fit);
   return fit;
+}
+
+/// Returns the options of fits whose search begins at this fit's answer.
+EstimatorOptions beginning_at(const IdentificationResult& fit, EstimatorOptions options) {
+  options.begin_at = identification::beginning_at(fit);
+  return options;
 }
 
 /// Predicts trials or blocks by the fit to the others. `data` are the data before the fit.
@@ -145,7 +152,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   if (o.method == "torque" && identification::exchanged_electrodes(as_read, EstimatorOptions{}.delay_prior_mean_s))
     identification::apply({{.reason = std::string(identification::kExchangedCap)}}, result.fit);
   if (o.method != "paper" && o.folds != "none" && !result.fit.exact)
-    result.folds = held_out(o, as_read, as_asked, table, result.why_no_folds);
+    result.folds = held_out(o, as_read, beginning_at(result.fit, as_asked), table, result.why_no_folds);
   if (const std::string text = identification::generalises_badly(result.folds); !text.empty())
     result.fit.warnings.push_back(text);
   if (o.compare_solvers) {

@@ -168,8 +168,9 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
   v.text(
       "estimator", o.estimator,
       {.says =
-           "Of method `torque`: `least_squares`, or `posterior`, whose intervals also hold moment arms, tendons, the "
-           "scale of the torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)).",
+           "Of method `torque`: `posterior`, whose intervals also hold moment arms, tendons, the scale of the torque, "
+           "cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); `least_squares`, whose "
+           "intervals hold given geometry and sensors only (always without priors).",
        .words = choice_names(identification::EstimatorKind{})});
   v.count("posterior-draws", o.posterior_draws,
           {.says = "Of estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the intervals, in place of "
@@ -243,10 +244,13 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
     if (given) found.push_back(fmt::format("{} has no effect: {}", option, why));
   };
   const bool paper = o.method == "paper", torque = o.method == "torque";
-  tell(!torque && o.estimator == "posterior", "--estimator",
-       "the posterior is that of joint torques, of method torque");
-  tell(o.posterior_draws > 0 && (!torque || o.estimator != "posterior"), "--posterior-draws",
-       "only the estimator posterior has draws (--estimator posterior)");
+  const bool posterior = torque && o.estimator == "posterior" && !o.no_priors;
+  tell(o.posterior_draws > 0 && !posterior, "--posterior-draws",
+       "only method torque with priors, by the posterior, has draws");
+  constexpr std::string_view kOfLeastSquares = "it is of the estimator least_squares (--estimator least_squares)";
+  tell(posterior && o.bootstrap > 0, "--bootstrap", kOfLeastSquares);
+  tell(posterior && o.profile, "--profile", kOfLeastSquares);
+  tell(posterior && o.loss != IdentifyOptions{}.loss, "--loss", kOfLeastSquares);
   tell(paper && o.no_priors, "--no-priors", "the published method has no priors");
   tell(paper && o.residual_hz != IdentifyOptions{}.residual_hz, "--residual-cutoff",
        "the published method fits the forces as they are");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/report/verdict_mark.h"
+
 namespace myoid {
 namespace {
 
@@ -15,7 +17,8 @@ std::string half_width_text(const ParameterEstimate& e) {
 }
 
 Badge plan_badge(Verdict verdict) {
-  return verdict == Verdict::identified ? Badge::good : verdict == Verdict::weak ? Badge::weak : Badge::info;
+  const Badge badge = report::verdict_badge(identification::name(verdict));
+  return badge == Badge::good || badge == Badge::weak || badge == Badge::repeat ? badge : Badge::info;
 }
 
 report::Table plan_table(const DesignStudyResult& design) {

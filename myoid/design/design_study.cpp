@@ -73,7 +73,7 @@ EstimatorOptions estimator_of(const Study& study, const StudyData& data, double 
   torque.muscles = study.identify.muscles;
   torque.delay_s = study.emg.delay_s;
   torque.max_rate_hz = 25.0;
-  torque.estimator = study.identify.estimator;
+  if (study.identify.by_posterior()) torque.estimator = identification::EstimatorKind::posterior;
   torque.unseen = study.beliefs;
   for (const identification::MuscleSetup& m : data.muscles) torque.gain_prior_sd[m.emg_channel] = gain_sd;
   return torque;

@@ -23,7 +23,7 @@ EstimatorOptions estimator_options(const EstimatorSettings& settings,
   options.muscles = settings.muscles;
   options.priors = settings.priors;
   options.weights = settings.priors;
-  options.estimator = settings.estimator;
+  options.estimator = settings.priors ? settings.estimator : EstimatorKind::least_squares;
   options.unseen = settings.unseen;
   follow_emg(settings.lag, options);
   options.delay_s = settings.delay_s;

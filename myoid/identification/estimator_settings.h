@@ -25,9 +25,9 @@ constexpr ChoiceNames choice_names(LagChoice) { return kLagNames; }
 /// A person's choices about an estimator, in a study file or on a command line. The defaults are
 /// those of `EstimatorOptions`.
 struct EstimatorSettings {
-  std::vector<std::string> muscles;  ///< Muscles to identify; empty: all.
-  bool priors = true;                ///< False: plain least squares from the data alone.
-  EstimatorKind estimator = EstimatorKind::least_squares;
+  std::vector<std::string> muscles;                    ///< Muscles to identify; empty: all.
+  bool priors = true;                                  ///< False: plain least squares from the data alone.
+  EstimatorKind estimator = EstimatorKind::posterior;  ///< Without `priors` always least squares.
   UnseenSpreads unseen;
   LagChoice lag = LagChoice::automatic;
   std::optional<double> delay_s;  ///< Fixed delay; empty: estimated.

@@ -99,6 +99,14 @@ struct IntervalOptions {
 
 class DriveMemory;  // posterior/drive.h
 
+/// Another fit's answer, next to which a search begins: the folds of a cross-validation begin at the whole fit's.
+struct FitStart {
+  std::vector<std::string> unknowns;  ///< IdentificationResult::free_parameters
+  Eigen::VectorXd z;                  ///< IdentificationResult::solution
+  Eigen::VectorXd noise;              ///< IdentificationResult::noise
+  EmgLag lag = EmgLag::delay;
+};
+
 /// Options of methods `torque` and `force`.
 struct EstimatorOptions {
   /// Muscles to identify; the others keep their start. Empty: all.
@@ -153,10 +161,11 @@ struct EstimatorOptions {
   IntervalOptions intervals;
   Progress progress;
   EstimatorKind estimator = EstimatorKind::least_squares;
-  UnseenSpreads unseen;                 ///< Used by the estimator `posterior`.
-  int posterior_draws = 0;              ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
-  bool marginals = true;                ///< The approximation includes the skewness of each unknown.
-  std::shared_ptr<DriveMemory> drives;  ///< Drives that fits of one recording share.
+  UnseenSpreads unseen;                      ///< Used by the estimator `posterior`.
+  int posterior_draws = 0;                   ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
+  bool marginals = true;                     ///< The approximation includes the skewness of each unknown.
+  std::shared_ptr<DriveMemory> drives;       ///< Drives that fits of one recording share.
+  std::shared_ptr<const FitStart> begin_at;  ///< Estimator `posterior`; null: its own starts and both laws of lag.
 
   /// Returns the held delay, else the expected one.
   [[nodiscard]] double usual_delay_s() const { return delay_s.value_or(delay_prior_mean_s); }

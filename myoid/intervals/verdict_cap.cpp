@@ -13,7 +13,7 @@ bool names(const std::vector<std::string>& list, const std::string& name) {
 
 void apply(const std::vector<VerdictCap>& caps, IdentificationResult& result) {
   for (ParameterEstimate& e : result.estimates) {
-    if (e.verdict != Verdict::identified) continue;
+    if (e.verdict != Verdict::identified && e.verdict != Verdict::reproducible) continue;
     const auto cap = std::ranges::find_if(caps, [&](const VerdictCap& c) {
       return names(c.methods, result.method) && names(c.owners, e.muscle) && names(c.parameters, e.parameter);
     });

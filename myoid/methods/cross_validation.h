@@ -60,7 +60,7 @@ struct Fold {
 using SplitFit = std::function<IdentificationResult(StudyData& data, EstimatorOptions& options)>;
 
 /// Leaves out and predicts one part after another, folds in parallel; samples are never shuffled. `fit` is the reported
-/// fit on fewer trials, without anything from another fit; it gets `of_a_fold(options)`. Predictions are those of
+/// fit on fewer trials; it gets `of_a_fold(options)`, which keeps EstimatorOptions::begin_at. Predictions are those of
 /// TrialPredictions, not smoothed. One entry for each part and joint; empty where `splits` is.
 [[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data,
                                                const SplitFit& fit,

@@ -187,7 +187,7 @@ void judge_motion_alone(const StudyData& data, IdentificationResult& result) {
                   "several loads, or at held angles",
                   100.0 * *share));
   for (ParameterEstimate& e : result.estimates) {
-    if (e.verdict != Verdict::identified) continue;
+    if (e.verdict != Verdict::identified && e.verdict != Verdict::reproducible) continue;
     e.verdict = Verdict::weak;
     e.reason = fmt::format("motion alone tells {:.1f} % of the torque", 100.0 * *share);
   }

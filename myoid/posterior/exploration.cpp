@@ -85,16 +85,11 @@ std::vector<Candidate> modes_of(Density& density,
   return found;
 }
 
-/// Computes curvatures and weights, drops light modes, and sorts the heaviest first.
-void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) {
-  const double best =
-      std::max_element(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-        return a.mode.log_density < b.mode.log_density;
-      })->mode.log_density;
-  std::erase_if(candidates, [best](const Candidate& c) { return c.mode.log_density < best - kFarBelow; });
+/// Computes the curvatures and weights of all candidates, drops light ones, and sorts the heaviest first.
+void weigh_by(bool exact_curvature, std::vector<Candidate>& candidates, const Progress& progress) {
   double most = -1e300;
   for (Candidate& c : candidates) {
-    add_curvature(*c.density, options.marginals, c.mode, options.progress);
+    add_curvature(*c.density, exact_curvature, c.mode, progress);
     most = std::max(most, c.mode.log_evidence);
   }
   double sum = 0.0;
@@ -105,6 +100,17 @@ void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) 
   sum = 0.0;
   for (const Candidate& c : candidates) sum += c.weight;
   for (Candidate& c : candidates) c.weight /= sum;
+}
+
+/// Drops the candidates that weigh little by Gauss and Newton's curvature, and weighs the others by the exact one.
+void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) {
+  const double best =
+      std::max_element(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.mode.log_density < b.mode.log_density;
+      })->mode.log_density;
+  std::erase_if(candidates, [best](const Candidate& c) { return c.mode.log_density < best - kFarBelow; });
+  if (candidates.size() > 1 || !options.marginals) weigh_by(false, candidates, options.progress);
+  if (options.marginals) weigh_by(true, candidates, options.progress);
 }
 
 /// Draws about one mode: from the density itself where the options ask for draws, else from its
@@ -158,9 +164,28 @@ Sample sample(const std::vector<Candidate>& candidates, const EstimatorOptions& 
   return all;
 }
 
+/// Returns the mode next to another fit's answer, with that fit's law of lag. Other modes are not looked for.
+Exploration explore_from(const FitStart& at, const StudyData& data, EstimatorOptions options) {
+  options.lag = at.lag;
+  Exploration found;
+  Density& density = *found.densities.emplace_back(std::make_unique<Density>(data, options));
+  const Eigen::VectorXd start = density.start_at(at);
+  density.refer_to(start);
+  Mode mode = find_mode(density, {.x = start}, options.progress, kRoughPromise);
+  if (!Basin(density, start).holds(mode.x)) {
+    density.refer_to(mode.x);
+    mode = find_mode(density, mode, options.progress, kRoughPromise);
+  }
+  found.modes.push_back({.density = &density, .lag = at.lag, .mode = std::move(mode)});
+  weigh(found.modes, options);
+  found.sample = sample(found.modes, options);
+  return found;
+}
+
 }  // namespace
 
 Exploration explore(const StudyData& data, const EstimatorOptions& options) {
+  if (options.begin_at) return explore_from(*options.begin_at, data, options);
   Exploration found;
   Density& by_delay = *found.densities.emplace_back(std::make_unique<Density>(data, options));
   std::vector<Eigen::VectorXd> starts{by_delay.start()};

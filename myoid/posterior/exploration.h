@@ -42,7 +42,8 @@ struct Exploration {
 /// open. A mode weighs by its evidence; modes of less than 2 % are left out. The unseen quantities (unseen.h) are taken
 /// at the mode of the previous pass until the mode stays. The draws are from the density with
 /// EstimatorOptions::posterior_draws (sampler.h), else from its marginals (marginals.h) or, without
-/// EstimatorOptions::marginals, from the normal approximation.
+/// EstimatorOptions::marginals, from the normal approximation. With EstimatorOptions::begin_at the search takes that
+/// fit's lag and goes to the mode next to its answer.
 [[nodiscard]] Exploration explore(const StudyData& data, const EstimatorOptions& options);
 
 }  // namespace myoid::identification

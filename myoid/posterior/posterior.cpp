@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/parameter_fields.h"
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/estimate_rows.h"
 #include "myoid/intervals/identifiability.h"
@@ -25,6 +26,7 @@ namespace {
 constexpr double kUnlike = 1.6;            // lambda from which a warning is given
 constexpr Eigen::Index kKeptDraws = 1000;  // written draws
 constexpr Eigen::Index kGivenDraws = 1000;
+constexpr double kPriorReach = 1.96;  // standard deviations to either side hold 95 % of a prior
 constexpr std::uint64_t kGivenSeed = 21;
 
 /// Returns each source's share of every unknown's variance, by Laplace with Fisher's information.
@@ -170,6 +172,7 @@ void judge_row(const Reporting& of,
         1.0 - std::pow(of.given.narrower[static_cast<Eigen::Index>(unknown)], 2) * (1.0 - *e.shrinkage);
   if (e.prior_distance) facts.prior_distance = std::abs(*e.prior_distance);
   facts.nuisance_gain = p.is(Scope::channel, kGain);
+  if (p.prior.sd > 0.0 && zero_by_nature(e.parameter)) facts.usual_size = kPriorReach * p.prior.sd;
   facts.is_delay = p.is(Scope::channel, kDelay);
   facts.shares = of.shares[unknown];
   facts.r2 = of.result.r2;
@@ -332,6 +335,11 @@ void add_warnings(const std::vector<Candidate>& candidates,
 }
 
 }  // namespace
+
+std::shared_ptr<const FitStart> beginning_at(const IdentificationResult& fit) {
+  if (fit.noise.size() == 0) return nullptr;
+  return std::make_shared<const FitStart>(FitStart{fit.free_parameters, fit.solution, fit.noise, fit.lag});
+}
 
 IdentificationResult identify_by_posterior(const StudyData& data, const EstimatorOptions& options) {
   validate(data);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
@@ -11,10 +13,14 @@ namespace myoid::identification {
 ///
 /// The interval "of the person" comes from draws of the posterior (exploration.h), over all modes.
 /// Estimates, IdentificationResult::solution and ::covariance are those of the heaviest mode. The
-/// route "geometry_and_sensors_exact" gives the interval of a posterior in which moment arms,
-/// tendons, the torque's scale, effort, cross-talk and drift are exact; without
-/// EstimatorOptions::marginals (a fold's fit) it is empty. IdentificationResult::trials is left
-/// empty. Throws InvalidInput without priors.
+/// second reading, ParameterEstimate::given_estimate with its interval, is that of a posterior in which moment arms,
+/// tendons, the torque's scale, effort, cross-talk and drift are exact; without EstimatorOptions::marginals (a fold's
+/// fit) it is the first without a width. IdentificationResult::trials is left empty. Throws InvalidInput without
+/// priors.
 [[nodiscard]] IdentificationResult identify_by_posterior(const StudyData& data, const EstimatorOptions& options);
+
+/// Returns the answer of a fit as the beginning of others (EstimatorOptions::begin_at); null of a fit that is none of
+/// the posterior.
+[[nodiscard]] std::shared_ptr<const FitStart> beginning_at(const IdentificationResult& fit);
 
 }  // namespace myoid::identification

@@ -15,9 +15,16 @@ namespace {
 constexpr std::array<std::string_view, kSourceCount> kSourceNames = {
     "noise of the torque", "prior belief", "geometry", "electrodes", "scale of the torque", "error of the model"};
 
-double half_width(double value, double low, double high, bool absolute) {
+/// Returns the distance from the value to the farther end: of a delay in seconds, else as a share.
+double half_width(const PosteriorFacts& facts, double value, double low, double high) {
   const double half = std::max(value - low, high - value);
-  return absolute ? half : half / std::max(std::abs(value), 1e-12);
+  return facts.is_delay ? half : half / std::max(facts.usual_size.value_or(std::abs(value)), 1e-12);
+}
+
+double half_of_person(const PosteriorFacts& facts) { return half_width(facts, facts.value, facts.low, facts.high); }
+
+double half_given(const PosteriorFacts& facts) {
+  return half_width(facts, facts.given, facts.low_given, facts.high_given);
 }
 
 bool is_far(const PosteriorFacts& facts) {
@@ -49,8 +56,9 @@ Finding of_person(const PosteriorFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
   if (facts.contraction && *facts.contraction < rules.least_shrinkage)
     return is_far(facts) ? Finding::far_from_prior : Finding::as_the_prior;
-  const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
-  if (half > (facts.is_delay ? rules.delay_weak_s : rules.weak_half_width)) return Finding::too_wide;
+  const double half = half_of_person(facts);
+  const bool too_wide = half > (facts.is_delay ? rules.delay_weak_s : rules.weak_half_width);
+  if (too_wide && !facts.usual_size) return Finding::too_wide;
   if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width)) return Finding::wide;
   if (facts.model_error > rules.model_error) return Finding::wrong_model;
   if (is_far(facts)) return Finding::narrow_and_far;
@@ -63,7 +71,7 @@ Finding of_person(const PosteriorFacts& facts) {
 /// Returns true if the number is narrow with geometry and sensors exact, and by the recording, not by its prior.
 bool narrow_if_given(const PosteriorFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
-  const double half = half_width(facts.given, facts.low_given, facts.high_given, facts.is_delay);
+  const double half = half_given(facts);
   const bool told = !facts.contraction_given || *facts.contraction_given >= rules.half_shrinkage;
   return half > 0.0 && half <= (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width) && told &&
          facts.model_error <= rules.model_error && !is_far(facts) && !facts.at_bound;
@@ -112,10 +120,9 @@ Verdict verdict_of(Finding finding) {
 std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (finding == Finding::not_converged) return "the search for the posterior's mode did not end";
   if (finding == Finding::one_length) return one_length_text(*facts.length_span);
-  const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
-  const double given = half_width(facts.given, facts.low_given, facts.high_given, facts.is_delay);
-  std::string text = fmt::format("{} of the person, {} given geometry and sensors", size_text(half, facts.is_delay),
-                                 size_text(given, facts.is_delay));
+  std::string text =
+      fmt::format("{} of the person, {} given geometry and sensors{}", size_text(half_of_person(facts), facts.is_delay),
+                  size_text(half_given(facts), facts.is_delay), facts.usual_size ? ", as shares of what is usual" : "");
   if (facts.contraction)
     text += fmt::format("; the recording takes {:.0f} % off the prior's variance",
                         100.0 * std::max(0.0, *facts.contraction));

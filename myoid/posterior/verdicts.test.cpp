@@ -16,9 +16,11 @@ PosteriorFacts good() {
   facts.value = 1000.0;
   facts.low = 905.0;
   facts.high = 1100.0;
-  facts.low_given = 950.0;
+  facts.given = 1000.0;
+  facts.low_given = 955.0;
   facts.high_given = 1040.0;
   facts.contraction = 0.94;
+  facts.contraction_given = 0.99;
   facts.shares = {0.2, 0.05, 0.6, 0.0, 0.15, 0.0};
   return facts;
 }
@@ -28,7 +30,7 @@ TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
   EXPECT_EQ(finding(facts), Finding::narrow);
   EXPECT_EQ(verdict_of(Finding::narrow), Verdict::identified);
   const std::string reason = reason_of(Finding::narrow, facts);
-  EXPECT_THAT(reason, HasSubstr("± 10 % of the person, ± 4.5 % were geometry and sensors exact"));
+  EXPECT_THAT(reason, HasSubstr("± 10 % of the person, ± 4.5 % given geometry and sensors"));
   EXPECT_THAT(reason, HasSubstr("takes 94 % off"));
   EXPECT_THAT(reason, HasSubstr("geometry 60 %, noise of the torque 20 %, scale of the torque 15 %"));
   EXPECT_THAT(reason, Not(HasSubstr("prior belief")));
@@ -58,8 +60,16 @@ TEST(PosteriorVerdict, AnIntervalThatABoundCutsOffIdentifiesNothing) {
   EXPECT_THAT(reason_of(Finding::cut_off, facts), HasSubstr("ends at a bound"));
 }
 
-TEST(PosteriorVerdict, TheFartherEndCounts) {
+/// The same number, as wide with geometry and sensors exact as of the person.
+PosteriorFacts with_equal_readings() {
   PosteriorFacts facts = good();
+  facts.low_given = 500.0;
+  facts.high_given = 1700.0;
+  return facts;
+}
+
+TEST(PosteriorVerdict, TheFartherEndCounts) {
+  PosteriorFacts facts = with_equal_readings();
   facts.high = 1130.0;
   EXPECT_EQ(finding(facts), Finding::wide);
   facts.high = 1700.0;
@@ -67,8 +77,35 @@ TEST(PosteriorVerdict, TheFartherEndCounts) {
   EXPECT_EQ(verdict_of(Finding::too_wide), Verdict::not_identifiable);
 }
 
-TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
+TEST(PosteriorVerdict, WhatIsNarrowOnlyGivenGeometryAndSensorsIsReproducible) {
   PosteriorFacts facts = good();
+  facts.high = 1400.0;
+  EXPECT_EQ(finding(facts), Finding::narrow_if_given);
+  EXPECT_EQ(verdict_of(Finding::narrow_if_given), Verdict::reproducible);
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("compare sessions of this person"));
+  // Narrow, but by the prior.
+  facts.contraction_given = 0.4;
+  EXPECT_EQ(finding(facts), Finding::wide);
+  // The model does not hold: neither reading means a muscle.
+  facts.contraction_given = 0.99;
+  facts.model_error = 0.3;
+  EXPECT_EQ(finding(facts), Finding::wide);
+  facts.model_error = 0.0;
+  facts.high_given = 1130.0;
+  EXPECT_EQ(finding(facts), Finding::wide);
+}
+
+TEST(PosteriorVerdict, ReadingsThatExcludeEachOtherIdentifyNothing) {
+  PosteriorFacts facts = good();
+  facts.given = 1250.0;
+  facts.low_given = 1105.0;
+  facts.high_given = 1450.0;
+  EXPECT_EQ(finding(facts), Finding::readings_apart);
+  EXPECT_EQ(verdict_of(Finding::readings_apart), Verdict::weak);
+}
+
+TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
+  PosteriorFacts facts = with_equal_readings();
   facts.contraction = 0.45;
   EXPECT_EQ(finding(facts), Finding::half_the_prior);
   facts.contraction = 0.1;
@@ -127,8 +164,29 @@ TEST(PosteriorVerdict, DelaysAreJudgedInSeconds) {
   facts.value = 0.05;
   facts.low = 0.04;
   facts.high = 0.058;
+  facts.given = 0.05;
+  facts.low_given = 0.045;
+  facts.high_given = 0.056;
   EXPECT_EQ(finding(facts), Finding::narrow);
   EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("± 10 ms"));
+}
+
+TEST(PosteriorVerdict, ANumberThatIsZeroByNatureIsJudgedByItsUsualSize) {
+  PosteriorFacts facts = good();
+  facts.value = 0.02;
+  facts.low = -0.38;
+  facts.high = 0.42;
+  facts.low_given = -0.37;
+  facts.high_given = 0.41;
+  facts.given = 0.02;
+  EXPECT_EQ(finding(facts), Finding::too_wide);
+  facts.usual_size = 1.0;
+  EXPECT_EQ(finding(facts), Finding::wide);
+  EXPECT_THAT(reason_of(Finding::wide, facts), HasSubstr("± 40 % of the person"));
+  facts.usual_size = 0.5;  // wider than 60 %, and still half of what was known
+  EXPECT_EQ(finding(facts), Finding::wide);
+  facts.usual_size = 4.0;
+  EXPECT_EQ(finding(facts), Finding::narrow);
 }
 
 TEST(PosteriorVerdict, SaysWhereTheApproximationWasNotChecked) {

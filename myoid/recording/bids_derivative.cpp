@@ -37,22 +37,26 @@ std::string parameters_tsv(const CsvTable& table) {
 }
 
 ordered_json parameters_columns(const CsvTable& table) {
-  const ordered_json known{{"muscle", "Muscle or group of muscles"},
-                           {"parameter", "Parameter of the Hill-type muscle"},
-                           {"unit", "Unit of initial, estimate, std_error, ci_low, ci_high, prior_mean and prior_sd"},
-                           {"method", "Estimator"},
-                           {"case", "Samples used: shortening, lengthening or both"},
-                           {"initial", "Starting value"},
-                           {"estimate", "Identified value"},
-                           {"std_error", "Standard error"},
-                           {"ci_low", "Lower end of the confidence interval"},
-                           {"ci_high", "Upper end of the confidence interval"},
-                           {"prior_mean", "Mean of the prior"},
-                           {"prior_sd", "Standard deviation of the prior"},
-                           {"shrinkage", "Share of the prior's spread that the data removed"},
-                           {"at_bound", "Whether the estimate leans on a bound"},
-                           {"verdict", "identified, weak, prior_dominated, not_identifiable or non_physical"},
-                           {"reason", "Why"}};
+  const ordered_json known{
+      {"muscle", "Muscle or group of muscles"},
+      {"parameter", "Parameter of the Hill-type muscle"},
+      {"unit", "Unit of initial, estimate, std_error, ci_low, ci_high, prior_mean and prior_sd"},
+      {"method", "Estimator"},
+      {"case", "Samples used: shortening, lengthening or both"},
+      {"initial", "Starting value"},
+      {"estimate", "Identified value"},
+      {"std_error", "Standard error"},
+      {"ci_low", "Lower end of the confidence interval"},
+      {"ci_high", "Upper end of the confidence interval"},
+      {"given_estimate", "Value if geometry and sensors were exact"},
+      {"given_ci_low", "Lower end of its confidence interval"},
+      {"given_ci_high", "Upper end of its confidence interval"},
+      {"prior_mean", "Mean of the prior"},
+      {"prior_sd", "Standard deviation of the prior"},
+      {"shrinkage", "Share of the prior's spread that the data removed"},
+      {"at_bound", "Whether the estimate leans on a bound"},
+      {"verdict", "identified, reproducible, weak, prior_dominated, not_identifiable or non_physical"},
+      {"reason", "Why"}};
   ordered_json json = ordered_json::object();
   for (const std::string& name : table.names)
     json[name] = {{"Description", known.contains(name) ? known[name].get<std::string>() : name}};

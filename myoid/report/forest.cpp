@@ -28,6 +28,12 @@ std::string interval(const ForestRow& row) {
   return row.lower && row.upper ? format_interval(*row.lower, *row.upper) : std::string("none");
 }
 
+bool has_given(const ForestRow& row) { return row.given_lower && row.given_upper; }
+
+std::string given_interval(const ForestRow& row) {
+  return has_given(row) ? format_interval(*row.given_lower, *row.given_upper) : std::string("–");
+}
+
 std::string prior(const ForestRow& row) {
   if (!row.prior_mean || !row.prior_sd) return "–";
   return fmt::format("{} ± {}", format_rounded(*row.prior_mean, *row.prior_sd),
@@ -35,8 +41,10 @@ std::string prior(const ForestRow& row) {
 }
 
 std::string bar(const ForestRow& row) {
-  const std::string sentence = fmt::format("{} {}: {} {}, 95 % interval {}, literature {}, {}", row.owner, row.name,
-                                           number(row, row.estimate), row.unit, interval(row), prior(row), row.verdict);
+  const std::string given = has_given(row) ? fmt::format(", given geometry and sensors {}", given_interval(row)) : "";
+  const std::string sentence =
+      fmt::format("{} {}: {} {}, 95 % interval {}{}, literature {}, {}", row.owner, row.name, number(row, row.estimate),
+                  row.unit, interval(row), given, prior(row), row.verdict);
   std::string svg = fmt::format("<svg class=\"bar\" width=\"100%\" height=\"22\" role=\"img\"><title>{}</title>",
                                 escape_xml(typographic(recording::with_short_words(sentence, kMostInRowWord))));
   if (!row.prior_mean || !row.prior_sd || !(*row.prior_sd > 0.0))
@@ -47,14 +55,16 @@ std::string bar(const ForestRow& row) {
       "<line x1=\"50%\" x2=\"50%\" y1=\"0\" y2=\"22\" class=\"middle\"/>",
       percent(-k95), percent(k95) - percent(-k95));
   const std::string_view color = verdict_color(row.badge);
+  const auto line = [&](double from, double to, int width) {
+    return fmt::format("<line x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"11\" y2=\"11\" stroke=\"{}\" stroke-width=\"{}\"/>",
+                       percent(z(from)), percent(z(to)), color, width);
+  };
   if (row.lower && row.upper) {
-    svg += fmt::format(
-        "<line x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"11\" y2=\"11\" stroke=\"{}\" "
-        "stroke-width=\"3\"/>",
-        percent(z(*row.lower)), percent(z(*row.upper)), color);
+    svg += line(*row.lower, *row.upper, has_given(row) ? 2 : 3);
     if (z(*row.lower) < -kEnd) svg += beyond_arrow(-1, color);
     if (z(*row.upper) > kEnd) svg += beyond_arrow(1, color);
   }
+  if (has_given(row)) svg += line(*row.given_lower, *row.given_upper, 7);
   if (row.truth)
     svg += fmt::format("<line x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"1\" y2=\"21\" class=\"truth\"/>",
                        percent(z(*row.truth)));
@@ -78,17 +88,18 @@ std::string row_html(const ForestRow& row, bool first) {
   return fmt::format(
       "<tr{} data-verdict=\"{}\" title=\"{}\"><td>{}</td><td>{}</td><td class=\"bar\">{}</td>"
       "<td class=\"number\">{}{}</td><td class=\"number wide-only\">{}</td>"
-      "<td class=\"number wide-only\">{}</td>"
+      "<td class=\"number wide-only\">{}</td><td class=\"number wide-only\">{}</td>"
       "<td><span class=\"badge {}\">{}</span></td></tr>\n",
       first ? " class=\"first\"" : "", escape_xml(row.verdict), escape_xml(typographic(row.why)),
       typeset(spelled(row.owner)), typeset(row.name), bar(row), number(row, row.estimate),
-      row.unit.empty() ? "" : " " + escape_xml(row.unit), interval(row), prior(row), name(row.badge),
-      typeset(row.verdict));
+      row.unit.empty() ? "" : " " + escape_xml(row.unit), interval(row), given_interval(row), prior(row),
+      name(row.badge), typeset(row.verdict));
 }
 
 /// The advice on numbers of a verdict, the best verdict first.
 constexpr std::array kAdvice{
     std::pair{Badge::good, "the recording determines it: use it"},
+    std::pair{Badge::repeat, "for comparing sessions of this person, not persons"},
     std::pair{Badge::weak, "known roughly: use the interval"},
     std::pair{Badge::info, "mostly the literature's: the recording adds little"},
     std::pair{Badge::none, "this recording cannot tell"},
@@ -105,9 +116,11 @@ std::string legend(const std::vector<ForestRow>& rows) {
       text += fmt::format("<span>{} <b>{}</b>: {}</span> ", verdict_mark(badge), typeset(row.verdict), typeset(advice));
     }
   }
-  text +=
-      "<span>\u2014 95 % interval after the recording</span> "
-      "<span><i class=\"prior\"></i> the literature's 95 %</span>";
+  text += std::ranges::any_of(rows, has_given)
+              ? "<span>\u2014 95 % interval of the person</span> <span><b>\u2501</b> the same if geometry and sensors "
+                "were exact</span> "
+              : "<span>\u2014 95 % interval after the recording</span> ";
+  text += "<span><i class=\"prior\"></i> the literature's 95 %</span>";
   if (std::ranges::any_of(rows, [](const ForestRow& r) { return r.truth.has_value(); }))
     text += " <span><i class=\"truth\"></i> truth of the virtual person</span>";
   return text + "</p>\n";
@@ -137,6 +150,7 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
   std::string text = "<figure id=\"forest\" class=\"forest\">\n" + legend(rows) +
                      "<table><thead><tr><th>muscle</th><th>number</th><th class=\"bar\">" + scale() +
                      "</th><th>estimate</th><th class=\"wide-only\">95 % interval</th>"
+                     "<th class=\"wide-only\">given geometry and sensors</th>"
                      "<th class=\"wide-only\">literature</th><th>verdict</th></tr></thead>\n<tbody>\n";
   const auto add = [&](bool beside) {
     const std::string* owner = nullptr;
@@ -150,7 +164,7 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
   text += "</tbody>\n";
   if (std::ranges::any_of(rows, [](const ForestRow& r) { return r.beside; })) {
     text +=
-        "<tbody class=\"beside\"><tr><th colspan=\"7\">Electrodes and joints: free so that their "
+        "<tbody class=\"beside\"><tr><th colspan=\"8\">Electrodes and joints: free so that their "
         "uncertainty counts</th></tr>\n";
     add(true);
     text += "</tbody>\n";
@@ -158,8 +172,9 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
   return text +
          "</table>\n<details class=\"reading\"><summary>How to read this</summary><dl>"
          "<dt>What this shows</dt><dd>Each number as its distance from the literature, in the "
-         "literature's standard deviations. Grey: the literature's 95 %. The line is the 95 % "
-         "interval after the recording. Pointing at a row gives the verdict's reason.</dd>"
+         "literature's standard deviations. Grey: the literature's 95 %. The thin line is the "
+         "95 % interval of the person, the thick one the same if moment arms, tendons and sensors were exact: by it "
+         "sessions of the person are compared. Pointing at a row gives the verdict's reason.</dd>"
          "<dt>What bad looks like</dt><dd>A line as wide as the grey field: the recording added "
          "nothing. A mark outside of the grey field: an unusual person, or an error in "
          "electrodes, units, loads or geometry. A triangle: no muscle can have the value.</dd>"

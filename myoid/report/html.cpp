@@ -72,6 +72,7 @@ td.short { white-space: nowrap; }
 .warn, .weak { color: #7a4b00; background: #fff3d6; border-color: #e8c778; }
 .fail, .bad { color: #8e1c1c; background: #fde6e4; border-color: #eba8a2; }
 .info { color: #24507f; background: #e6f0fa; border-color: #a9c8e8; }
+.repeat { color: #5b2a6c; background: #f4eaf7; border-color: #cfaedb; }
 figure { margin: 18px 0; break-inside: avoid; }
 figure > svg { width: 100%; max-width: 1000px; height: auto; display: block; }
 .save { font-size: 12px; margin: 2px 0; }

@@ -63,7 +63,7 @@ struct Figure {
 };
 
 /// The quality of a value, shown as a small colored word.
-enum class Badge { none, good, weak, bad, info };
+enum class Badge { none, good, weak, bad, info, repeat };
 
 struct Cell {
   std::string text;
@@ -96,7 +96,9 @@ struct ForestRow {
   std::string name;   ///< "optimal fiber length"
   std::string unit;   ///< Empty: dimensionless.
   double estimate = 0.0;
-  std::optional<double> lower, upper;          ///< 95 % interval.
+  std::optional<double> lower, upper;  ///< 95 % interval of the person.
+  /// Value and 95 % interval given geometry and sensors; empty: the fit has one reading.
+  std::optional<double> given_estimate{}, given_lower{}, given_upper{};
   std::optional<double> prior_mean, prior_sd;  ///< Without both of them the row has no bar.
   std::optional<double> truth;                 ///< In a virtual recording.
   std::string verdict;                         ///< "identified"

@@ -91,7 +91,7 @@ std::string head_html(const StripColumn& column, const StripScale& scale) {
 std::string legend(const StripGrid& grid) {
   std::string text = "<p class=\"legend\">";
   bool outliers = false, truths = false;
-  for (const Badge badge : {Badge::good, Badge::weak, Badge::info, Badge::none, Badge::bad}) {
+  for (const Badge badge : {Badge::good, Badge::repeat, Badge::weak, Badge::info, Badge::none, Badge::bad}) {
     std::string verdict;
     for (const StripRow& row : grid.rows) {
       for (const StripCell& cell : row.cells) {

@@ -70,7 +70,7 @@ std::string_view name(Role role) {
 }
 
 std::string_view name(Badge badge) {
-  static constexpr std::array<std::string_view, 5> kNames{"none", "good", "weak", "bad", "info"};
+  static constexpr std::array<std::string_view, 6> kNames{"none", "good", "weak", "bad", "info", "repeat"};
   return kNames[static_cast<std::size_t>(badge)];
 }
 

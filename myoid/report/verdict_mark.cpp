@@ -15,11 +15,12 @@ struct Mark {
 
 /// Returns the mark of a badge; the table is in the order of the enumerators.
 const Mark& mark_of(Badge badge) {
-  static constexpr std::array<Mark, 5> kMarks{{{"#5a626b", "M-4.5 -4.5L4.5 4.5M-4.5 4.5L4.5 -4.5", false},
+  static constexpr std::array<Mark, 6> kMarks{{{"#5a626b", "M-4.5 -4.5L4.5 4.5M-4.5 4.5L4.5 -4.5", false},
                                                {"#00694b", "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z", true},
                                                {"#b86e00", "M0 -6L6 0L0 6L-6 0Z", true},
                                                {"#b3261e", "M0 -6L6 5H-6Z", true},
-                                               {"#1f5fa8", "M-4.5 -4.5H4.5V4.5H-4.5Z", false}}};
+                                               {"#1f5fa8", "M-4.5 -4.5H4.5V4.5H-4.5Z", false},
+                                               {"#7a3c8f", "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z M-2 0H2", false}}};
   return kMarks[static_cast<std::size_t>(badge)];
 }
 
@@ -27,6 +28,7 @@ const Mark& mark_of(Badge badge) {
 
 Badge verdict_badge(std::string_view verdict) {
   if (verdict == "identified") return Badge::good;
+  if (verdict == "reproducible") return Badge::repeat;
   if (verdict == "weak") return Badge::weak;
   if (verdict == "prior_dominated") return Badge::info;
   return verdict == "non_physical" ? Badge::bad : Badge::none;

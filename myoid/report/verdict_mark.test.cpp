@@ -11,8 +11,8 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::array<std::string_view, 5> kVerdicts = {"identified", "weak", "prior_dominated", "not_identifiable",
-                                                       "non_physical"};
+constexpr std::array<std::string_view, 6> kVerdicts = {"identified",      "reproducible",     "weak",
+                                                       "prior_dominated", "not_identifiable", "non_physical"};
 
 TEST(VerdictMark, EachVerdictHasAColorAndAShapeOfItsOwn) {
   std::set<std::string> colors, shapes;

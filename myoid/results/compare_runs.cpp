@@ -63,10 +63,6 @@ Run read_run(const std::filesystem::path& folder) {
       for (const json& row : method.at("estimates")) {
         std::optional<ParameterEstimate> e = identification::estimate_of_json(row);
         if (!e) continue;
-        for (const json& route : row.value("intervals", json::array()))
-          e->routes.push_back({.route = route.at("route").get<std::string>(),
-                               .low = number(route, "ci_low"),
-                               .high = number(route, "ci_high")});
         // One unknown of several muscles is one number, in the list of its first owner.
         const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method, e->fit_case};
         if (!e->tied_to.empty()) {
@@ -93,8 +89,9 @@ Run read_run(const std::filesystem::path& folder) {
 
 /// Returns true if the session's recording determines the number.
 bool told(const ParameterEstimate& e) {
-  return rests_on_measurement(e.method) && (e.verdict == Verdict::identified || e.verdict == Verdict::weak) &&
-         e.std_error && *e.std_error > 0.0;
+  const bool by_verdict =
+      e.verdict == Verdict::identified || e.verdict == Verdict::reproducible || e.verdict == Verdict::weak;
+  return rests_on_measurement(e.method) && by_verdict && e.std_error && *e.std_error > 0.0;
 }
 
 /// Returns a number's standard error between sessions of one person. Moment arms, tendons and the torque's scale have
@@ -113,20 +110,18 @@ struct OfSession {
   double value = 0.0, sd = 0.0;
 };
 
-/// Returns the number with exact geometry and sensors; empty without this route.
+/// Returns the number given geometry and sensors; empty by least squares. Of a number that is searched for by its
+/// logarithm the middle of the interval is that of ln.
 std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
-  for (const identification::RouteInterval& route : e.routes) {
-    if (route.route != "geometry_and_sensors_exact" || !route.low || !route.high) continue;
-    const double low = *route.low, high = *route.high;
-    const bool ratio = identification::parameter_field(e.parameter).logarithmic && low > 0.0;
-    const OfSession of{.value = ratio ? std::sqrt(low * high) : 0.5 * (low + high),
-                       .sd = (high - low) / (2.0 * kNormal95)};
-    if (of.sd > 0.0) return of;
-  }
-  return std::nullopt;
+  if (!e.given_ci_low || !e.given_ci_high) return std::nullopt;
+  const double low = *e.given_ci_low, high = *e.given_ci_high;
+  const bool ratio = identification::parameter_field(e.parameter).logarithmic && low > 0.0;
+  const OfSession of{.value = ratio ? std::sqrt(low * high) : 0.5 * (low + high),
+                     .sd = (high - low) / (2.0 * kNormal95)};
+  return of.sd > 0.0 ? std::optional(of) : std::nullopt;
 }
 
-/// Returns a number of both sessions by one route: given geometry and sensors, or the person's.
+/// Returns a number of both sessions by one reading: given geometry and sensors, or the person's.
 std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first, const ParameterEstimate& second) {
   const auto one = given_geometry(first), other = given_geometry(second);
   if (one && other) return {*one, *other};

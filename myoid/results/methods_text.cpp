@@ -17,7 +17,6 @@ namespace myoid {
 namespace {
 
 using identification::EmgLag;
-using identification::EstimatorKind;
 using identification::IdentificationResult;
 
 /// Greatest joint motion of a maximal contraction that counts as isometric.
@@ -253,7 +252,7 @@ void say_fit(const StudyResult& result, Writer& out) {
   const IdentifySpec& spec = result.source.study.identify;
   const IdentificationResult* torque = method_of(result.fit, "torque");
   if (torque != nullptr) {
-    if (spec.estimator == EstimatorKind::posterior)
+    if (spec.by_posterior())
       say_posterior(spec, *torque, out);
     else
       say_least_squares(result, *torque, out);

@@ -84,7 +84,6 @@ MoreColumns more_columns(const std::vector<IdentificationResult>& methods) {
   for (const IdentificationResult& method : methods) {
     for (const ParameterEstimate& e : method.estimates) more.shares = more.shares || e.variance_shares.has_value();
   }
-  if (more.shares) more.routes.emplace_back("geometry_and_sensors_exact");
   return more;
 }
 

@@ -53,12 +53,13 @@ TEST(ParametersCsv, ANumberReadsBackTheSameAndWhatIsAbsentOrInfiniteIsAnEmptyCel
   EXPECT_EQ(cell("reason"), "known to \"12 %\", about");
 }
 
-TEST(ParametersCsv, ThePosteriorHasTheSourcesOfTheVarianceAndItsSecondInterval) {
+TEST(ParametersCsv, ThePosteriorHasTheSourcesOfTheVarianceAndItsSecondReading) {
   const std::string plain = parameters_csv({one_estimate()});
   EXPECT_EQ(plain.find("variance_"), std::string::npos);
   identification::IdentificationResult result = one_estimate();
   result.estimates[0].variance_shares = {0.5, 0.25, 0.125, 0.0625, 0.0625, 0.0};
-  result.estimates[0].routes = {{"posterior", 0.2, 0.4}, {"geometry_and_sensors_exact", 0.25, 0.3}};
+  result.estimates[0].given_estimate = 0.28;
+  result.estimates[0].given_ci_low = 0.25;
   const test::TemporaryFolder folder;
   recording::write_file(folder / "p.csv", parameters_csv({result}));
   const recording::CsvTable table = recording::read_csv_table(folder / "p.csv");
@@ -69,7 +70,9 @@ TEST(ParametersCsv, ThePosteriorHasTheSourcesOfTheVarianceAndItsSecondInterval) 
   EXPECT_EQ(cell("variance_noise"), "0.5");
   EXPECT_EQ(cell("variance_geometry"), "0.125");
   EXPECT_EQ(cell("variance_model"), "0");
-  EXPECT_EQ(cell("ci_low_geometry_and_sensors_exact"), "0.25");
+  EXPECT_EQ(cell("given_estimate"), "0.28");
+  EXPECT_EQ(cell("given_ci_low"), "0.25");
+  EXPECT_EQ(cell("given_ci_high"), "");
 }
 
 TEST(PosteriorCsv, HasARowForEachDrawAndAColumnForEachUnknown) {

@@ -42,6 +42,11 @@ std::string interval(const ParameterEstimate& e) {
   return e.ci_low && e.ci_high ? report::format_interval(*e.ci_low, *e.ci_high) : "none";
 }
 
+std::string given_interval(const ParameterEstimate& e) {
+  if (is_undetermined(e) || !e.given_ci_low || !e.given_ci_high) return "-";
+  return report::format_interval(*e.given_ci_low, *e.given_ci_high);
+}
+
 std::string prior(const ParameterEstimate& e) {
   if (!e.prior_mean || !e.prior_sd) return "-";
   return fmt::format("{} ± {}", format_rounded(*e.prior_mean, *e.prior_sd), format_rounded(*e.prior_sd, *e.prior_sd));
@@ -129,6 +134,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std
 
 std::vector<Table> estimate_tables(const StudyResult& result, const IdentificationResult& method) {
   const bool known = !result.source.truth.empty();
+  const bool readings = std::ranges::any_of(method.estimates, [](const auto& e) { return e.given_ci_low.has_value(); });
   const std::string truth = known ? " Truth: green where it lies in the interval, else yellow." : "";
   const std::string by =
       method.method == "force"
@@ -137,9 +143,15 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   Table muscles{
       "parameters_" + method.method,
       fmt::format("Identified parameters (method {})", method.method),
-      by + "Interval: 95 %, for correlated residuals. Prior: the literature's mean ± standard deviation." + truth,
-      {"muscle", "parameter", "unit", "prior", "estimate", "95 % interval", "verdict", "why"}};
-  if (known) muscles.columns.insert(muscles.columns.begin() + 6, "truth");
+      by +
+          (readings ? "95 % interval: of the person. Given: the 95 % interval if geometry and sensors were exact, by "
+                      "which sessions of the person are compared."
+                    : "Interval: 95 %, for correlated residuals, if geometry and sensors are exact.") +
+          " Prior: the literature's mean ± standard deviation." + truth,
+      {"muscle", "parameter", "unit", "prior", "estimate", "95 % interval"}};
+  if (readings) muscles.columns.emplace_back("given geometry and sensors");
+  if (known) muscles.columns.emplace_back("truth");
+  muscles.columns.insert(muscles.columns.end(), {"verdict", "why"});
   Table others{"nuisances_" + method.method, "Numbers of the electrodes and of the joint",
                "Free, so that their uncertainty widens the muscles' intervals; they belong to no muscle and are not "
                "counted above." +
@@ -150,6 +162,7 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
     const ParameterEstimate& e = *line.estimate;
     std::vector<Cell> row = report::text_row(
         {line.owners, report::spelled(e.parameter), unit(e), prior(e), value_of(e, e.estimate), interval(e)});
+    if (readings) row.push_back({given_interval(e)});
     if (known) row.push_back(truth_cell(result, e));
     row.insert(row.end(), {verdict_cell(e), {e.reason}});
     (identification::is_nuisance(e) ? others : muscles).rows.push_back(std::move(row));
@@ -169,6 +182,9 @@ std::vector<report::ForestRow> forest_rows(const StudyResult& result, const Iden
                           .estimate = e.estimate,
                           .lower = e.ci_low,
                           .upper = e.ci_high,
+                          .given_estimate = e.given_estimate,
+                          .given_lower = e.given_ci_low,
+                          .given_upper = e.given_ci_high,
                           .prior_mean = e.prior_mean,
                           .prior_sd = e.prior_sd,
                           .truth = truth_of(result, e),
@@ -176,7 +192,7 @@ std::vector<report::ForestRow> forest_rows(const StudyResult& result, const Iden
                           .badge = badge(e.verdict),
                           .why = e.reason,
                           .beside = identification::is_nuisance(e)};
-    if (is_undetermined(e)) row.lower = row.upper = std::nullopt;
+    if (is_undetermined(e)) row.lower = row.upper = row.given_lower = row.given_upper = std::nullopt;
     if (!e.fit_case.empty() && method.method == "paper") row.name += ", " + e.fit_case;
     rows.push_back(std::move(row));
   }

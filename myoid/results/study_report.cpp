@@ -95,17 +95,21 @@ std::string headline(const StudyResult& result) {
   const IdentificationResult* best = method_of(result.fit, "torque");
   if (best == nullptr) best = method_of(result.fit, "force");
   if (best == nullptr) return "Parameters by the source paper's method, each with an interval and a verdict.";
-  int total = 0, sure = 0, weak = 0;
+  int total = 0, sure = 0, repeat = 0, weak = 0;
   for (const ParameterEstimate& e : best->estimates) {
     if (identification::is_nuisance(e) || !e.tied_to.empty()) continue;
     ++total;
     if (e.verdict == Verdict::identified) ++sure;
+    if (e.verdict == Verdict::reproducible) ++repeat;
     if (e.verdict == Verdict::weak) ++weak;
   }
   std::string text = sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
                                : fmt::format("This recording identifies {} of {} parameters: {}", sure, total,
                                              identified_numbers(*best));
   text += ".";
+  if (repeat > 0)
+    text += fmt::format(" {} {} reproducible: given geometry and sensors, for comparing sessions of this person.",
+                        repeat, repeat == 1 ? "is" : "are");
   if (weak > 0) text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
   if (!result.folds.empty()) {
     std::vector<double> ours, theirs;

@@ -11,8 +11,7 @@ namespace myoid {
 bool from_maximal_effort(const EmgSpec& emg) { return emg.has_mvc || emg.kind == EmgKind::activation; }
 
 bool effort_is_unknown(const Study& study) {
-  return !from_maximal_effort(study.emg) && study.identify.priors && study.identify.gain &&
-         study.identify.estimator == identification::EstimatorKind::posterior;
+  return !from_maximal_effort(study.emg) && study.identify.gain && study.identify.by_posterior();
 }
 
 Prior any_effort() {
@@ -39,7 +38,7 @@ std::string meaning_of_strength(const Study& study, bool maximal) {
         "F_max is the force of a completely active muscle: the maximal contractions are taken to reach {:.0f} +- "
         "{:.0f} % of it.",
         100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd);
-  if (study.identify.estimator == identification::EstimatorKind::posterior)
+  if (study.identify.by_posterior())
     return fmt::format(
         "F_max is the force of a completely active muscle: that of the maximal contractions is taken to differ from it "
         "by {:.0f} % ([beliefs] effort_sd).",

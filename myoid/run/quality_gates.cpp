@@ -296,12 +296,14 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
       return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
     });
   };
-  list.push_back({"Parameters that this recording tells",
-                  count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
-                  fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} non-physical",
-                              count(Verdict::identified), count(Verdict::weak), count(Verdict::prior_dominated),
-                              count(Verdict::not_identifiable), count(Verdict::non_physical)),
-                  "those you need", "Use a number only if its verdict allows it."});
+  list.push_back(
+      {"Parameters that this recording tells",
+       count(Verdict::identified) + count(Verdict::reproducible) > 0 ? GateStatus::pass : GateStatus::warn,
+       fmt::format("{} identified, {} reproducible, {} weak, {} prior-dominated, {} not identifiable, {} "
+                   "non-physical",
+                   count(Verdict::identified), count(Verdict::reproducible), count(Verdict::weak),
+                   count(Verdict::prior_dominated), count(Verdict::not_identifiable), count(Verdict::non_physical)),
+       "those you need", "Use a number only if its verdict allows it."});
   return list;
 }
 

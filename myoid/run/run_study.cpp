@@ -175,7 +175,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   StudyValidation validation;
   if (study.identify.cross_validate && wants_torque(study))
     validation = stages.run("validation", 0.85, 0.95, [&](const Progress& progress) {
-      return study_validation(fit_source(result), input, progress);
+      return study_validation(fit_source(result), input, *torque_of(fit), progress);
     });
   if (study.identify.next_movements > 0 && wants_torque(study))
     result.next = stages.run("next recording", 0.95, 1.0,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "myoid/methods/torque.h"
+#include "myoid/posterior/posterior.h"
 
 namespace myoid {
 namespace {
@@ -39,19 +40,25 @@ FitInput without_left_out(const FitSource& source, const identification::StudyDa
 
 }  // namespace
 
-StudyValidation study_validation(const FitSource& source, const FitInput& input, const Progress& progress) {
+StudyValidation study_validation(const FitSource& source,
+                                 const FitInput& input,
+                                 const identification::IdentificationResult& whole,
+                                 const Progress& progress) {
   const identification::CrossValidationOptions how{.kind = source.study.identify.folds, .setting = "[identify] folds"};
   const auto fit = [&](identification::StudyData& split, identification::EstimatorOptions& options) {
     if (how.kind != identification::FoldKind::block) {
       FitInput of_fold = without_left_out(source, split, progress);
       split = std::move(of_fold.data);
       of_fold.options.drives = options.drives;
+      of_fold.options.begin_at = options.begin_at;
       options = identification::of_a_fold(std::move(of_fold.options));
     }
     return identification::identify_torque(split, options);
   };
   StudyValidation found;
-  found.folds = identification::cross_validate(input.data, fit, input.options, how);
+  identification::EstimatorOptions options = input.options;
+  options.begin_at = identification::beginning_at(whole);
+  found.folds = identification::cross_validate(input.data, fit, options, how);
   std::string why_not;
   (void)identification::splits(input.data, how, &why_not);
   if (!why_not.empty()) found.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);

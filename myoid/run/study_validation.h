@@ -16,9 +16,11 @@ struct StudyValidation {
 };
 
 /// Leaves trials, conditions or blocks out (`[identify] folds`) and predicts them by the reported
-/// kind of fit to the others. From the EMG on no step uses a left-out trial.
+/// kind of fit to the others. From the EMG on no step uses a left-out trial; by the posterior the search for a fold's
+/// mode begins at the answer of `whole`, the fit to all trials, with its law of lag.
 [[nodiscard]] StudyValidation study_validation(const FitSource& source,
                                                const FitInput& input,
+                                               const identification::IdentificationResult& whole,
                                                const Progress& progress);
 
 }  // namespace myoid

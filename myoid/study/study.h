@@ -238,7 +238,7 @@ struct IdentifySpec {
   bool force_loop = false;           ///< Iterate forces and parameters until they agree.
   std::vector<std::string> muscles;  ///< Empty: all.
   bool priors = true;
-  identification::EstimatorKind estimator = identification::EstimatorKind::least_squares;
+  identification::EstimatorKind estimator = identification::EstimatorKind::posterior;
   int posterior_draws = 0;  ///< For estimator `posterior`; 0: draws from its approximation.
   bool gain = true;         ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
@@ -258,6 +258,8 @@ struct IdentifySpec {
   double angle_sd_deg = 0.0;  ///< Errors of the joint angle and of its rate, propagated.
   double angle_rate_sd_degps = 0.0;
   double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
+  /// Returns true if method `torque` is by the posterior, which rests on priors.
+  [[nodiscard]] bool by_posterior() const { return priors && estimator == identification::EstimatorKind::posterior; }
   bool operator==(const IdentifySpec&) const = default;
 };
 

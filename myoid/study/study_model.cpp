@@ -210,8 +210,6 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const
     for (const auto& [name, value] : spec.start) setup.start.*muscle::hill_field(name).member = value;
     setup.fixed = spec.fixed;
     setup.priors = identification::literature_priors(setup.start);
-    // The study states measured lengths.
-    if (spec.start.contains("tendon_slack_length")) setup.priors.erase("tendon_slack_length");
     muscle::validate(setup.start);
     setups.push_back(std::move(setup));
   }

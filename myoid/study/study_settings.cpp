@@ -235,9 +235,10 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
                   "posterior the muscles are those of the torque, and one round shares it among them."});
   v.flag("priors", identify.priors, {.says = "The [priors](../theory/priors.md) from the literature are used."});
   v.choice("estimator", identify.estimator,
-           {.says = "Method `torque`: `least_squares`, weighted and corrected for the errors of the EMG; `posterior`, "
-                    "one posterior, whose intervals also hold what residuals do not show: moment arms, tendons, the "
-                    "scale of the torque, cross-talk and drift ([how](../theory/posterior.md))."});
+           {.says = "Method `torque`: `posterior`, whose intervals also hold moment arms, tendons, the scale of the "
+                    "torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); "
+                    "`least_squares`, weighted and corrected for the errors of the EMG, whose intervals hold given "
+                    "geometry and sensors only (always without priors)."});
   v.count("posterior_draws", identify.posterior_draws,
           {.says = "Estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the intervals, in place of an "
                    "approximation; 1000 take some ten times as long. 0: none.",

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -108,6 +109,23 @@ OnePerson one_person(const twin::Protocol& protocol, std::uint64_t seed, const T
   return person;
 }
 
+/// Fills the errors and intervals of the reading given geometry and sensors.
+void add_given(const std::vector<const TwinRow*>& rows, TwinSummary& s) {
+  std::vector<double> errors, widths;
+  int covered = 0;
+  for (const TwinRow* row : rows) {
+    const ParameterEstimate& e = row->estimate;
+    if (!e.given_estimate || !e.given_ci_low || !e.given_ci_high) continue;
+    const double unit = e.parameter == "emg_delay" ? kDelayUnit_s : std::abs(row->truth);
+    errors.push_back(std::abs(*e.given_estimate - row->truth) / unit);
+    widths.push_back(0.5 * (*e.given_ci_high - *e.given_ci_low) / unit);
+    covered += *e.given_ci_low <= row->truth && row->truth <= *e.given_ci_high;
+  }
+  s.given_coverage = errors.empty() ? std::nan("") : static_cast<double>(covered) / static_cast<double>(errors.size());
+  s.given_median_error = math::median(std::move(errors));
+  s.given_half_width = math::median(std::move(widths));
+}
+
 TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
   TwinSummary s;
   std::vector<double> errors;
@@ -162,6 +180,7 @@ TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
   s.coverage = s.with_interval > 0 ? static_cast<double>(covered) / s.with_interval : std::nan("");
   s.half_width = math::median(std::move(widths));
   s.shrinkage = math::median(std::move(shrinkages));
+  add_given(rows, s);
   return s;
 }
 
@@ -241,14 +260,16 @@ namespace {
 
 std::string persons_text(const TwinStudyResult& result) {
   std::string persons =
-      "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,shrinkage,verdict\n";
+      "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,given_estimate,given_ci_low,"
+      "given_ci_high,shrinkage,verdict\n";
   const auto optional = [](const std::optional<double>& value) { return value ? cell(*value) : std::string(); };
   for (const TwinRow& row : result.rows) {
     const ParameterEstimate& e = row.estimate;
     persons +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.seed, e.method, e.fit_case, e.muscle, e.parameter,
-                    symbol(e.unit), cell(row.truth), cell(e.initial), cell(e.estimate), optional(e.ci_low),
-                    optional(e.ci_high), optional(e.shrinkage), identification::name(e.verdict));
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.seed, e.method, e.fit_case, e.muscle,
+                    e.parameter, symbol(e.unit), cell(row.truth), cell(e.initial), cell(e.estimate), optional(e.ci_low),
+                    optional(e.ci_high), optional(e.given_estimate), optional(e.given_ci_low),
+                    optional(e.given_ci_high), optional(e.shrinkage), identification::name(e.verdict));
   }
   return persons;
 }
@@ -256,17 +277,18 @@ std::string persons_text(const TwinStudyResult& result) {
 std::string summary_text(const TwinStudyResult& result) {
   std::string summary =
       "method,case,muscle,parameter,count,bias,median_error,mad,rmse,within_5,within_10,within_15,within_20,prior_"
-      "within_10,coverage,half_width,shrinkage,identified,weak,prior_dominated,not_identifiable,non_physical,"
+      "within_10,coverage,half_width,given_median_error,given_coverage,given_half_width,shrinkage,identified,"
+      "reproducible,weak,prior_dominated,not_identifiable,non_physical,"
       "identified_and_within_10,identified_but_not,not_identified_but_within_10,not_identified_and_not,identified_"
       "within_15,outside_physical\n";
   for (const TwinSummary& s : summarize(result)) {
-    summary +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.method,
-                    s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error), cell(s.mad),
-                    cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15), cell(s.within_20),
-                    cell(s.prior_within_10), cell(s.coverage), cell(s.half_width), cell(s.shrinkage), s.verdicts[0],
-                    s.verdicts[1], s.verdicts[2], s.verdicts[3], s.verdicts[4], s.identified_good, s.identified_bad,
-                    s.other_good, s.other_bad, s.identified_within_15, s.outside_physical);
+    summary += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.method,
+                           s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error), cell(s.mad),
+                           cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15), cell(s.within_20),
+                           cell(s.prior_within_10), cell(s.coverage), cell(s.half_width), cell(s.given_median_error),
+                           cell(s.given_coverage), cell(s.given_half_width), cell(s.shrinkage),
+                           fmt::join(s.verdicts, ","), s.identified_good, s.identified_bad, s.other_good, s.other_bad,
+                           s.identified_within_15, s.outside_physical);
   }
   return summary;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,7 @@ struct TwinStudyOptions {
   int subjects = 200;
   std::uint64_t first_seed = 1;  ///< Subject k has the seed first_seed + k.
   std::vector<identification::Method> methods = {identification::Method::torque};
-  identification::EstimatorKind estimator = identification::EstimatorKind::least_squares;
+  identification::EstimatorKind estimator = identification::EstimatorKind::posterior;
   Progress progress;
 };
 
@@ -74,8 +76,10 @@ struct TwinSummary {
   int with_interval = 0;
   double coverage = 0.0;    ///< Share of the 95 % intervals that hold the truth.
   double half_width = 0.0;  ///< Median, in the unit of the error.
-  double shrinkage = 0.0;   ///< Median.
-  int verdicts[5] = {};     ///< As identification::Verdict.
+  /// The same of the reading given geometry and sensors; NaN by least squares.
+  double given_median_error = 0.0, given_coverage = 0.0, given_half_width = 0.0;
+  double shrinkage = 0.0;                                                ///< Median.
+  std::array<int, std::size(identification::kVerdictNames)> verdicts{};  ///< As identification::Verdict.
   /// Confusion: the verdict `identified` against an error below 10 %.
   int identified_good = 0, identified_bad = 0, other_good = 0, other_bad = 0;
   int identified_within_15 = 0;  ///< Identified numbers within 15 %.

@@ -25,6 +25,7 @@ __all__ = ["Result", "Trial", "PredictResult", "TwinStudyResult"]
 
 _COLORS = {
     "identified": "#2a7",
+    "reproducible": "#7a3c8f",
     "weak": "#c90",
     "prior_dominated": "#888",
     "not_identifiable": "#bbb",
