@@ -125,6 +125,7 @@ TEST(PosteriorVerdict, AValueThatIsFarFromItsPriorIsNotIdentified) {
               AllOf(HasSubstr("a simplification of the model"), HasSubstr("4.9 standard deviations away")));
   facts.contraction = 0.1;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
+  facts.contraction_given = 0.1;
   facts.prior_distance = 2.9;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
 }
