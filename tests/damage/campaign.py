@@ -149,7 +149,8 @@ def attempt(program, seeds, case, number, keep):
         files = [f for place in case.damaged for f in
                  ([folder / place] if (folder / place).is_file() else sorted((folder / place).rglob("*")))
                  if f.is_file() and f.stat().st_size > 0 and f.name != "stranger.txt"]
-        victim = chance.choice(files)
+        ending = chance.choice(sorted({f.suffix for f in files}))  # a folder of results has many pictures
+        victim = chance.choice([f for f in files if f.suffix == ending])
         damage, seen, changed = damaged(victim.read_bytes(), victim.suffix, chance)
         victim.write_bytes(changed)
         place = str(victim.relative_to(folder))

@@ -96,6 +96,41 @@ def ragged_row(data, chance):
     return b"\n".join(lines)
 
 
+def counted_rows(lines):
+    """Returns the places of the rows of a storage or TRC file whose header counts them; else None."""
+    for i, line in enumerate(lines[:60]):
+        if line.strip() == b"endheader":
+            count = next((x.split(b"=")[1] for x in lines[:i] if x.startswith(b"nRows=")), b"0")
+            first = i + 2
+            break
+        if line.startswith(b"DataRate\tCameraRate") and i + 1 < len(lines):
+            count, first = (lines[i + 1].split(b"\t") + [b"0"] * 3)[2], i + 4
+            break
+    else:
+        return None
+    places = [i for i in range(first, len(lines)) if lines[i].strip()]
+    return places if count.strip().isdigit() and int(count) == len(places) > 10 else None
+
+
+def row_away(data, chance):
+    lines = data.split(b"\n")
+    places = counted_rows(lines)
+    if places is None:
+        return None
+    del lines[chance.choice(places)]
+    return b"\n".join(lines)
+
+
+def row_twice(data, chance):
+    lines = data.split(b"\n")
+    places = counted_rows(lines)
+    if places is None:
+        return None
+    at = chance.choice(places)
+    lines.insert(at, lines[at])
+    return b"\n".join(lines)
+
+
 def shorter_binary(data, chance):
     return data[: len(data) * chance.randrange(30, 95) // 100]
 
@@ -103,15 +138,16 @@ def shorter_binary(data, chance):
 ANY = [flip_bits, flip_bits, cut_off, take_out, put_in, other_number, other_number, other_word, line_away, line_twice,
        crlf, empty]
 # Damages that every reader of these files can see.
-SEEN_IN = {".trc": [swap_rows, ragged_row], ".sto": [swap_rows, ragged_row], ".mot": [swap_rows, ragged_row],
-           ".csv": [swap_rows, ragged_row], ".c3d": [shorter_binary], ".edf": [shorter_binary]}
+ROWS = [swap_rows, ragged_row, row_away, row_twice]
+SEEN_IN = {".trc": ROWS, ".sto": ROWS, ".mot": ROWS, ".csv": [swap_rows, ragged_row],
+           ".c3d": [shorter_binary], ".edf": [shorter_binary]}
 
 
 def damaged(data, ending, chance):
     """Returns (name of the damage, whether every reader can see it, the damaged bytes)."""
     seen = SEEN_IN.get(ending.lower(), [])
     # Files without rows get damages of any kind only.
-    damage = chance.choice(ANY + seen * 3)
+    damage = chance.choice(ANY + seen * (6 // max(1, len(seen))))
     changed = damage(data, chance)
     if changed is None or changed == data:
         damage, changed = flip_bits, flip_bits(data, chance)
