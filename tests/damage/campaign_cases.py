@@ -49,11 +49,12 @@ CHEAP = 0.15  # below it
 class Case:
     """A command, its inputs by place, those that are damaged, and the group whose share of the runs it has."""
 
-    def __init__(self, name, arguments, inputs, damaged=None, group=None, renews=None):
+    def __init__(self, name, arguments, inputs, damaged=None, group=None, renews=None, sealed=()):
         self.name, self.arguments, self.inputs = name, arguments, inputs
         self.damaged = damaged or list(inputs)
         self.group = group or name
         self.renews = renews  # the folder of results among the inputs that the command makes anew
+        self.sealed = sealed  # results whose content the list of their folder names: every damage can be seen
         self.size = 0  # bytes of the inputs
         self.good = None  # exit code, numbers and messages of the undamaged run
 
@@ -152,9 +153,12 @@ def own_cases():
         Case("run-tool", ["run-tool", "ik.xml"], ["ik.xml", model, markers]),
         Case("update-file", ["update-file", model, "out.osim"], [model]),
         Case("report", ["report", "res"], ["res", "rec"], ["res"], renews="res"),
-        Case("predict", ["predict", "res", "--trials", "lift", "--out", "out"], ["res", "rec"], ["res"]),
-        Case("compare", ["compare", "res", "other", "--out", "out"], ["res", "other"], ["other"]),
-        Case("group", ["report", "--group", "res", "other", "--out", "out"], ["res", "other"], ["other"]),
+        Case("predict", ["predict", "res", "--trials", "lift", "--out", "out"], ["res", "rec"], ["res"],
+             sealed=("res/parameters.json", "res/run.json")),
+        Case("compare", ["compare", "res", "other", "--out", "out"], ["res", "other"], ["other"],
+             sealed=("other/parameters.json",)),
+        Case("group", ["report", "--group", "res", "other", "--out", "out"], ["res", "other"], ["other"],
+             sealed=("other/parameters.json", "other/parameters.csv", "other/report.json")),
         *[Case(f"{command} {file}", [command, file, *more], [file], group=f"{command} file")
           for file in files for command, more in (("info", []), ("info", ["--json"]), ("check", []))],
         *[Case(f"convert {file}", ["convert", file, "out" + to], [file], group="convert")
