@@ -151,6 +151,8 @@ def attempt(program, seeds, case, number, keep):
         files = [f for place in case.damaged for f in
                  ([folder / place] if (folder / place).is_file() else sorted((folder / place).rglob("*")))
                  if f.is_file() and f.stat().st_size > 0 and f.name != "stranger.txt"]
+        if case.sealed and chance.random() < 0.5:
+            files = [folder / place for place in case.sealed]
         endings = sorted({f.suffix for f in files})
         ending = chance.choices(endings, [1 if e in PICTURES else 6 for e in endings])[0]
         victim = chance.choice([f for f in files if f.suffix == ending])
@@ -180,11 +182,14 @@ def attempt(program, seeds, case, number, keep):
 class Tally:
     """Counts runs, seconds, exit codes and faults by group of cases."""
 
-    def __init__(self):
+    def __init__(self, verbose):
+        self.verbose = verbose
         self.groups, self.failures, self.runs = {}, [], 0
         self.begin = self.said = time.monotonic()
 
     def add(self, case, where, code, faults, seconds):
+        if self.verbose:
+            print(f"{code} {seconds:.2f} s {where}")
         entry = self.groups.setdefault(campaign_cases.group_of(case), {"runs": 0, "s": 0.0, "faults": 0, "codes": {}})
         entry["runs"] += 1
         entry["s"] += seconds
@@ -213,7 +218,7 @@ class Tally:
 
 def campaign(program, seeds, cases, options):
     """Runs the damaged cases; returns the tally."""
-    tally, end = Tally(), time.monotonic() + options.seconds
+    tally, end = Tally(options.verbose), time.monotonic() + options.seconds
     shares = campaign_cases.weights(cases)
 
     def work(number):
@@ -245,6 +250,7 @@ def main():
     parser.add_argument("--only", default="", help="a part of the name of the cases to run")
     parser.add_argument("--replay", type=int, metavar="NUMBER", help="this run alone; --only as it was")
     parser.add_argument("--undamaged", action="store_true", help="every case once without damage, with its time")
+    parser.add_argument("--verbose", action="store_true", help="a line for each run")
     parser.add_argument("--keep", help="folder for the inputs and outputs of runs with a fault")
     options = parser.parse_args()
     begin = time.monotonic()
