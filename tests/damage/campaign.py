@@ -7,7 +7,7 @@ of its own, damages one of them, runs the program, and asks:
 
   crash      does the program end by a signal or with another exit code than 0, 3, 4 or 5?
   sanitizer  does a sanitizer speak? (build the program with the preset asan)
-  hang       does the program need more than TIMEOUT seconds of processor time?
+  hang       does the program need more than 120 seconds of processor time?
   silence    does the program refuse and not say why?
   lost       is an input, or a stranger's file beside or among the output, gone or changed?
   changed    exit code 0, other numbers, and no message that the undamaged input does not give too? Asked of damages
@@ -37,7 +37,6 @@ from pathlib import Path
 import campaign_cases
 from campaign_damages import damaged
 
-TIMEOUT = 120  # seconds of processor time
 WALL = 900  # seconds
 GIGABYTE = 1 << 30
 PICTURES = (".svg", ".html", ".bib", ".txt")  # of the results; commands that read results take no numbers from them
@@ -51,12 +50,12 @@ def is_sanitized(program):
     return b"__asan_init" in Path(program).read_bytes()
 
 
-def run(program, arguments, folder):
+def run(program, arguments, folder, timeout=120):
     """Returns (exit code, standard output, standard error); the code is None if the program takes too long."""
     with subprocess.Popen([program, *arguments], cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         try:
-            resource.prlimit(process.pid, resource.RLIMIT_CPU, (TIMEOUT, TIMEOUT + 5))
+            resource.prlimit(process.pid, resource.RLIMIT_CPU, (timeout, timeout + 5))
             resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (GIGABYTE, GIGABYTE))
             if not is_sanitized(program):  # the sanitizer reserves terabytes of addresses, and has a limit of its own
                 resource.prlimit(process.pid, resource.RLIMIT_AS, (8 * GIGABYTE, 8 * GIGABYTE))
@@ -135,7 +134,7 @@ def faults_of(code, out, err):
     return []
 
 
-def attempt(program, seeds, case, number, keep):
+def attempt(program, seeds, case, number, timeout, keep):
     """Runs one damaged case; returns (damage, exit code, faults)."""
     chance = random.Random(number)
     folder = Path(tempfile.mkdtemp(prefix="campaign.", dir=TEMPORARY))
@@ -160,7 +159,7 @@ def attempt(program, seeds, case, number, keep):
         victim.write_bytes(changed)
         place = str(victim.relative_to(folder))
         before = contents(folder)
-        code, out, err = run(program, arguments, folder)
+        code, out, err = run(program, arguments, folder, timeout)
         faults = faults_of(code, out, err)
         gone = lost(case, place, before, contents(folder))
         if gone:
@@ -226,7 +225,7 @@ def campaign(program, seeds, cases, options):
             return None
         case = random.Random(f"case {number}").choices(cases, shares)[0]
         begin = time.monotonic()
-        return case, *attempt(program, seeds, case, number, options.keep), time.monotonic() - begin
+        return case, *attempt(program, seeds, case, number, options.timeout, options.keep), time.monotonic() - begin
 
     base = options.seed * 10**7
     numbers = [options.replay] if options.replay is not None else range(base, base + options.runs)
@@ -247,6 +246,7 @@ def main():
     parser.add_argument("--runs", type=int, default=10**6)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="programs at a time (one a core)")
+    parser.add_argument("--timeout", type=int, default=120, help="seconds of processor time of a run (120)")
     parser.add_argument("--only", default="", help="a part of the name of the cases to run")
     parser.add_argument("--replay", type=int, metavar="NUMBER", help="this run alone; --only as it was")
     parser.add_argument("--undamaged", action="store_true", help="every case once without damage, with its time")
