@@ -1,10 +1,10 @@
 # Sourced by run-tests --ci: every fuzz target for some seconds, from the seeds, with the build's time bounded by
-# MYOID_CI_END. A crash fails the run; no clang, or no time left for the build, is said and does not. Longer runs:
-# tests/fuzz/run.sh
+# MYOID_CI_END less the time of the mutation campaign. A crash fails the run; no clang, or no time left for the build,
+# is said and does not. Longer runs: tests/fuzz/run.sh
 (
   cd "$MYOID_ROOT"
   seconds=10
-  limit=$((MYOID_CI_END - SECONDS - 16 * seconds))
+  limit=$((MYOID_CI_END - SECONDS - 16 * seconds - MYOID_CAMPAIGN))
   if [ "$limit" -lt 60 ]; then myoid_log "fuzzing: no time left"; exit 0; fi
   if ! command -v clang++ >/dev/null; then
     myoid_log "No clang++: the readers are not fuzzed (apt-get install clang)"

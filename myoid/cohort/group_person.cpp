@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
+#include "myoid/files/record_list.h"
 #include "myoid/files/text_file.h"
 #include "myoid/math/statistics.h"
 #include "myoid/tables/storage_reader.h"
@@ -209,6 +210,10 @@ std::vector<GroupRun> group_runs(const std::vector<fs::path>& folders) {
   return found;
 }
 
+std::vector<std::string> changed_files(const GroupRun& run) {
+  return recording::changed_since_written(run.folder, {"parameters.csv", "parameters.json", "report.json"});
+}
+
 std::string page_of(const GroupRun& run, const fs::path& page_folder) {
   const fs::path page = run.folder / "report.html";
   if (!fs::exists(page)) return "";
@@ -227,7 +232,8 @@ std::vector<GroupPerson> read_group_persons(const std::vector<fs::path>& folders
          .page = page_of(run, page_folder),
          .numbers = group_numbers(recording::read_csv_table(run.folder / "parameters.csv")),
          .quality = run_quality(run.folder),
-         .identity = fs::exists(run.folder / "parameters.json") ? read_run_identity(run.folder) : RunIdentity{}});
+         .identity = fs::exists(run.folder / "parameters.json") ? read_run_identity(run.folder) : RunIdentity{},
+         .changed = changed_files(run)});
   return persons;
 }
 

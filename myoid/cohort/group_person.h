@@ -34,7 +34,8 @@ struct GroupPerson {
   std::string page;  ///< The person's report, relative to the group's; empty: none.
   std::vector<GroupNumber> numbers;
   std::vector<Quality> quality;
-  RunIdentity identity = {};  ///< Of a run; unknown for a virtual person.
+  RunIdentity identity = {};              ///< Of a run; unknown for a virtual person.
+  std::vector<std::string> changed = {};  ///< Sentences on files of a run that were changed since it wrote them.
 };
 
 /// Returns the numbers of method torque, or of the first method where torque was not asked for.
@@ -55,6 +56,9 @@ struct GroupRun {
 /// Finds the runs in these folders: each is the folder of a run, or holds folders of runs at any
 /// depth down to three. Throws ReadError for a folder without a run.
 [[nodiscard]] std::vector<GroupRun> group_runs(const std::vector<std::filesystem::path>& folders);
+
+/// Returns a sentence on each file that a group reads of a run and that was changed since the run wrote it.
+[[nodiscard]] std::vector<std::string> changed_files(const GroupRun& run);
 
 /// Returns the report of a run, relative to this folder; empty if the run has none.
 [[nodiscard]] std::string page_of(const GroupRun& run, const std::filesystem::path& page_folder);

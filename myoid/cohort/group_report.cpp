@@ -72,6 +72,22 @@ std::optional<report::Gate> kind_gate(const std::vector<GroupPerson>& persons) {
                       "Medians, spreads and outliers mean nothing among persons of several kinds."};
 }
 
+/// Returns a warning if files of the runs were changed since the runs wrote them.
+std::optional<report::Gate> changed_gate(const std::vector<GroupPerson>& persons,
+                                         const std::vector<std::filesystem::path>& after) {
+  std::vector<std::string> found;
+  for (const GroupPerson& person : persons) found.insert(found.end(), person.changed.begin(), person.changed.end());
+  if (!after.empty()) {
+    for (const GroupRun& run : group_runs(after))
+      for (std::string& text : changed_files(run)) found.push_back(std::move(text));
+  }
+  if (found.empty()) return std::nullopt;
+  return report::Gate{"Results as they were written", report::GateStatus::warn,
+                      fmt::format("{}", fmt::join(found, "; ")),
+                      "every file that is read has the content on the list .myoid.files of its folder",
+                      "Numbers of the group may not be those of the runs."};
+}
+
 }  // namespace
 
 report::Report group_report(const GroupReportOptions& options) {
@@ -92,6 +108,7 @@ report::Report group_report(const GroupReportOptions& options) {
   }
   page.sections.push_back(std::move(beside.persons));
   if (std::optional<report::Gate> gate = kind_gate(persons)) page.gates.push_back(std::move(*gate));
+  if (std::optional<report::Gate> gate = changed_gate(persons, options.after)) page.gates.push_back(std::move(*gate));
   page.provenance = {{"program", fmt::format("myoid {}", version())}};
   for (const std::filesystem::path& folder : options.persons) page.provenance.push_back({"persons", folder.string()});
   for (const std::filesystem::path& folder : options.after)

@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/record_list.h"
 #include "myoid/files/text_file.h"
 
 #include "tests/support/temporary_folder.h"
@@ -125,6 +127,21 @@ TEST(GroupReport, NamesPersonsWhoAreNotOfOneKind) {
   fs::create_directories(folder / "again");
   fs::copy(bernd, folder / "again/bernd", fs::copy_options::recursive);
   EXPECT_THAT(said(folder / "again/bernd"), HasSubstr("both rest on the recording slow.trc"));
+}
+
+TEST(GroupReport, NamesFilesThatWereChangedSinceTheRun) {
+  const test::TemporaryFolder folder;
+  const fs::path anna = run(folder / "anna", 600);
+  recording::RecordContent list;
+  list.files["parameters.csv"] = {{sha256(recording::read_text_file(anna / "parameters.csv")), "run", true}};
+  recording::write_file(anna / std::string(recording::kRecordFile), recording::record_text(list));
+  EXPECT_TRUE(group_report({.persons = {anna}, .after = {}, .folder = "x"}).gates.empty());
+  recording::write_file(anna / "parameters.csv", recording::read_text_file(anna / "parameters.csv") +
+                                                     "TRI,max_isometric_force,N,torque,both,9,8,"
+                                                     "10,identified\n");
+  const report::Report page = group_report({.persons = {anna}, .after = {anna}, .folder = "x"});
+  ASSERT_EQ(page.gates.size(), 1U);
+  EXPECT_THAT(page.gates[0].value, HasSubstr("parameters.csv: was changed since 'myoid run' wrote it"));
 }
 
 TEST(GroupReport, SaysWhatIsMissing) {

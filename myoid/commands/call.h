@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "myoid/core/progress.h"
 #include "myoid/core/remark.h"
+#include "myoid/files/record_list.h"
 
 /// The commands of the program as functions of the library.
 ///
@@ -49,6 +51,10 @@ class Remarks {
       remark.says = where + ": " + remark.says;
       add(std::move(remark));
     }
+  }
+  /// Warns of files of a result folder that were changed since they were written.
+  void warn_of_changes(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+    for (std::string& text : recording::changed_since_written(folder, names)) warn(std::move(text));
   }
   void add(Remark remark) {
     if (listener_) listener_(remark);

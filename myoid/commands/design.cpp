@@ -37,6 +37,7 @@ Study study_of(const DesignOptions& o) {
 
 EarlierRun read_earlier(const DesignOptions& o, const Study& study, Remarks& remarks) {
   EarlierRun earlier = read_earlier_run(o.after);
+  remarks.warn_of_changes(o.after, {"parameters.json"});
   const IdentityDifferences unlike = differences(identity_of(study), read_run_identity(o.after));
   if (!unlike.grave.empty())
     throw InvalidInput(

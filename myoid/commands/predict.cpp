@@ -20,6 +20,7 @@ PredictResult predict(const PredictOptions& o) {
                                                             .start_s = o.call.start_s,
                                                             .end_s = o.call.end_s,
                                                             .progress = o.call.progress});
+  remarks.warn_of_changes(o.folder, {"parameters.json", "run.json"});
   for (const std::string& warning : input.warnings) remarks.warn(warning);
   PredictResult result;
   result.provenance.command = o.call.command;

@@ -69,13 +69,19 @@ Provenance provenance_of(const SimulateOptions& o, const Drive& drive) {
   return provenance;
 }
 
-simulation::SimulationOptions integration_options(const SimulateOptions& o, double end_s) {
+/// Steps that an integration may take. Stiff arms need some 5,000 a second; a model with a path of a million meters
+/// would need billions.
+constexpr double kLeastSteps = 1e5, kStepsPerSecond = 1e5;
+
+simulation::SimulationOptions integration_options(const SimulateOptions& o, double start_s, double end_s) {
   simulation::SimulationOptions options;
   options.end_s = end_s;
   options.output_rate_hz = o.rate_hz;
   options.energy = o.energy;
   options.ode.relative_tolerance = o.tolerance;
   options.ode.absolute_tolerance = 0.01 * o.tolerance;
+  options.ode.max_steps = std::min(options.ode.max_steps,
+                                   static_cast<long>(kLeastSteps + kStepsPerSecond * std::min(end_s - start_s, 1e3)));
   options.progress = o.call.progress;
   return options;
 }
@@ -115,7 +121,7 @@ SimulateResult simulate_arm4(const SimulateOptions& o, Remarks& remarks) {
   start.time_s = drive.start_s;
   start.q = {0.0};
   place(o, {{"elbow_flexion", true}}, start, input.device);
-  const simulation::SimulationOptions options = integration_options(o, drive.end_s);
+  const simulation::SimulationOptions options = integration_options(o, drive.start_s, drive.end_s);
   const std::vector<std::string> wanted = wanted_parameters(o, arm);
   result.simulation = simulation::simulate(arm, input, start, options);
   if (!wanted.empty() && result.simulation.status == math::OdeStatus::done) {
@@ -153,7 +159,7 @@ SimulateResult simulate_file(const SimulateOptions& o, Remarks& remarks) {
   simulation::SimulationStart start = simulation::default_start(model, drive.start_s);
   refuse_followers(o, model.body);
   place(o, coordinates, start, input.device);
-  result.simulation = simulation::simulate(model, input, start, integration_options(o, drive.end_s));
+  result.simulation = simulation::simulate(model, input, start, integration_options(o, drive.start_s, drive.end_s));
   result.provenance = provenance_of(o, drive);
   return result;
 }

@@ -144,6 +144,26 @@ RecordContent read_record(const fs::path& folder) {
   return parse_record(content_of(file.get()).value_or(""));
 }
 
+std::vector<std::string> changed_since_written(const fs::path& folder, const std::vector<std::string>& names) {
+  const RecordContent record = read_record(folder);
+  std::vector<std::string> sentences;
+  for (const std::string& name : names) {
+    const auto listed = record.files.find(name);
+    if (listed == record.files.end()) continue;
+    const OpenFile file(open((folder / name).c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file) continue;
+    const std::string hash = hash_of(file.get());
+    const bool is_own =
+        std::ranges::any_of(listed->second, [&](const RecordedFile& statement) { return statement.sha256 == hash; });
+    if (is_own) continue;
+    sentences.push_back(
+        fmt::format("{}: was changed since 'myoid {}' wrote it, by the list {} beside it; its numbers may be others "
+                    "than the result's: repeat the command",
+                    (folder / name).string(), listed->second.back().command, kRecordFile));
+  }
+  return sentences;
+}
+
 OpenFile open_record(const fs::path& folder) {
   const fs::path path = folder / kRecordFile;
   for (;;) {  // a list that another process replaces meanwhile is opened again

@@ -76,6 +76,10 @@ class OpenFile {
 
 /// Reads the list of a folder; empty where there is none, or where a symbolic link has its name.
 [[nodiscard]] RecordContent read_record(const std::filesystem::path& folder);
+/// Returns a sentence on each of the named files of a folder of results whose content is not the one on its list.
+/// Files that are not there or that the list does not name count for nothing.
+[[nodiscard]] std::vector<std::string> changed_since_written(const std::filesystem::path& folder,
+                                                             const std::vector<std::string>& names);
 /// Opens the list of a folder for changes, locked, and makes an empty one where there is none. Throws InvalidInput if
 /// the folder cannot be written into or the file is no list.
 [[nodiscard]] OpenFile open_record(const std::filesystem::path& folder);

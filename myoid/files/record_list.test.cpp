@@ -63,6 +63,23 @@ TEST(RecordList, PathsThatLeaveTheFolderCountForNothing) {
   EXPECT_FALSE(parse_record("").exists);
 }
 
+TEST(RecordList, AResultThatSomebodyChangedIsNamed) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.csv", "1,2\n");
+  write_file(folder / "b.csv", "1,2\n");
+  RecordContent list;
+  list.commands = {"run"};
+  list.files["a.csv"] = {{sha256("1,2\n"), "run", true}};
+  list.files["gone.csv"] = {{sha256("1,2\n"), "run", true}};
+  write_file(folder / std::string(kRecordFile), record_text(list));
+  const std::vector<std::string> names{"a.csv", "b.csv", "gone.csv"};
+  EXPECT_TRUE(changed_since_written(folder.path(), names).empty());
+  write_file(folder / "a.csv", "1,3\n");
+  const std::vector<std::string> said = changed_since_written(folder.path(), names);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].find((folder / "a.csv").string() + ": was changed since 'myoid run' wrote it"), 0U);
+}
+
 TEST(RecordList, TheHashOfAFileIsThatOfItsBytes) {
   const test::TemporaryFolder folder;
   const std::string large(200'000, 'x');

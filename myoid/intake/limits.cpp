@@ -47,9 +47,11 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
                               model::kModelLimits.strongest_mps2, model::kModelLimits.weakest_mps2)});
   rows.push_back({"numbers of the model's muscles", "warning",
                   fmt::format("an optimal fiber length outside {:g} to {:g} m, a tendon slack length below 0 or above "
-                              "{:g} m, a force above {:g} N: mm, cm?",
+                              "{:g} m, a force above {:g} N, a point of a path more than {:g} m from the origin of its "
+                              "frame: mm, cm?",
                               model::kModelLimits.shortest_fiber_m, model::kModelLimits.longest_fiber_m,
-                              model::kModelLimits.longest_tendon_m, model::kModelLimits.strongest_muscle_n)});
+                              model::kModelLimits.longest_tendon_m, model::kModelLimits.strongest_muscle_n,
+                              model::kModelLimits.farthest_point_m)});
   rows.push_back({"body mass or height that a C3D file states", "warning or note",
                   fmt::format("a warning if `PROCESSING:BODYMASS` differs by more than {:g} % from `[subject] mass_kg` "
                               "or between two files, or `PROCESSING:HEIGHT` by more than {:g} % between two files: two "

@@ -68,6 +68,35 @@ std::optional<Remark> unlikely_number(const BodyModel& model, const MuscleNumber
       .remedy = "write lengths in m and forces in N"};
 }
 
+/// Returns the distance of a point from the origin of its frame, with the coordinates at their defaults [m].
+double distance_m(const BodyModel& model, const PathPoint& point) {
+  if (!point.moving) return point.p_BP.norm();
+  Vec3 p = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int c = point.moving->coordinates[k];
+    const double q = c < 0 ? 0.0 : model.coordinates[static_cast<std::size_t>(c)].default_value;
+    p(static_cast<Eigen::Index>(k)) = evaluate(point.moving->location[k], q).value;
+  }
+  return p.norm();
+}
+
+std::optional<Remark> unlikely_point(const BodyModel& model) {
+  for (const Muscle& muscle : model.muscles) {
+    for (const PathPoint& point : muscle.path.points) {
+      const double far_m = distance_m(model, point);
+      if (far_m <= kModelLimits.farthest_point_m) continue;
+      return Remark{.code = RemarkCode::muscle_impossible,
+                    .about = muscle.name,
+                    .value = far_m,
+                    .says = fmt::format("point {} of muscle {} lies {:.4g} m from the origin of its frame, expected at "
+                                        "most {:g} m",
+                                        point.name, muscle.name, far_m, kModelLimits.farthest_point_m),
+                    .remedy = "write places in m"};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 double mass_kg(const BodyModel& model) {
@@ -90,6 +119,7 @@ std::vector<Remark> implausible(const BodyModel& model) {
       model, {"tendon_slack_length", "m", 0.0, l.longest_tendon_m, &MuscleProperties::tendon_slack_length_m}));
   take(unlikely_number(
       model, {"max_isometric_force", "N", 0.0, l.strongest_muscle_n, &MuscleProperties::max_isometric_force_n}));
+  take(unlikely_point(model));
   return found;
 }
 

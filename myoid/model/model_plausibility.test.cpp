@@ -69,5 +69,25 @@ TEST(ImplausibleModel, LengthsInMillimetersAndForcesBeyondAnyMuscleNameTheMuscle
   EXPECT_TRUE(implausible(model).empty());
 }
 
+TEST(ImplausibleModel, PointsOfAPathAreWithinARoom) {
+  BodyModel model = usual();
+  model.coordinates = {{.name = "elbow", .default_value = 0.5}};
+  PathPoint fixed{.name = "P1", .p_BP = Vec3(0.0, -0.3, 0.0)};
+  PathPoint moving{.name = "P2"};
+  moving.moving =
+      PathPoint::Moving{.coordinates = {-1, 0, -1}, .location = {Constant{0.02}, Constant{0.1}, Constant{0.0}}};
+  model.muscles[0].path.points = {fixed, moving};
+  EXPECT_TRUE(implausible(model).empty());
+  model.muscles[0].path.points[0].p_BP.y() = -300.0;  // written in mm
+  std::vector<Remark> said = implausible(model);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].code, RemarkCode::muscle_impossible);
+  EXPECT_EQ(said[0].about, "BIC");
+  EXPECT_EQ(said[0].value, 300.0);
+  model.muscles[0].path.points = {fixed, moving};
+  model.muscles[0].path.points[1].moving->location[0] = Constant{4294967296.0};
+  EXPECT_EQ(implausible(model).size(), 1U);
+}
+
 }  // namespace
 }  // namespace myoid::model

@@ -26,15 +26,16 @@ namespace {
 
 using recording::TomlTable;
 
+/// A part of a trial (a rise, a rest) and a whole trial. Recordings of a session are shorter.
+constexpr double kLongestPart_s = 600.0, kLongestTrial_s = 3600.0;
+
 /// Overwrites `value` if the key exists; throws unless lower <= value <= upper.
 void number_into(
     TomlTable& table, std::string_view key, double& value, double lower, double upper, double scale = 1.0) {
   const std::optional<double> found = table.number(key);
   if (!found) return;
   if (*found < lower || *found > upper) {
-    const std::string expected =
-        upper < kInfinity ? fmt::format("from {:g} to {:g}", lower, upper) : fmt::format("of at least {:g}", lower);
-    table.fail(key, fmt::format("found {:g}, expected a number {}", *found, expected));
+    table.fail(key, fmt::format("found {:g}, expected a number from {:g} to {:g}", *found, lower, upper));
   }
   value = *found * scale;
 }
@@ -160,8 +161,8 @@ void read_isokinetic(TomlTable& table, TrialProtocol& trial) {
   number_into(table, "speed_deg_per_s", trial.speed_radps, 1.0, 600.0, kDegree);
   number_into(table, "from_deg", trial.from_rad, 0.0, 150.0, kDegree);
   number_into(table, "to_deg", trial.to_rad, 0.0, 150.0, kDegree);
-  number_into(table, "rise_s", trial.rise_s, 0.3, kInfinity);
-  number_into(table, "rest_s", trial.rest_s, 0.2, kInfinity);
+  number_into(table, "rise_s", trial.rise_s, 0.3, kLongestPart_s);
+  number_into(table, "rest_s", trial.rest_s, 0.2, kLongestPart_s);
   count_into(table, "repetitions", trial.repetitions, 1, 100);
   if (!(trial.from_rad + 5.0 * kDegree < trial.to_rad)) {
     table.fail("to_deg", fmt::format("found {:g}, expected at least 5 more than from_deg = {:g}",
@@ -197,9 +198,9 @@ std::vector<TrialProtocol> read_held_still(TomlTable& table, TrialProtocol trial
     number_into(table, "peak", trial.peak, 0.0, 0.95);
   }
   trial.direction = table.choice("direction", Direction::both);
-  number_into(table, "rise_s", trial.rise_s, 0.3, kInfinity);
-  number_into(table, "hold_s", trial.hold_s, 0.0, kInfinity);
-  number_into(table, "rest_s", trial.rest_s, 0.2, kInfinity);
+  number_into(table, "rise_s", trial.rise_s, 0.3, kLongestPart_s);
+  number_into(table, "hold_s", trial.hold_s, 0.0, kLongestPart_s);
+  number_into(table, "rest_s", trial.rest_s, 0.2, kLongestPart_s);
   count_into(table, "repetitions", trial.repetitions, 1, 100);
   const bool several = table.has("angles_deg");
   std::vector<TrialProtocol> result;
@@ -233,14 +234,23 @@ void read_flexion(TomlTable& table, TrialProtocol& trial) {
 void read_raising(TomlTable& table, TrialProtocol& trial) {
   number_into(table, "from_deg", trial.from_rad, 0.0, 150.0, kDegree);
   number_into(table, "to_deg", trial.to_rad, 0.0, 150.0, kDegree);
-  number_into(table, "raise_s", trial.raise_s, 0.3, kInfinity);
-  number_into(table, "lower_s", trial.lower_s, 0.3, kInfinity);
-  number_into(table, "rest_s", trial.rest_s, 0.2, kInfinity);
+  number_into(table, "raise_s", trial.raise_s, 0.3, kLongestPart_s);
+  number_into(table, "lower_s", trial.lower_s, 0.3, kLongestPart_s);
+  number_into(table, "rest_s", trial.rest_s, 0.2, kLongestPart_s);
   count_into(table, "repetitions", trial.repetitions, 1, 100);
   if (!(trial.from_rad < trial.to_rad)) {
     table.fail("to_deg", fmt::format("found {:g}, expected more than from_deg = {:g}", trial.to_rad / kDegree,
                                      trial.from_rad / kDegree));
   }
+}
+
+/// Returns the time that a trial of repetitions takes at most [s], without what the movement itself needs.
+double most_length_s(const TrialProtocol& trial) {
+  if (trial.kind == TrialKind::flexion) return trial.duration_s;
+  const bool raises = trial.kind == TrialKind::eccentric || trial.kind == TrialKind::passive;
+  const double once_s = raises ? trial.raise_s + trial.lower_s : 2.0 * trial.rise_s + trial.hold_s;
+  const int directions = !raises && trial.direction == Direction::both ? 2 : 1;
+  return trial.repetitions * directions * (once_s + trial.rest_s);
 }
 
 /// Reads one [[trial]]; several if it names several angles. Every kind has its own keys; a key of
@@ -265,6 +275,10 @@ std::vector<TrialProtocol> read_trial(TomlTable table) {
       number_into(table, "held_mass_kg", trial.held_mass_kg, 0.0, 50.0);
       read_raising(table, trial);
   }
+  if (const double length_s = most_length_s(result.front()); length_s > kLongestTrial_s)
+    table.fail("repetitions", fmt::format("the trial would take {:.4g} s, expected at most {:g} s: choose fewer "
+                                          "repetitions or shorter ones",
+                                          length_s, kLongestTrial_s));
   table.finish();
   return result;
 }

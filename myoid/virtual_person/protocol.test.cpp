@@ -89,6 +89,15 @@ TEST(Protocol, RefusesWhatCannotBe) {
   EXPECT_THAT(complaint("[[trial]\n"), HasSubstr("p.toml:1"));
 }
 
+TEST(Protocol, TrialsAreThoseOfASession) {
+  const std::string lift = "[[trial]]\nname = \"k\"\nkind = \"eccentric\"\n";
+  EXPECT_THAT(complaint(lift + "lower_s = 1e300\n"), HasSubstr("found 1e+300, expected a number from 0.3 to 600"));
+  EXPECT_THAT(complaint("[[trial]]\nname = \"k\"\nkind = \"mvc\"\nrest_s = 1e9\n"), HasSubstr("from 0.2 to 600"));
+  EXPECT_THAT(complaint("[[trial]]\nname = \"k\"\nkind = \"isokinetic\"\nrise_s = inf\n"), HasSubstr("rise_s"));
+  EXPECT_THAT(complaint(lift + "lower_s = 500\nrepetitions = 100\n"), HasSubstr("at most 3600 s"));
+  EXPECT_NO_THROW((void)parse_protocol(lift + "lower_s = 30\nrepetitions = 100\n", "p.toml"));
+}
+
 TEST(Protocol, TheLevelSaysWhatAbsentKeysStandFor) {
   const Protocol noisy = parse_protocol("[emg]\nhum = 0.02\n" + kTrial, "p.toml");
   EXPECT_EQ(noisy.level, Level::noisy);
