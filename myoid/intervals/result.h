@@ -30,14 +30,15 @@ using SourceShares = std::array<double, kSourceCount>;
 
 /// The degree to which a number can be trusted.
 enum class Verdict {
-  identified,        ///< The recording determines it.
+  identified,        ///< The recording determines the person's number.
+  reproducible,      ///< It determines the number given geometry and sensors only: sessions may be compared by it.
   weak,              ///< The recording determines it in part; the interval is wide.
   prior_dominated,   ///< The value is mostly the prior's.
   not_identifiable,  ///< The recording does not determine it.
   non_physical,      ///< No muscle can have the value: the fit describes something other than a muscle.
 };
-inline constexpr std::string_view kVerdictNames[] = {"identified", "weak", "prior_dominated", "not_identifiable",
-                                                     "non_physical"};
+inline constexpr std::string_view kVerdictNames[] = {"identified",      "reproducible",     "weak",
+                                                     "prior_dominated", "not_identifiable", "non_physical"};
 constexpr ChoiceNames choice_names(Verdict) { return kVerdictNames; }
 [[nodiscard]] constexpr std::string_view name(Verdict verdict) { return choice_name(verdict); }
 
@@ -61,8 +62,11 @@ struct ParameterEstimate {
   double estimate = 0.0;
   std::optional<double> std_error;
   std::optional<double> ci_low, ci_high;  ///< 95 %, by the first of `routes`.
-  std::vector<RouteInterval> routes;      ///< At least two, where they were asked for.
-  bool routes_disagree = false;           ///< One interval is more than 1.5 times as wide as another.
+  /// The second reading: value and 95 % interval if moment arms, tendons and the sensors' scales were exact. Sessions
+  /// of one person are compared by it. Empty by least squares, which knows no reading of the person.
+  std::optional<double> given_estimate, given_ci_low, given_ci_high;
+  std::vector<RouteInterval> routes;  ///< At least two, where they were asked for.
+  bool routes_disagree = false;       ///< One interval is more than 1.5 times as wide as another.
   std::optional<double> prior_mean, prior_sd;
   std::optional<double> prior_distance;         ///< Distance of the estimate from the prior's mean, in
                                                 ///< prior spreads (in the prior's scale).

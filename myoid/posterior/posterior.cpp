@@ -24,6 +24,8 @@ namespace {
 
 constexpr double kUnlike = 1.6;            // lambda from which a warning is given
 constexpr Eigen::Index kKeptDraws = 1000;  // written draws
+constexpr Eigen::Index kGivenDraws = 1000;
+constexpr std::uint64_t kGivenSeed = 21;
 
 /// Returns each source's share of every unknown's variance, by Laplace with Fisher's information.
 std::vector<SourceShares> source_shares(const Candidate& best) {
@@ -53,29 +55,32 @@ std::vector<SourceShares> source_shares(const Candidate& best) {
   return shares;
 }
 
-/// Returns the standard deviations of x by Gauss and Newton's curvature.
-Eigen::VectorXd gauss_newton_sd(const Density& density, const Eigen::VectorXd& x) {
+/// Returns the covariance of x by Gauss and Newton's curvature.
+Eigen::MatrixXd gauss_newton_covariance(const Density& density, const Eigen::VectorXd& x) {
   const Eigen::MatrixXd precision = density.gauss_newton(x);
-  return precision.ldlt()
-      .solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()))
-      .diagonal()
-      .cwiseMax(0.0)
-      .cwiseSqrt();
+  return precision.ldlt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
-/// The interval of z with geometry and sensors exact. It has the shape of the person's interval: the distances of its
-/// ends from the mode are those of the person's, by the ratio of both standard deviations.
+/// The second reading of z: value, 95 % interval and draws if geometry and sensors were exact.
 struct Given {
-  Eigen::VectorXd low, high;
+  Eigen::VectorXd value, low, high;
+  Eigen::VectorXd narrower;  ///< Standard deviation over the person's, per unknown.
+  Eigen::MatrixXd z;         ///< Draws, unknowns x draws of equal weight.
 };
 
+/// The interval has the shape of the person's: the distances of its ends from the mode are those of the person's, by
+/// the ratio of both standard deviations. The draws are normal about the mode.
 Given given_geometry(const Candidate& best, const Sample& sample, const Progress& progress) {
   Density density = *best.density;
-  const Eigen::VectorXd of_person = gauss_newton_sd(density, best.mode.x);
+  const Eigen::VectorXd of_person = gauss_newton_covariance(density, best.mode.x).diagonal().cwiseMax(0.0).cwiseSqrt();
   density.believe(Believed::geometry_and_sensors_exact);
   const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRoughPromise);
-  const Eigen::ArrayXd ratio = (gauss_newton_sd(density, mode.x).array() / of_person.array().max(1e-300)).min(1.0);
+  const Eigen::MatrixXd covariance = gauss_newton_covariance(density, mode.x);
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const std::vector<Unknown>& free = density.parameters().free();
+  const auto p = static_cast<Eigen::Index>(free.size());
+  Given given{.value = density.z_of(mode.x)};
+  given.narrower = (sd.array() / of_person.array().max(1e-300)).min(1.0).head(p);
   const auto end = [&](double share) {
     Eigen::VectorXd x = mode.x;
     for (std::size_t i = 0; i < free.size(); ++i) {
@@ -83,11 +88,21 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
       const muscle::Range& bounds = free[i].bounds;
       const double z = weighted_quantile(sample.z.row(j).transpose(), sample.weight, share);
       const double beyond = std::log((z - bounds.lower) / (bounds.upper - z)) - best.mode.x[j];
-      if (std::isfinite(beyond)) x[j] += ratio[j] * beyond;
+      if (std::isfinite(beyond)) x[j] += given.narrower[j] * beyond;
     }
     return density.z_of(x);
   };
-  return {end(0.025), end(0.975)};
+  given.low = end(0.025).cwiseMin(given.value);
+  given.high = end(0.975).cwiseMax(given.value);
+  const Draws draws = draw_normal(mode.x, covariance, kGivenDraws, kGivenSeed);
+  given.z.resize(p, kGivenDraws);
+  for (Eigen::Index i = 0; i < kGivenDraws; ++i) given.z.col(i) = density.z_of(draws.x.col(i));
+  return given;
+}
+
+/// The second reading where it is not asked for: the person's value, without a width.
+Given not_asked_for(const Eigen::VectorXd& z) {
+  return {.value = z, .low = z, .high = z, .narrower = Eigen::VectorXd::Ones(z.size()), .z = z};
 }
 
 /// The inputs that every reported row needs.
@@ -138,7 +153,9 @@ void judge_row(const Reporting& of,
   e.ci_high = weighted_quantile(values, weight, 0.975);
   const double mean = values.dot(weight);
   e.std_error = std::sqrt((values.array() - mean).square().matrix().dot(weight));
-  e.routes.push_back({.route = "posterior", .low = e.ci_low, .high = e.ci_high});
+  e.given_estimate = facts.given;
+  e.given_ci_low = facts.low_given;
+  e.given_ci_high = facts.high_given;
   facts.converged = of.converged;
   facts.approximate = of.sample.approximate;
   facts.value = e.estimate;
@@ -148,6 +165,9 @@ void judge_row(const Reporting& of,
   const bool cut = facts.low - bounds.lower < touches || bounds.upper - facts.high < touches;
   facts.at_bound = cut && !p.is(Scope::channel, kDelay);  // no delay is a delay
   facts.contraction = e.shrinkage;
+  if (e.shrinkage)
+    facts.contraction_given =
+        1.0 - std::pow(of.given.narrower[static_cast<Eigen::Index>(unknown)], 2) * (1.0 - *e.shrinkage);
   if (e.prior_distance) facts.prior_distance = std::abs(*e.prior_distance);
   facts.nuisance_gain = p.is(Scope::channel, kGain);
   facts.is_delay = p.is(Scope::channel, kDelay);
@@ -187,10 +207,10 @@ ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::si
   if (p.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
   PosteriorFacts facts;
   const Eigen::VectorXd draws = of.sample.z.row(at).unaryExpr([&](double z) { return value(z); }).transpose();
+  facts.given = value(of.given.value[at]);
   facts.low_given = value(of.given.low[at]);
   facts.high_given = value(of.given.high[at]);
   judge_row(of, unknown, draws, target.owner, {value(p.bounds.lower), value(p.bounds.upper)}, e, facts);
-  e.routes.push_back({.route = "geometry_and_sensors_exact", .low = facts.low_given, .high = facts.high_given});
   return e;
 }
 
@@ -199,15 +219,21 @@ ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owne
   const auto k = static_cast<std::size_t>(owner);
   ParameterEstimate e = product_row_of(of.data.muscles[k]);
   const muscle::Range physical = muscle::hill_field(e.parameter).bounds;
-  Eigen::VectorXd draws(of.sample.z.cols());
-  for (Eigen::Index i = 0; i < draws.size(); ++i)
-    draws[i] = std::clamp(of.map.values(of.sample.z.col(i)).muscles[k][kProduct], physical.lower, physical.upper);
+  const auto products = [&](const Eigen::MatrixXd& z) {
+    Eigen::VectorXd values(z.cols());
+    for (Eigen::Index i = 0; i < z.cols(); ++i)
+      values[i] = std::clamp(of.map.values(z.col(i)).muscles[k][kProduct], physical.lower, physical.upper);
+    return values;
+  };
+  const Eigen::VectorXd draws = products(of.sample.z), given = products(of.given.z);
+  const Eigen::VectorXd equal = Eigen::VectorXd::Constant(given.size(), 1.0 / static_cast<double>(given.size()));
   e.estimate = weighted_quantile(draws, of.sample.weight, 0.5);
   const Unknown& ratio = of.map.free()[unknown];
   if (ratio.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
   PosteriorFacts facts;
-  facts.low_given = weighted_quantile(draws, of.sample.weight, 0.025);
-  facts.high_given = weighted_quantile(draws, of.sample.weight, 0.975);
+  facts.given = weighted_quantile(given, equal, 0.5);
+  facts.low_given = weighted_quantile(given, equal, 0.025);
+  facts.high_given = weighted_quantile(given, equal, 0.975);
   judge_row(of, unknown, draws, owner, physical, e, facts);
   return e;
 }
@@ -322,8 +348,8 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   IdentificationResult result;
   fill_fit(best, drawn, data, result);
   // A fit whose numbers are not reported needs no second interval.
-  const Given given = options.marginals ? given_geometry(best, drawn, options.progress)
-                                        : Given{.low = result.solution, .high = result.solution};
+  const Given given =
+      options.marginals ? given_geometry(best, drawn, options.progress) : not_asked_for(result.solution);
   const std::vector<SourceShares> shares = source_shares(best);
   const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
   add_estimates({data, best.density->parameters(), drawn, shares, given, motion, result, best.mode.converged,

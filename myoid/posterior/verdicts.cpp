@@ -42,13 +42,11 @@ std::string sources_text(const SourceShares& shares) {
 
 }  // namespace
 
-Finding finding(const PosteriorFacts& facts) {
+namespace {
+
+/// The finding about the person's interval, of a fit that may be judged by its widths.
+Finding of_person(const PosteriorFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
-  if (!facts.converged) return Finding::not_converged;
-  if (facts.length_span && *facts.length_span < rules.least_length_span) return Finding::one_length;
-  if (!facts.possible) return Finding::impossible;
-  if (facts.r2 < rules.least_r2) return Finding::unexplained;
-  if (facts.nuisance_gain) return Finding::as_the_prior;
   if (facts.contraction && *facts.contraction < rules.least_shrinkage)
     return is_far(facts) ? Finding::far_from_prior : Finding::as_the_prior;
   const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
@@ -58,7 +56,30 @@ Finding finding(const PosteriorFacts& facts) {
   if (is_far(facts)) return Finding::narrow_and_far;
   if (facts.at_bound) return Finding::cut_off;
   if (facts.contraction && *facts.contraction < rules.half_shrinkage) return Finding::half_the_prior;
+  if (facts.high < facts.low_given || facts.high_given < facts.low) return Finding::readings_apart;
   return Finding::narrow;
+}
+
+/// Returns true if the number is narrow with geometry and sensors exact, and by the recording, not by its prior.
+bool narrow_if_given(const PosteriorFacts& facts) {
+  constexpr const VerdictRules& rules = kVerdictRules;
+  const double half = half_width(facts.given, facts.low_given, facts.high_given, facts.is_delay);
+  const bool told = !facts.contraction_given || *facts.contraction_given >= rules.half_shrinkage;
+  return half > 0.0 && half <= (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width) && told &&
+         facts.model_error <= rules.model_error && !is_far(facts) && !facts.at_bound;
+}
+
+}  // namespace
+
+Finding finding(const PosteriorFacts& facts) {
+  constexpr const VerdictRules& rules = kVerdictRules;
+  if (!facts.converged) return Finding::not_converged;
+  if (facts.length_span && *facts.length_span < rules.least_length_span) return Finding::one_length;
+  if (!facts.possible) return Finding::impossible;
+  if (facts.r2 < rules.least_r2) return Finding::unexplained;
+  if (facts.nuisance_gain) return Finding::as_the_prior;
+  const Finding person = of_person(facts);
+  return person != Finding::narrow && narrow_if_given(facts) ? Finding::narrow_if_given : person;
 }
 
 Verdict verdict_of(Finding finding) {
@@ -78,7 +99,10 @@ Verdict verdict_of(Finding finding) {
     case Finding::wrong_model:
     case Finding::narrow_and_far:
     case Finding::half_the_prior:
+    case Finding::readings_apart:
       return Verdict::weak;
+    case Finding::narrow_if_given:
+      return Verdict::reproducible;
     case Finding::narrow:
       break;
   }
@@ -89,12 +113,9 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (finding == Finding::not_converged) return "the search for the posterior's mode did not end";
   if (finding == Finding::one_length) return one_length_text(*facts.length_span);
   const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
-  // With exact geometry the value itself is another: half of the width alone is compared.
-  const double middle = 0.5 * (facts.low_given + facts.high_given);
-  const double given = half_width(facts.value, facts.value + facts.low_given - middle,
-                                  facts.value + facts.high_given - middle, facts.is_delay);
-  std::string text = fmt::format("{} of the person, {} were geometry and sensors exact",
-                                 size_text(half, facts.is_delay), size_text(given, facts.is_delay));
+  const double given = half_width(facts.given, facts.low_given, facts.high_given, facts.is_delay);
+  std::string text = fmt::format("{} of the person, {} given geometry and sensors", size_text(half, facts.is_delay),
+                                 size_text(given, facts.is_delay));
   if (facts.contraction)
     text += fmt::format("; the recording takes {:.0f} % off the prior's variance",
                         100.0 * std::max(0.0, *facts.contraction));
@@ -102,6 +123,9 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (is_far(facts)) text += fmt::format("; {:.1f} standard deviations away from its prior", *facts.prior_distance);
   if (finding == Finding::impossible)
     text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
+  if (finding == Finding::narrow_if_given) text = "compare sessions of this person by it, but not persons: " + text;
+  if (finding == Finding::readings_apart)
+    text = "the person's interval and the one given geometry and sensors exclude each other; " + text;
   if (finding == Finding::narrow_and_far)
     text = "a simplification of the model, or the EMG, may be what is fitted; " + text;
   if (finding == Finding::cut_off)

@@ -13,9 +13,11 @@ struct PosteriorFacts {
   bool approximate = false;                   ///< The interval comes from the normal approximation.
   bool nuisance_gain = false;                 ///< The gain of an EMG channel: a scale that F_max shares.
   double value = 0.0, low = 0.0, high = 0.0;  ///< The person's value and 95 % interval.
-  double low_given = 0.0, high_given = 0.0;   ///< The 95 % interval with geometry and sensors exact.
+  /// Value and 95 % interval with geometry and sensors exact.
+  double given = 0.0, low_given = 0.0, high_given = 0.0;
   /// 1 - posterior variance / prior variance; empty: no prior.
   std::optional<double> contraction;
+  std::optional<double> contraction_given;  ///< The same with geometry and sensors exact.
   /// Distance of the value from the prior's mean, in its standard deviations; empty: no prior.
   std::optional<double> prior_distance;
   bool possible = true;  ///< A muscle can have this value.
@@ -28,22 +30,24 @@ struct PosteriorFacts {
   SourceShares shares{};
 };
 
-/// The answer to six questions: did the search converge; did the muscle act at more than one
-/// length; is the number possible and does the fit explain the torque; does the model hold; how
-/// much narrower than the prior is the interval; is it narrow enough to use.
+/// The answer to these questions: did the search converge; did the muscle act at more than one length; is the number
+/// possible and does the fit explain the torque; is the interval narrow with geometry and sensors exact; how much
+/// narrower than the prior is the person's; is it narrow enough to use; does the model hold; do both readings agree.
 enum class Finding {
   not_converged,
   one_length,  ///< VerdictRules::least_length_span: the interval is that of F_max's prior.
   impossible,
-  unexplained,     ///< R2 of the fit below VerdictRules::least_r2.
-  as_the_prior,    ///< Contraction below VerdictRules::least_shrinkage.
-  far_from_prior,  ///< So, and farther from the prior than VerdictRules::prior_conflict.
-  too_wide,        ///< Beyond VerdictRules::weak_half_width.
-  wide,            ///< Beyond VerdictRules::identified_half_width.
-  wrong_model,     ///< Narrow enough, but the model errs by more than VerdictRules::model_error.
-  narrow_and_far,  ///< Narrow enough, but farther than VerdictRules::prior_conflict.
-  cut_off,         ///< Narrow enough, but by a bound.
-  half_the_prior,  ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
+  unexplained,      ///< R2 of the fit below VerdictRules::least_r2.
+  narrow_if_given,  ///< Narrow with geometry and sensors exact, and not for the person.
+  readings_apart,   ///< Narrow, but the person's interval and the one with exact geometry exclude each other.
+  as_the_prior,     ///< Contraction below VerdictRules::least_shrinkage.
+  far_from_prior,   ///< So, and farther from the prior than VerdictRules::prior_conflict.
+  too_wide,         ///< Beyond VerdictRules::weak_half_width.
+  wide,             ///< Beyond VerdictRules::identified_half_width.
+  wrong_model,      ///< Narrow enough, but the model errs by more than VerdictRules::model_error.
+  narrow_and_far,   ///< Narrow enough, but farther than VerdictRules::prior_conflict.
+  cut_off,          ///< Narrow enough, but by a bound.
+  half_the_prior,   ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
   narrow
 };
 
