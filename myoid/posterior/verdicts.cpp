@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/units.h"
 #include "myoid/intervals/verdict_rules.h"
 
 namespace myoid::identification {
@@ -24,9 +25,24 @@ bool is_far(const PosteriorFacts& facts) {
   return facts.prior_distance && *facts.prior_distance > kVerdictRules.prior_conflict;
 }
 
-std::string size_text(double half, bool is_delay) {
-  if (is_delay) return fmt::format("± {:.0f} ms", 1000.0 * half);
+std::string size_text(double half, const PosteriorFacts& facts) {
+  if (facts.is_delay) return fmt::format("± {:.0f} ms", 1000.0 * half);
+  if (facts.is_angle) return fmt::format("± {:.2g}°", half / kDegree);
   return half < 0.995 ? fmt::format("± {:.2g} %", 100.0 * half) : fmt::format("± {:.0f} %", 100.0 * half);
+}
+
+bool is_absolute(const PosteriorFacts& facts) { return facts.is_delay || facts.is_angle; }
+
+double identified_half(const PosteriorFacts& facts) {
+  return facts.is_delay   ? kVerdictRules.delay_identified_s
+         : facts.is_angle ? kVerdictRules.angle_identified_rad
+                          : kVerdictRules.identified_half_width;
+}
+
+double weak_half(const PosteriorFacts& facts) {
+  return facts.is_delay   ? kVerdictRules.delay_weak_s
+         : facts.is_angle ? kVerdictRules.angle_weak_rad
+                          : kVerdictRules.weak_half_width;
 }
 
 std::string sources_text(const SourceShares& shares) {
@@ -49,12 +65,13 @@ Finding of_person(const PosteriorFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
   if (facts.contraction && *facts.contraction < rules.least_shrinkage)
     return is_far(facts) ? Finding::far_from_prior : Finding::as_the_prior;
-  const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
-  if (half > (facts.is_delay ? rules.delay_weak_s : rules.weak_half_width)) return Finding::too_wide;
-  if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width)) return Finding::wide;
+  const double half = half_width(facts.value, facts.low, facts.high, is_absolute(facts));
+  if (half > weak_half(facts)) return Finding::too_wide;
+  if (half > identified_half(facts)) return Finding::wide;
   if (facts.model_error > rules.model_error) return Finding::wrong_model;
   if (is_far(facts)) return Finding::narrow_and_far;
   if (facts.at_bound) return Finding::cut_off;
+  if (facts.at_range_end) return Finding::range_ends;
   if (facts.contraction && *facts.contraction < rules.half_shrinkage) return Finding::half_the_prior;
   if (facts.high < facts.low_given || facts.high_given < facts.low) return Finding::readings_apart;
   return Finding::narrow;
@@ -63,10 +80,10 @@ Finding of_person(const PosteriorFacts& facts) {
 /// Returns true if the number is narrow with geometry and sensors exact, and by the recording, not by its prior.
 bool narrow_if_given(const PosteriorFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
-  const double half = half_width(facts.given, facts.low_given, facts.high_given, facts.is_delay);
+  const double half = half_width(facts.given, facts.low_given, facts.high_given, is_absolute(facts));
   const bool told = !facts.contraction_given || *facts.contraction_given >= rules.half_shrinkage;
-  return half > 0.0 && half <= (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width) && told &&
-         facts.model_error <= rules.model_error && !is_far(facts) && !facts.at_bound;
+  return half > 0.0 && half <= identified_half(facts) && told && facts.model_error <= rules.model_error &&
+         !is_far(facts) && !facts.at_bound && !facts.at_range_end;
 }
 
 }  // namespace
@@ -100,6 +117,7 @@ Verdict verdict_of(Finding finding) {
     case Finding::narrow_and_far:
     case Finding::half_the_prior:
     case Finding::readings_apart:
+    case Finding::range_ends:
       return Verdict::weak;
     case Finding::narrow_if_given:
       return Verdict::reproducible;
@@ -112,10 +130,10 @@ Verdict verdict_of(Finding finding) {
 std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (finding == Finding::not_converged) return "the search for the posterior's mode did not end";
   if (finding == Finding::one_length) return one_length_text(*facts.length_span);
-  const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
-  const double given = half_width(facts.given, facts.low_given, facts.high_given, facts.is_delay);
-  std::string text = fmt::format("{} of the person, {} given geometry and sensors", size_text(half, facts.is_delay),
-                                 size_text(given, facts.is_delay));
+  const double half = half_width(facts.value, facts.low, facts.high, is_absolute(facts));
+  const double given = half_width(facts.given, facts.low_given, facts.high_given, is_absolute(facts));
+  std::string text =
+      fmt::format("{} of the person, {} given geometry and sensors", size_text(half, facts), size_text(given, facts));
   if (facts.contraction)
     text += fmt::format("; the recording takes {:.0f} % off the prior's variance",
                         100.0 * std::max(0.0, *facts.contraction));
@@ -128,6 +146,8 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
     text = "the person's interval and the one given geometry and sensors exclude each other; " + text;
   if (finding == Finding::narrow_and_far)
     text = "a simplification of the model, or the EMG, may be what is fitted; " + text;
+  if (finding == Finding::range_ends)
+    text = "the recorded range ends here, and the maximum may lie beyond: record a wider range; " + text;
   if (finding == Finding::cut_off)
     text = "the interval ends at a bound: the recording pulls beyond what is physically possible; " + text;
   if (finding == Finding::wrong_model)
