@@ -14,6 +14,7 @@
 #include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
+#include "myoid/results/voluntary_report.h"
 
 namespace myoid::cli {
 namespace {
@@ -32,6 +33,7 @@ void print_method(const identification::IdentificationResult& method, std::size_
     parameter = std::max(parameter, labelled(*line.estimate).size());
   }
   say("\nmethod {}: {}\n", method.method, method.message);
+  for (const std::string& text : voluntary_sentences(method)) say("greatest voluntary torque of {}\n", text);
   say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter", parameter, "case", "initial",
       "estimate", "95 % interval", "verdict");
   bool nuisances = false;

@@ -16,8 +16,11 @@ struct VoluntaryCurve {
   bool of_joint = false;             ///< `owner` is the joint.
   int direction = 1;                 ///< 1: muscles with positive moment arms; -1: with negative ones.
   std::vector<std::string> muscles;  ///< The muscles that pull.
-  Eigen::VectorXd angle_rad;         ///< n, rising; empty where the study has no angles.
-  Eigen::VectorXd length_m;          ///< n: musculotendon length; empty for a joint.
+  /// The end of the names of its parameters: "" of a muscle in a study of one joint, "_at_knee_angle" in one of several
+  /// joints, "_positive" or "_negative" of a joint.
+  std::string ending;
+  Eigen::VectorXd angle_rad;  ///< n, rising; empty where the study has no angles.
+  Eigen::VectorXd length_m;   ///< n: musculotendon length; empty for a joint.
   /// n: the torque's size [N m], and its 95 % interval of the person.
   Eigen::VectorXd torque_nm, low_nm, high_nm;
   Eigen::VectorXd given_low_nm, given_high_nm;  ///< n: interval given geometry and sensors.
@@ -33,13 +36,14 @@ inline constexpr std::string_view kVoluntaryPower = "voluntary_power";
 /// Returns true for the parameters of greatest voluntary torques, of their angles and of powers.
 [[nodiscard]] constexpr bool is_voluntary(std::string_view parameter) { return parameter.starts_with("voluntary_"); }
 
+/// Returns true for powers, which follow from the torque.
+[[nodiscard]] constexpr bool is_voluntary_power(std::string_view parameter) {
+  return parameter.starts_with(kVoluntaryPower);
+}
+
 /// Returns true for an angle of the greatest torque: an interval scale, of which no share can be taken.
 [[nodiscard]] constexpr bool is_voluntary_angle(std::string_view parameter) {
   return parameter.starts_with(kVoluntaryAngle);
 }
-
-/// Returns the ending of the parameters of a curve: "" of a muscle in a study of one joint, "_at_knee_angle" in one of
-/// several joints, "_positive" or "_negative" of a joint.
-[[nodiscard]] std::string voluntary_ending(const VoluntaryCurve& curve, bool several_joints);
 
 }  // namespace myoid::identification

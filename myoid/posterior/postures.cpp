@@ -86,15 +86,16 @@ Bins bins_of(const std::vector<View>& views, const std::vector<Eigen::VectorXd>&
   return bins;
 }
 
-/// Fills the even places from the bins that have samples.
+/// Fills the even places, the edges of the bins, from the bins that have samples.
 void interpolate(const Bins& bins, Postures& postures) {
   std::vector<Eigen::Index> filled;
   for (Eigen::Index bin = 0; bin < bins.samples.size(); ++bin)
     if (bins.samples[bin] > 0.0) filled.push_back(bin);
-  const double first = bins.place[filled.front()], last = bins.place[filled.back()];
-  const Eigen::Index count = 1 + std::lround((last - first) / bins.width), muscles = bins.length_m.cols();
-  postures.place = Eigen::VectorXd::LinSpaced(count, first, last);
-  if (count == 1) postures.place[0] = first;
+  const bool one = filled.size() < 2;
+  const Eigen::Index count = one ? 1 : bins.samples.size() + 1, muscles = bins.length_m.cols();
+  postures.place =
+      Eigen::VectorXd::LinSpaced(count, bins.first, bins.first + bins.width * static_cast<double>(bins.samples.size()));
+  if (one) postures.place[0] = bins.place[filled.front()];
   postures.length_m.resize(count, muscles);
   postures.arm_m.resize(count, muscles);
   std::size_t before = 0;
@@ -103,7 +104,7 @@ void interpolate(const Bins& bins, Postures& postures) {
     while (before + 2 < filled.size() && bins.place[filled[before + 1]] < at) ++before;
     const Eigen::Index left = filled[before], right = filled[std::min(before + 1, filled.size() - 1)];
     const double apart = bins.place[right] - bins.place[left];
-    const double share = apart > 0.0 ? std::clamp((at - bins.place[left]) / apart, 0.0, 1.0) : 0.0;
+    const double share = apart > 0.0 ? (at - bins.place[left]) / apart : 0.0;  // beyond the outer bins, too
     postures.length_m.row(i) = (1.0 - share) * bins.length_m.row(left) + share * bins.length_m.row(right);
     postures.arm_m.row(i) = (1.0 - share) * bins.arm_m.row(left) + share * bins.arm_m.row(right);
   }

@@ -30,8 +30,8 @@ TEST(Postures, HaveTheRecordedLengthsOverTheRecordedRange) {
   const Postures found = postures(data, "elbow", 0);
   ASSERT_TRUE(found.over_angle);
   ASSERT_GT(found.count(), 20);
-  EXPECT_NEAR(found.place[0], 0.2, 0.04);
-  EXPECT_NEAR(found.place[found.count() - 1], 2.0, 0.04);
+  EXPECT_NEAR(found.place[0], 0.2, 1e-9);
+  EXPECT_NEAR(found.place[found.count() - 1], 2.0, 1e-9);
   for (Eigen::Index i = 0; i < found.count(); ++i) {
     EXPECT_NEAR(found.length_m(i, 0), 0.3 - 0.04 * found.place[i], 1e-9);
     EXPECT_NEAR(found.arm_m(i, 0), 0.04, 1e-12);

@@ -72,14 +72,11 @@ class Rows {
        const Postures& postures,
        bool several_joints,
        const Eigen::MatrixXd& draws)
-      : fit_(fit),
-        curve_(std::move(curve)),
-        torque_(torque),
-        place_(postures.place),
-        draws_(draws),
-        ending_(voluntary_ending(curve_, several_joints)) {
+      : fit_(fit), curve_(std::move(curve)), torque_(torque), place_(postures.place), draws_(draws) {
+    curve_.ending = curve_.of_joint  ? (curve_.direction > 0 ? "_positive" : "_negative")
+                    : several_joints ? "_at_" + curve_.joint
+                                     : std::string();
     if (postures.over_angle) curve_.angle_rad = place_;
-    if (!curve_.of_joint && curve_.length_m.size() == 0) curve_.length_m = place_;
     add_bands();
   }
 
@@ -108,7 +105,7 @@ class Rows {
   /// Returns a row with both readings and its verdict.
   [[nodiscard]] ParameterEstimate row(
       const std::string& name, Unit unit, const Reading& person, const Reading& given, PosteriorFacts facts) const {
-    ParameterEstimate e{.muscle = curve_.owner, .tied_to = {}, .parameter = name + ending_, .unit = unit};
+    ParameterEstimate e{.muscle = curve_.owner, .tied_to = {}, .parameter = name + curve_.ending, .unit = unit};
     e.method = "torque";
     e.fit_case = "both";
     e.estimate = facts.value = person.value;
@@ -176,7 +173,6 @@ class Rows {
   const OwnTorque& torque_;
   const Eigen::VectorXd& place_;
   const Eigen::MatrixXd& draws_;
-  std::string ending_;
 };
 
 /// Collects the torques of all muscles at all joints.

@@ -108,6 +108,12 @@ double repeat_error(const ParameterEstimate& e) {
   return *e.std_error * std::sqrt(std::max(own, 0.0));
 }
 
+/// Returns true if changes of the number are shares of it.
+bool is_ratio_scale(const std::string& parameter) {
+  return identification::is_voluntary(parameter) ? !identification::is_voluntary_angle(parameter)
+                                                 : identification::parameter_field(parameter).logarithmic;
+}
+
 /// A number in one session, and its standard error between sessions.
 struct OfSession {
   double value = 0.0, sd = 0.0;
@@ -118,7 +124,7 @@ std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
   for (const identification::RouteInterval& route : e.routes) {
     if (route.route != "geometry_and_sensors_exact" || !route.low || !route.high) continue;
     const double low = *route.low, high = *route.high;
-    const bool ratio = identification::parameter_field(e.parameter).logarithmic && low > 0.0;
+    const bool ratio = is_ratio_scale(e.parameter) && low > 0.0;
     const OfSession of{.value = ratio ? std::sqrt(low * high) : 0.5 * (low + high),
                        .sd = (high - low) / (2.0 * kNormal95)};
     if (of.sd > 0.0) return of;

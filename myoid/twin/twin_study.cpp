@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
+#include "myoid/core/units.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/math/statistics.h"
@@ -22,6 +24,7 @@
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
 #include "myoid/twin/synthetic_recording.h"
+#include "myoid/twin/voluntary_truth.h"
 #include "myoid/twin/write_recording.h"
 
 namespace myoid::twin {
@@ -31,6 +34,7 @@ using identification::ParameterEstimate;
 using identification::Verdict;
 
 constexpr double kDelayUnit_s = 0.1;
+constexpr double kAngleUnit_rad = 100.0 * kDegree;
 
 /// Returns the study of the recording, with the model in memory.
 Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& options) {
@@ -68,6 +72,13 @@ std::map<std::pair<std::string, std::string>, double> truth_of(const twin::Virtu
   return truth;
 }
 
+/// Returns the angles of the curves; empty: they have none.
+std::optional<muscle::Range> range_of(const std::vector<identification::VoluntaryCurve>& curves) {
+  const Eigen::VectorXd& angle_rad = curves.front().angle_rad;
+  if (angle_rad.size() == 0) return std::nullopt;
+  return muscle::Range{angle_rad[0], angle_rad[angle_rad.size() - 1]};
+}
+
 struct OnePerson {
   std::vector<TwinRow> rows;
   std::vector<TwinPrediction> predictions;
@@ -79,7 +90,7 @@ OnePerson one_person(const twin::Protocol& protocol, std::uint64_t seed, const T
   try {
     twin::VirtualRecording recording = twin::make_virtual_recording(protocol, seed);
     const Study study = study_of(recording, options);
-    const auto truth = truth_of(recording);
+    auto truth = truth_of(recording);
     RunOptions run;
     run.progress.stop = options.progress.stop;
     run.inform_forces = false;
@@ -92,6 +103,11 @@ OnePerson one_person(const twin::Protocol& protocol, std::uint64_t seed, const T
         person.failures.push_back({seed, fmt::format("{}: {}", trial.spec.name, trial.failure())});
     }
     for (const identification::IdentificationResult& method : result.fit.methods) {
+      // Over the angles that the run reports. Without a maximal contraction it reports another effort.
+      if (!method.voluntary.empty() && method.voluntary.front().from_mvc) {
+        for (const VoluntaryTruth& of : voluntary_truth(recording, range_of(method.voluntary)))
+          truth[{of.owner, of.parameter}] = of.value;
+      }
       for (const ParameterEstimate& e : method.estimates) {
         const auto it = truth.find({e.muscle, e.parameter});
         if (it != truth.end()) person.rows.push_back({seed, it->second, e});
@@ -135,7 +151,9 @@ TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
     if (e.ci_low && e.ci_high) {
       ++s.with_interval;
       covered += row->covered() ? 1 : 0;
-      const double unit = e.parameter == "emg_delay" ? kDelayUnit_s : std::abs(row->truth);
+      const double unit = e.parameter == "emg_delay"                        ? kDelayUnit_s
+                          : identification::is_voluntary_angle(e.parameter) ? kAngleUnit_rad
+                                                                            : std::abs(row->truth);
       widths.push_back(0.5 * (*e.ci_high - *e.ci_low) / unit);
     }
     if (e.shrinkage) shrinkages.push_back(*e.shrinkage);
@@ -171,6 +189,7 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6
 
 double TwinRow::error() const {
   if (estimate.parameter == "emg_delay") return (estimate.estimate - truth) / kDelayUnit_s;
+  if (identification::is_voluntary_angle(estimate.parameter)) return (estimate.estimate - truth) / kAngleUnit_rad;
   return (estimate.estimate - truth) / std::abs(truth);
 }
 
@@ -256,17 +275,18 @@ std::string persons_text(const TwinStudyResult& result) {
 std::string summary_text(const TwinStudyResult& result) {
   std::string summary =
       "method,case,muscle,parameter,count,bias,median_error,mad,rmse,within_5,within_10,within_15,within_20,prior_"
-      "within_10,coverage,half_width,shrinkage,identified,weak,prior_dominated,not_identifiable,non_physical,"
-      "identified_and_within_10,identified_but_not,not_identified_but_within_10,not_identified_and_not,identified_"
+      "within_10,coverage,half_width,shrinkage,identified,reproducible,weak,prior_dominated,not_identifiable,non_"
+      "physical,identified_and_within_10,identified_but_not,not_identified_but_within_10,not_identified_and_not,"
+      "identified_"
       "within_15,outside_physical\n";
   for (const TwinSummary& s : summarize(result)) {
-    summary +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.method,
-                    s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error), cell(s.mad),
-                    cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15), cell(s.within_20),
-                    cell(s.prior_within_10), cell(s.coverage), cell(s.half_width), cell(s.shrinkage), s.verdicts[0],
-                    s.verdicts[1], s.verdicts[2], s.verdicts[3], s.verdicts[4], s.identified_good, s.identified_bad,
-                    s.other_good, s.other_bad, s.identified_within_15, s.outside_physical);
+    summary += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                           s.method, s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error),
+                           cell(s.mad), cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15),
+                           cell(s.within_20), cell(s.prior_within_10), cell(s.coverage), cell(s.half_width),
+                           cell(s.shrinkage), s.verdicts[0], s.verdicts[1], s.verdicts[2], s.verdicts[3], s.verdicts[4],
+                           s.verdicts[5], s.identified_good, s.identified_bad, s.other_good, s.other_bad,
+                           s.identified_within_15, s.outside_physical);
   }
   return summary;
 }

@@ -27,7 +27,8 @@ struct TwinRow {
   double truth = 0.0;
   identification::ParameterEstimate estimate;
 
-  /// Returns the error relative to the truth; for the EMG delay in units of 100 ms, so that 0.1 is 10 ms.
+  /// Returns the error relative to the truth; for the EMG delay in units of 100 ms, so that 0.1 is 10 ms; for an
+  /// angle in units of 100 degrees.
   [[nodiscard]] double error() const;
   [[nodiscard]] bool covered() const;  ///< The 95 % interval holds the truth.
 };
@@ -75,7 +76,7 @@ struct TwinSummary {
   double coverage = 0.0;    ///< Share of the 95 % intervals that hold the truth.
   double half_width = 0.0;  ///< Median, in the unit of the error.
   double shrinkage = 0.0;   ///< Median.
-  int verdicts[5] = {};     ///< As identification::Verdict.
+  int verdicts[6] = {};     ///< As identification::Verdict.
   /// Confusion: the verdict `identified` against an error below 10 %.
   int identified_good = 0, identified_bad = 0, other_good = 0, other_bad = 0;
   int identified_within_15 = 0;  ///< Identified numbers within 15 %.
