@@ -11,9 +11,9 @@
 namespace myoid::identification {
 namespace {
 
-constexpr double kAtRest = 1e-4;      // envelope of a muscle that does not pull
-constexpr Eigen::Index kPairs = 500;  // draws and their mirror images
-constexpr std::uint64_t kSeed = 33;
+constexpr double kAtRest = 1e-4;         // envelope of a muscle that does not pull
+constexpr Eigen::Index kMirrored = 500;  // draws and their mirror images
+constexpr std::uint64_t kVoluntarySeed = 33;
 
 /// Returns R with R R' = covariance, which may be singular.
 Eigen::MatrixXd root(const Eigen::MatrixXd& covariance) {
@@ -113,9 +113,9 @@ NormalTorque LinearReading::torque(const TrialRun& run, int direction) const {
 }
 
 Eigen::MatrixXd voluntary_draws(Eigen::Index places) {
-  math::Random random(kSeed);
-  Eigen::MatrixXd chance(places, 2 * kPairs);
-  for (Eigen::Index i = 0; i < kPairs; ++i) {
+  math::Random random(kVoluntarySeed);
+  Eigen::MatrixXd chance(places, 2 * kMirrored);
+  for (Eigen::Index i = 0; i < kMirrored; ++i) {
     chance.col(2 * i) = random.normals(places);
     chance.col(2 * i + 1) = -chance.col(2 * i);
   }

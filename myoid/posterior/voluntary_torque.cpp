@@ -176,7 +176,7 @@ class Rows {
 };
 
 /// Collects the torques of all muscles at all joints.
-struct Collector {
+struct OwnerTorques {
   const StudyData& data;
   const EstimatorOptions& options;
   const ParameterMap& map;
@@ -245,17 +245,17 @@ VoluntaryTorques voluntary_torques(const StudyData& data,
                                    const VoluntaryReading& given,
                                    const PosteriorFacts& fit) {
   const Likelihood& likelihood = of_person.likelihood;
-  Collector collector{data,
-                      options,
-                      likelihood.parameters(),
-                      likelihood.recorded().parts,
-                      fit,
-                      {likelihood, of_person.z, of_person.noise, of_person.covariance},
-                      {given.likelihood, given.z, given.noise, given.covariance},
-                      greatest_envelopes(likelihood, options.from_mvc)};
+  OwnerTorques torques{data,
+                       options,
+                       likelihood.parameters(),
+                       likelihood.recorded().parts,
+                       fit,
+                       {likelihood, of_person.z, of_person.noise, of_person.covariance},
+                       {given.likelihood, given.z, given.noise, given.covariance},
+                       greatest_envelopes(likelihood, options.from_mvc)};
   for (int joint = 0; joint < static_cast<int>(likelihood.parameters().joints().size()); ++joint)
-    collector.add_joint(joint);
-  return std::move(collector.all);
+    torques.add_joint(joint);
+  return std::move(torques.all);
 }
 
 }  // namespace myoid::identification
