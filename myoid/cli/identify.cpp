@@ -13,6 +13,7 @@
 #include "myoid/intervals/score.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/report/report.h"
+#include "myoid/results/voluntary_report.h"
 
 namespace myoid::cli {
 namespace {
@@ -21,9 +22,11 @@ using identification::StudyData;
 using identification::TrialData;
 
 void print_result(const identification::IdentificationResult& result, bool freed_speeds) {
+  for (const std::string& text : voluntary_sentences(result)) say("greatest voluntary torque of {}\n", text);
   say("{:<10} {:<36} {:<12} {:>14} {:>26}  {}\n", "muscle", "parameter", "branch", "estimate", "95 % interval",
       "verdict");
   for (const auto& e : result.estimates) {
+    if (identification::is_voluntary(e.parameter)) continue;
     const std::string parameter = fmt::format("{} [{}]", e.parameter, symbol(e.unit));
     say("{:<10} {:<36} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, parameter, e.fit_case,
         std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",

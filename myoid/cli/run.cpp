@@ -14,6 +14,7 @@
 #include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
+#include "myoid/results/voluntary_report.h"
 
 namespace myoid::cli {
 namespace {
@@ -34,6 +35,7 @@ void print_method(const identification::IdentificationResult& method, std::size_
   const bool readings = std::ranges::any_of(method.estimates, [](const auto& e) { return e.given_ci_low.has_value(); });
   const auto given = [&](const std::string& text) { return readings ? fmt::format(" {:>24}", text) : std::string(); };
   say("\nmethod {}: {}\n", method.method, method.message);
+  for (const std::string& text : voluntary_sentences(method)) say("greatest voluntary torque of {}\n", text);
   if (readings)
     say("95 % interval: of the person. Given: if geometry and sensors were exact, to compare sessions of the "
         "person.\n");

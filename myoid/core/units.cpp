@@ -48,6 +48,7 @@ constexpr std::array kExactWords = {
     UnitWord{"N.mm", {Unit::newton_meter, 1e-3}},
     UnitWord{"kg", {Unit::kilogram, 1.0}},
     UnitWord{"g", {Unit::kilogram, 1e-3}},
+    UnitWord{"W", {Unit::watt, 1.0}},
     UnitWord{"V", {Unit::volt, 1.0}},
     UnitWord{"mV", {Unit::volt, 1e-3}},
     UnitWord{"uV", {Unit::volt, 1e-6}},
@@ -74,10 +75,10 @@ constexpr std::array kLongWords = {
 
 std::string_view symbol(Unit unit) {
   // In the order of Unit.
-  constexpr std::array<std::string_view, 17> kSymbols{"1",     "s",     "Hz",      "m",      "m/s", "m/s^2",
+  constexpr std::array<std::string_view, 18> kSymbols{"1",     "s",     "Hz",      "m",      "m/s", "m/s^2",
                                                       "rad",   "rad/s", "rad/s^2", "N",      "N m", "N/m",
-                                                      "N s/m", "N m s", "kg",      "kg m^2", "V"};
-  static_assert(kSymbols.size() == static_cast<std::size_t>(Unit::volt) + 1);
+                                                      "N s/m", "N m s", "kg",      "kg m^2", "V",   "W"};
+  static_assert(kSymbols.size() == static_cast<std::size_t>(Unit::watt) + 1);
   return kSymbols.at(static_cast<std::size_t>(unit));
 }
 

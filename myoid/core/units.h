@@ -24,6 +24,7 @@ enum class Unit {
   kilogram,
   kilogram_meter2,
   volt,
+  watt,
 };
 
 /// Returns the printed symbol: "m", "m/s", "N m", "1" for a dimensionless quantity.

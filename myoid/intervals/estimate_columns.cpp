@@ -47,7 +47,7 @@ void read(const nlohmann::json& cell, bool& value) { value = cell.get<bool>(); }
 
 void read(const nlohmann::json& cell, Unit& value) {
   const auto text = cell.get<std::string>();
-  for (int unit = 0; unit <= static_cast<int>(Unit::volt); ++unit) {
+  for (int unit = 0; unit <= static_cast<int>(Unit::watt); ++unit) {
     if (symbol(static_cast<Unit>(unit)) == text) value = static_cast<Unit>(unit);
   }
 }

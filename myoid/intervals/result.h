@@ -12,6 +12,7 @@
 #include "myoid/core/units.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/intervals/score.h"
+#include "myoid/intervals/voluntary_curve.h"
 #include "myoid/math/least_squares.h"
 #include "myoid/muscle/hill_parameters.h"
 
@@ -176,6 +177,8 @@ struct IdentificationResult {
   /// weights, which add to 1; else empty.
   Eigen::MatrixXd draws;
   Eigen::VectorXd draw_weights;
+  /// Greatest voluntary torques over the joints' angles, whose numbers are the first of `estimates`; by the posterior.
+  std::vector<VoluntaryCurve> voluntary;
   /// Hyperparameters of the errors (posterior/noise_model.h) of the posterior; else empty.
   Eigen::VectorXd noise;
   /// Sets of numbers that the data hardly separate, as sentences.

@@ -41,5 +41,31 @@ TEST(VerdictCap, TheFirstReasonStands) {
   EXPECT_EQ(result.estimates[2].reason, "");
 }
 
+TEST(VerdictCap, OfAStrengthIsOfTheTorquesThatItMakes) {
+  IdentificationResult result;
+  result.method = "torque";
+  VoluntaryCurve joint{.owner = "elbow", .joint = "elbow", .of_joint = true, .direction = 1, .muscles = {"BIC", "BRA"}};
+  joint.ending = "_positive";
+  result.voluntary = {joint};
+  const auto add = [&](const char* owner, const char* parameter) {
+    ParameterEstimate& e = result.estimates.emplace_back();
+    e.muscle = owner;
+    e.parameter = parameter;
+    e.verdict = Verdict::identified;
+  };
+  add("BIC", "voluntary_torque");
+  add("BIC", "voluntary_torque_angle");
+  add("BRA", "voluntary_power_60");
+  add("elbow", "voluntary_torque_positive");
+  add("elbow", "voluntary_torque_negative");
+  apply({{.reason = "level", .owners = {"BIC"}, .parameters = {"max_isometric_force"}}}, result);
+  const auto verdict = [&](std::size_t i) { return result.estimates[i].verdict; };
+  EXPECT_EQ(verdict(0), Verdict::weak);
+  EXPECT_EQ(verdict(1), Verdict::identified);
+  EXPECT_EQ(verdict(2), Verdict::identified);
+  EXPECT_EQ(verdict(3), Verdict::weak);
+  EXPECT_EQ(verdict(4), Verdict::identified);
+}
+
 }  // namespace
 }  // namespace myoid::identification

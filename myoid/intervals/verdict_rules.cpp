@@ -19,9 +19,12 @@ std::string verdict_rules_markdown() {
   };
   const auto percent = [](double share) { return fmt::format("{:g} %", 100.0 * share); };
   const auto ms = [](double seconds) { return fmt::format("{:g} ms", 1000.0 * seconds); };
+  const auto degrees = [](double angle_rad) { return fmt::format("{:.0f}°", angle_rad / kDegree); };
   row("farther end of the 95 % interval from the value, of `identified`",
-      fmt::format("at most {}; delay: {}", percent(r.identified_half_width), ms(r.delay_identified_s)));
-  row("the same, of `weak`", fmt::format("at most {}; delay: {}", percent(r.weak_half_width), ms(r.delay_weak_s)));
+      fmt::format("at most {}; delay: {}; angle: {}", percent(r.identified_half_width), ms(r.delay_identified_s),
+                  degrees(r.angle_identified_rad)));
+  row("the same, of `weak`", fmt::format("at most {}; delay: {}; angle: {}", percent(r.weak_half_width),
+                                         ms(r.delay_weak_s), degrees(r.angle_weak_rad)));
   row("1 − posterior/prior variance, of `prior_dominated`", fmt::format("below {:g}", r.least_shrinkage));
   row("the same, of `weak` at best", fmt::format("below {:g}", r.half_shrinkage));
   row("the recording does not narrow the prior", fmt::format("below {:g}", r.any_shrinkage));

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "myoid/core/units.h"
 #include "myoid/muscle/literature.h"
 
 namespace myoid::identification {
@@ -16,6 +17,8 @@ struct VerdictRules {
   double half_shrinkage = 0.50;       ///< Below, at most `weak`: half of the information is the prior's.
   double delay_identified_s = 0.012;  ///< Half width of the EMG delay, absolute.
   double delay_weak_s = 0.05;
+  double angle_identified_rad = 10.0 * kDegree;  ///< Half width of an angle, absolute.
+  double angle_weak_rad = 30.0 * kDegree;
   double model_error = 0.20;  ///< Systematic error of the model above which nothing is `identified`.
   /// Share of a moving joint's torque that its angle, rate and acceleration explain, above which
   /// nothing of a muscle is `identified`.

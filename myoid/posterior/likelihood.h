@@ -114,6 +114,19 @@ class Likelihood {
                                      const NoiseValues& noise,
                                      const UnseenGiven& unseen) const;
 
+  /// The torque of the muscles alone and how it changes, n J rows.
+  struct ActiveTorque {
+    Eigen::VectorXd torque_nm;  ///< At z, without the joint's own torque.
+    Eigen::MatrixXd by_z;       ///< n J x unknowns.
+    /// n J x quantities: change by each unseen quantity over its standard deviation. The scale of the torque changes
+    /// the measurement and not the muscles: 0.
+    Eigen::MatrixXd by_unseen;
+  };
+  /// Returns the muscles' torque in a run. The columns of S are those of the reference, as in `unseen_given`.
+  [[nodiscard]] ActiveTorque active_torque(const TrialRun& run,
+                                           const Eigen::VectorXd& z,
+                                           const NoiseValues& noise) const;
+
   struct Residuals {
     Eigen::VectorXd measured_nm;                           ///< L y, all runs one after the other.
     Eigen::VectorXd predicted_nm;                          ///< L T^.

@@ -124,6 +124,33 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
   return of;
 }
 
+Likelihood::ActiveTorque Likelihood::active_torque(const TrialRun& run,
+                                                   const Eigen::VectorXd& z,
+                                                   const NoiseValues& noise) const {
+  const Point point(map_, z);
+  const ModelValues reference = map_.values(reference_);
+  const auto of_all = [&](const TrialRun& here) {
+    const RunEvaluation evaluation(here, map_, options_.lag, point.values, &point.by_owner);
+    std::vector<RunEvaluation> at;
+    at.emplace_back(here, map_, options_.lag, reference, nullptr);
+    return ActiveTorque{evaluation.signals().torque_nm, evaluation.jacobian(map_.size()),
+                        unseen_quantities(data_, options_, map_, recorded_, {here}, reference, at).columns.front()};
+  };
+  // Muscles without moment arms leave the joint's own torque.
+  TrialRun bare = run;
+  bare.arm_m.setZero();
+  ActiveTorque found = of_all(run);
+  const ActiveTorque of_joint = of_all(bare);
+  found.torque_nm -= of_joint.torque_nm;
+  found.by_z -= of_joint.by_z;
+  found.by_unseen -= of_joint.by_unseen;
+  Eigen::VectorXd weight = weights(noise);
+  for (std::size_t i = 0; i < unseen_.quantities.size(); ++i)
+    if (unseen_.quantities[i].source == Source::torque_scale) weight[static_cast<Eigen::Index>(i)] = 0.0;
+  found.by_unseen = (found.by_unseen * weight.asDiagonal()).eval();
+  return found;
+}
+
 Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z) const {
   const ModelValues values = map_.values(z);
   Residuals result{Eigen::VectorXd(rows_), Eigen::VectorXd(rows_),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <memory>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
@@ -19,6 +21,7 @@
 #include "myoid/posterior/draws.h"
 #include "myoid/posterior/exploration.h"
 #include "myoid/posterior/verdicts.h"
+#include "myoid/posterior/voluntary_torque.h"
 
 namespace myoid::identification {
 namespace {
@@ -68,12 +71,15 @@ struct Given {
   Eigen::VectorXd value, low, high;
   Eigen::VectorXd narrower;  ///< Standard deviation over the person's, per unknown.
   Eigen::MatrixXd z;         ///< Draws, unknowns x draws of equal weight.
+  std::shared_ptr<const Density> density = nullptr;
+  NoiseValues noise = {};
 };
 
 /// The interval has the shape of the person's: the distances of its ends from the mode are those of the person's, by
 /// the ratio of both standard deviations. The draws are normal about the mode.
 Given given_geometry(const Candidate& best, const Sample& sample, const Progress& progress) {
-  Density density = *best.density;
+  const auto of_given = std::make_shared<Density>(*best.density);
+  Density& density = *of_given;
   const Eigen::VectorXd of_person = gauss_newton_covariance(density, best.mode.x).diagonal().cwiseMax(0.0).cwiseSqrt();
   density.believe(Believed::geometry_and_sensors_exact);
   const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRoughPromise);
@@ -82,6 +88,8 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   const std::vector<Unknown>& free = density.parameters().free();
   const auto p = static_cast<Eigen::Index>(free.size());
   Given given{.value = density.z_of(mode.x)};
+  given.density = of_given;
+  given.noise = density.noise_of(mode.x);
   given.narrower = (sd.array() / of_person.array().max(1e-300)).min(1.0).head(p);
   const auto end = [&](double share) {
     Eigen::VectorXd x = mode.x;
@@ -308,6 +316,27 @@ void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationRes
   result.draw_weights /= result.draw_weights.sum();
 }
 
+/// Puts the greatest voluntary torques before the muscles' numbers.
+void add_voluntary(const Reporting& of,
+                   const Density& density,
+                   const EstimatorOptions& options,
+                   IdentificationResult& result) {
+  PosteriorFacts fit;
+  fit.converged = of.converged;
+  fit.approximate = of.sample.approximate;
+  fit.r2 = result.r2;
+  fit.model_error = result.model_error;
+  const Eigen::MatrixXd off = of.given.z.colwise() - of.given.z.rowwise().mean();
+  VoluntaryTorques torques =
+      voluntary_torques(of.data, options, {density.likelihood(), result.solution, result.noise, result.covariance},
+                        {of.given.density->likelihood(), of.given.value, of.given.noise,
+                         off * off.transpose() / static_cast<double>(off.cols())},
+                        fit);
+  result.estimates.insert(result.estimates.begin(), std::make_move_iterator(torques.estimates.begin()),
+                          std::make_move_iterator(torques.estimates.end()));
+  result.voluntary = std::move(torques.curves);
+}
+
 void add_warnings(const std::vector<Candidate>& candidates,
                   const Sample& sample,
                   double unlikeness,
@@ -360,9 +389,18 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
       options.marginals ? given_geometry(best, drawn, options.progress) : not_asked_for(result.solution);
   const std::vector<SourceShares> shares = source_shares(best);
   const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
-  add_estimates({data, best.density->parameters(), drawn, shares, given, motion, result, best.mode.converged,
-                 options.from_mvc, options.unseen.strength},
-                result);
+  const Reporting of{data,
+                     best.density->parameters(),
+                     drawn,
+                     shares,
+                     given,
+                     motion,
+                     result,
+                     best.mode.converged,
+                     options.from_mvc,
+                     options.unseen.strength};
+  add_estimates(of, result);
+  if (options.marginals && options.predictions) add_voluntary(of, *best.density, options, result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, best.density->unlikeness(), result);
   if (best.mode.converged) result.diagnoses = signatures(result.estimates);

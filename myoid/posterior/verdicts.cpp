@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/units.h"
 #include "myoid/intervals/verdict_rules.h"
 
 namespace myoid::identification {
@@ -15,10 +16,12 @@ namespace {
 constexpr std::array<std::string_view, kSourceCount> kSourceNames = {
     "noise of the torque", "prior belief", "geometry", "electrodes", "scale of the torque", "error of the model"};
 
-/// Returns the distance from the value to the farther end: of a delay in seconds, else as a share.
+/// Returns the distance from the value to the farther end: of a delay in seconds, of an angle in radians, else as a
+/// share.
 double half_width(const PosteriorFacts& facts, double value, double low, double high) {
   const double half = std::max(value - low, high - value);
-  return facts.is_delay ? half : half / std::max(facts.usual_size.value_or(std::abs(value)), 1e-12);
+  const bool absolute = facts.is_delay || facts.is_angle;
+  return absolute ? half : half / std::max(facts.usual_size.value_or(std::abs(value)), 1e-12);
 }
 
 double half_of_person(const PosteriorFacts& facts) { return half_width(facts, facts.value, facts.low, facts.high); }
@@ -31,9 +34,22 @@ bool is_far(const PosteriorFacts& facts) {
   return facts.prior_distance && *facts.prior_distance > kVerdictRules.prior_conflict;
 }
 
-std::string size_text(double half, bool is_delay) {
-  if (is_delay) return fmt::format("± {:.0f} ms", 1000.0 * half);
+std::string size_text(double half, const PosteriorFacts& facts) {
+  if (facts.is_delay) return fmt::format("± {:.0f} ms", 1000.0 * half);
+  if (facts.is_angle) return fmt::format("± {:.2g}°", half / kDegree);
   return half < 0.995 ? fmt::format("± {:.2g} %", 100.0 * half) : fmt::format("± {:.0f} %", 100.0 * half);
+}
+
+double identified_half(const PosteriorFacts& facts) {
+  return facts.is_delay   ? kVerdictRules.delay_identified_s
+         : facts.is_angle ? kVerdictRules.angle_identified_rad
+                          : kVerdictRules.identified_half_width;
+}
+
+double weak_half(const PosteriorFacts& facts) {
+  return facts.is_delay   ? kVerdictRules.delay_weak_s
+         : facts.is_angle ? kVerdictRules.angle_weak_rad
+                          : kVerdictRules.weak_half_width;
 }
 
 std::string sources_text(const SourceShares& shares) {
@@ -57,12 +73,12 @@ Finding of_person(const PosteriorFacts& facts) {
   if (facts.contraction && *facts.contraction < rules.least_shrinkage)
     return is_far(facts) ? Finding::far_from_prior : Finding::as_the_prior;
   const double half = half_of_person(facts);
-  const bool too_wide = half > (facts.is_delay ? rules.delay_weak_s : rules.weak_half_width);
-  if (too_wide && !facts.usual_size) return Finding::too_wide;
-  if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width)) return Finding::wide;
+  if (half > weak_half(facts) && !facts.usual_size) return Finding::too_wide;
+  if (half > identified_half(facts)) return Finding::wide;
   if (facts.model_error > rules.model_error) return Finding::wrong_model;
   if (is_far(facts)) return Finding::narrow_and_far;
   if (facts.at_bound) return Finding::cut_off;
+  if (facts.at_range_end) return Finding::range_ends;
   if (facts.contraction && *facts.contraction < rules.half_shrinkage) return Finding::half_the_prior;
   if (facts.high < facts.low_given || facts.high_given < facts.low) return Finding::readings_apart;
   return Finding::narrow;
@@ -73,8 +89,8 @@ bool narrow_if_given(const PosteriorFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
   const double half = half_given(facts);
   const bool told = !facts.contraction_given || *facts.contraction_given >= rules.half_shrinkage;
-  return half > 0.0 && half <= (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width) && told &&
-         facts.model_error <= rules.model_error && !is_far(facts) && !facts.at_bound;
+  return half > 0.0 && half <= identified_half(facts) && told && facts.model_error <= rules.model_error &&
+         !is_far(facts) && !facts.at_bound && !facts.at_range_end;
 }
 
 }  // namespace
@@ -108,6 +124,7 @@ Verdict verdict_of(Finding finding) {
     case Finding::narrow_and_far:
     case Finding::half_the_prior:
     case Finding::readings_apart:
+    case Finding::range_ends:
       return Verdict::weak;
     case Finding::narrow_if_given:
       return Verdict::reproducible;
@@ -121,8 +138,8 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (finding == Finding::not_converged) return "the search for the posterior's mode did not end";
   if (finding == Finding::one_length) return one_length_text(*facts.length_span);
   std::string text =
-      fmt::format("{} of the person, {} given geometry and sensors{}", size_text(half_of_person(facts), facts.is_delay),
-                  size_text(half_given(facts), facts.is_delay), facts.usual_size ? ", as shares of what is usual" : "");
+      fmt::format("{} of the person, {} given geometry and sensors{}", size_text(half_of_person(facts), facts),
+                  size_text(half_given(facts), facts), facts.usual_size ? ", as shares of what is usual" : "");
   if (facts.contraction)
     text += fmt::format("; the recording takes {:.0f} % off the prior's variance",
                         100.0 * std::max(0.0, *facts.contraction));
@@ -135,6 +152,8 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
     text = "the person's interval and the one given geometry and sensors exclude each other; " + text;
   if (finding == Finding::narrow_and_far)
     text = "a simplification of the model, or the EMG, may be what is fitted; " + text;
+  if (finding == Finding::range_ends)
+    text = "the recorded range ends here, and the maximum may lie beyond: record a wider range; " + text;
   if (finding == Finding::cut_off)
     text = "the interval ends at a bound: the recording pulls beyond what is physically possible; " + text;
   if (finding == Finding::wrong_model)

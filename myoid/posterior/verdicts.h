@@ -25,7 +25,9 @@ struct PosteriorFacts {
   std::optional<double> usual_size;
   bool possible = true;  ///< A muscle can have this value.
   bool is_delay = false;
-  bool at_bound = false;  ///< An end of the interval is as good as a bound (VerdictRules::on_bound).
+  bool is_angle = false;      ///< Its width is absolute, as a delay's.
+  bool at_range_end = false;  ///< A place of a maximum, or its interval, ends where the recording ends.
+  bool at_bound = false;      ///< An end of the interval is as good as a bound (VerdictRules::on_bound).
   /// For l0 and l_sh: range of lengths at which the muscle is active, over l0.
   std::optional<double> length_span;
   double r2 = 1.0;           ///< R2 of the fitted torque.
@@ -50,6 +52,7 @@ enum class Finding {
   wrong_model,      ///< Narrow enough, but the model errs by more than VerdictRules::model_error.
   narrow_and_far,   ///< Narrow enough, but farther than VerdictRules::prior_conflict.
   cut_off,          ///< Narrow enough, but by a bound.
+  range_ends,       ///< Narrow enough, but the recorded range ends there: the maximum may lie beyond.
   half_the_prior,   ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
   narrow
 };

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/core/units.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -40,6 +42,30 @@ TEST(PosteriorVerdict, AWidthBeyondTheValueHasNoPowerOfTen) {
   PosteriorFacts facts = good();
   facts.high = 2.234 * facts.value;
   EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("± 123 % of the person"));
+}
+
+TEST(PosteriorVerdict, AnAnglesWidthIsInDegrees) {
+  PosteriorFacts facts = good();
+  facts.contraction.reset();
+  facts.is_angle = true;
+  facts.value = facts.given = 0.1;
+  facts.low = 0.1 - 8.0 * kDegree;
+  facts.high = 0.1 + 9.0 * kDegree;
+  facts.low_given = 0.1 - 2.0 * kDegree;
+  facts.high_given = 0.1 + 3.0 * kDegree;
+  EXPECT_EQ(finding(facts), Finding::narrow);
+  EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("± 9° of the person, ± 3° given"));
+  facts.at_range_end = true;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::weak);
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("may lie beyond"));
+  facts.at_range_end = false;
+  facts.high = 0.1 + 12.0 * kDegree;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::reproducible);
+  facts.low_given = facts.low;
+  facts.high_given = facts.high;
+  EXPECT_EQ(finding(facts), Finding::wide);
+  facts.high = 0.1 + 31.0 * kDegree;
+  EXPECT_EQ(finding(facts), Finding::too_wide);
 }
 
 TEST(PosteriorVerdict, WhereTheModelIsWrongNothingIsIdentified) {

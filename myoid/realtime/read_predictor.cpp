@@ -81,6 +81,7 @@ void set_values(const Study& study, const json& method, Numbers& numbers) {
   for (const json& row : method.at("estimates")) {
     if (!row.at("estimate").is_number()) continue;
     const auto name = row.at("parameter").get<std::string>();
+    if (name.starts_with("voluntary_")) continue;  // follows from the muscles' numbers
     for (const Place& place : numbers.of(parameter_field(name), row.at("muscle").get<std::string>()))
       *place.value = row.at("estimate").get<double>();
   }

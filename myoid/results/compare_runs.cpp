@@ -105,6 +105,12 @@ double repeat_error(const ParameterEstimate& e) {
   return *e.std_error * std::sqrt(std::max(own, 0.0));
 }
 
+/// Returns true if changes of the number are shares of it.
+bool is_ratio_scale(const std::string& parameter) {
+  return identification::is_voluntary(parameter) ? !identification::is_voluntary_angle(parameter)
+                                                 : identification::parameter_field(parameter).logarithmic;
+}
+
 /// A number in one session, and its standard error between sessions.
 struct OfSession {
   double value = 0.0, sd = 0.0;
@@ -115,7 +121,7 @@ struct OfSession {
 std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
   if (!e.given_ci_low || !e.given_ci_high) return std::nullopt;
   const double low = *e.given_ci_low, high = *e.given_ci_high;
-  const bool ratio = identification::parameter_field(e.parameter).logarithmic && low > 0.0;
+  const bool ratio = is_ratio_scale(e.parameter) && low > 0.0;
   const OfSession of{.value = ratio ? std::sqrt(low * high) : 0.5 * (low + high),
                      .sd = (high - low) / (2.0 * kNormal95)};
   return of.sd > 0.0 ? std::optional(of) : std::nullopt;

@@ -19,6 +19,7 @@
 #include "myoid/methods/prediction.h"
 #include "myoid/report/json_values.h"
 #include "myoid/report/tables.h"
+#include "myoid/results/voluntary_report.h"
 #include "myoid/run/prediction_gates.h"
 
 namespace myoid {
@@ -348,6 +349,8 @@ void write_parameter_files(const std::vector<IdentificationResult>& methods,
   };
   write_or_remove("fold_parameters.csv", !folds.empty(), [&] { return fold_parameters_csv(folds); });
   const auto drawn = std::ranges::find_if(methods, [](const auto& method) { return method.draws.size() > 0; });
+  const auto told = std::ranges::find_if(methods, [](const auto& method) { return !method.voluntary.empty(); });
+  write_or_remove("voluntary_torque.csv", told != methods.end(), [&] { return voluntary_csv(*told); });
   write_or_remove("posterior.csv", drawn != methods.end(), [&] { return posterior_csv(*drawn); });
 }
 

@@ -106,7 +106,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std
   std::vector<Group> groups;
   for (const bool nuisance : {false, true}) {
     for (const ParameterEstimate& e : method.estimates) {
-      if (identification::is_nuisance(e) != nuisance) continue;
+      if (identification::is_nuisance(e) != nuisance || identification::is_voluntary(e.parameter)) continue;
       const auto same = std::ranges::find_if(groups, [&](const Group& group) {
         const ParameterEstimate& first = *group.first;
         // Parameters tied by a ratio have different values.

@@ -16,7 +16,8 @@ struct EstimateLine {
 };
 
 /// Returns the estimates in reading order: first the muscles' and the person's, then the nuisances
-/// (`is_nuisance`). Equal tied numbers have one line. `muscle_count` counts the study's muscles.
+/// (`is_nuisance`), without the greatest voluntary torques, which have lines of their own (voluntary_report.h). Equal
+/// tied numbers have one line. `muscle_count` counts the study's muscles.
 [[nodiscard]] std::vector<EstimateLine> estimate_lines(const identification::IdentificationResult& method,
                                                        std::size_t muscle_count);
 

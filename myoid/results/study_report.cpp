@@ -17,6 +17,8 @@
 #include "myoid/results/phases_report.h"
 #include "myoid/results/study_figures.h"
 #include "myoid/results/torque_report.h"
+#include "myoid/results/voluntary_report.h"
+#include "myoid/run/effort_prior.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/study_emg.h"
 #include "myoid/study/study_ids.h"
@@ -74,11 +76,16 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   return list;
 }
 
+/// Returns true for a number of its own: no nuisance, not tied to another, and no power, which follows from the torque.
+bool is_counted(const ParameterEstimate& e) {
+  return !identification::is_nuisance(e) && e.tied_to.empty() && !identification::is_voluntary_power(e.parameter);
+}
+
 /// Lists the numbers that are identified: "max isometric force of BIC, TRI; delay".
 std::string identified_numbers(const IdentificationResult& fit) {
   std::vector<std::pair<std::string, std::vector<std::string>>> owners;
   for (const ParameterEstimate& e : fit.estimates) {
-    if (identification::is_nuisance(e) || !e.tied_to.empty() || e.verdict != Verdict::identified) continue;
+    if (!is_counted(e) || e.verdict != Verdict::identified) continue;
     auto of = std::ranges::find(owners, e.parameter, [](const auto& entry) { return entry.first; });
     if (of == owners.end()) of = owners.insert(owners.end(), {e.parameter, {}});
     of->second.push_back(e.muscle);
@@ -97,7 +104,7 @@ std::string headline(const StudyResult& result) {
   if (best == nullptr) return "Parameters by the source paper's method, each with an interval and a verdict.";
   int total = 0, sure = 0, repeat = 0, weak = 0;
   for (const ParameterEstimate& e : best->estimates) {
-    if (identification::is_nuisance(e) || !e.tied_to.empty()) continue;
+    if (!is_counted(e)) continue;
     ++total;
     if (e.verdict == Verdict::identified) ++sure;
     if (e.verdict == Verdict::reproducible) ++repeat;
@@ -229,6 +236,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   if (best != nullptr) report.forest = forest_rows(result, *best);
 
   std::vector<Section>& sections = report.sections;
+  if (best != nullptr && !best->voluntary.empty()) sections.push_back(voluntary_section(result, *best));
   sections.push_back(recordings_section(result));
   if (torque != nullptr) sections.push_back(parameters_section(result, *torque));
   if (force != nullptr)

@@ -293,7 +293,8 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
   for (report::Gate& gate : fit_gates(torque)) list.push_back(std::move(gate));
   const auto count = [&](Verdict v) {
     return std::ranges::count_if(torque.estimates, [&](const auto& e) {
-      return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
+      return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e) &&
+             !identification::is_voluntary_power(e.parameter);
     });
   };
   list.push_back(

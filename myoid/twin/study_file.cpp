@@ -8,6 +8,7 @@
 #include "myoid/files/quoted_text.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/hill_parameters.h"
+#include "myoid/twin/voluntary_truth.h"
 #include "myoid/twin/write_recording.h"
 #include "myoid/virtual_person/effective_truth.h"
 #include "myoid/virtual_person/truth_settings.h"
@@ -131,6 +132,8 @@ std::string truth_csv(const VirtualRecording& recording) {
     }
   }
   add_row(text, "subject", "emg_delay", "s", truth.emg_delay_s);
+  for (const VoluntaryTruth& of : voluntary_truth(recording))
+    add_row(text, of.owner, of.parameter, symbol(of.unit), of.value);
   for (std::size_t i = 0; truth.departures.paper_curves() && i < kArmMuscles.size(); ++i)
     add_row(text, kArmMuscles[i], "eccentric_slope_ratio", "1", muscle::slope_ratio(truth.muscles[i].velocity_law()));
   if (truth.arm) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
+#include "myoid/core/units.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/math/statistics.h"
@@ -23,6 +25,7 @@
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
 #include "myoid/twin/synthetic_recording.h"
+#include "myoid/twin/voluntary_truth.h"
 #include "myoid/twin/write_recording.h"
 
 namespace myoid::twin {
@@ -32,6 +35,7 @@ using identification::ParameterEstimate;
 using identification::Verdict;
 
 constexpr double kDelayUnit_s = 0.1;
+constexpr double kAngleUnit_rad = 100.0 * kDegree;
 
 /// Returns the study of the recording, with the model in memory.
 Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& options) {
@@ -69,6 +73,13 @@ std::map<std::pair<std::string, std::string>, double> truth_of(const twin::Virtu
   return truth;
 }
 
+/// Returns the angles of the curves; empty: they have none.
+std::optional<muscle::Range> range_of(const std::vector<identification::VoluntaryCurve>& curves) {
+  const Eigen::VectorXd& angle_rad = curves.front().angle_rad;
+  if (angle_rad.size() == 0) return std::nullopt;
+  return muscle::Range{angle_rad[0], angle_rad[angle_rad.size() - 1]};
+}
+
 struct OnePerson {
   std::vector<TwinRow> rows;
   std::vector<TwinPrediction> predictions;
@@ -80,7 +91,7 @@ OnePerson one_person(const twin::Protocol& protocol, std::uint64_t seed, const T
   try {
     twin::VirtualRecording recording = twin::make_virtual_recording(protocol, seed);
     const Study study = study_of(recording, options);
-    const auto truth = truth_of(recording);
+    auto truth = truth_of(recording);
     RunOptions run;
     run.progress.stop = options.progress.stop;
     run.inform_forces = false;
@@ -93,6 +104,11 @@ OnePerson one_person(const twin::Protocol& protocol, std::uint64_t seed, const T
         person.failures.push_back({seed, fmt::format("{}: {}", trial.spec.name, trial.failure())});
     }
     for (const identification::IdentificationResult& method : result.fit.methods) {
+      // Over the angles that the run reports. Without a maximal contraction it reports another effort.
+      if (!method.voluntary.empty() && method.voluntary.front().from_mvc) {
+        for (const VoluntaryTruth& of : voluntary_truth(recording, range_of(method.voluntary)))
+          truth[{of.owner, of.parameter}] = of.value;
+      }
       for (const ParameterEstimate& e : method.estimates) {
         const auto it = truth.find({e.muscle, e.parameter});
         if (it != truth.end()) person.rows.push_back({seed, it->second, e});
@@ -153,7 +169,9 @@ TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
     if (e.ci_low && e.ci_high) {
       ++s.with_interval;
       covered += row->covered() ? 1 : 0;
-      const double unit = e.parameter == "emg_delay" ? kDelayUnit_s : std::abs(row->truth);
+      const double unit = e.parameter == "emg_delay"                        ? kDelayUnit_s
+                          : identification::is_voluntary_angle(e.parameter) ? kAngleUnit_rad
+                                                                            : std::abs(row->truth);
       widths.push_back(0.5 * (*e.ci_high - *e.ci_low) / unit);
     }
     if (e.shrinkage) shrinkages.push_back(*e.shrinkage);
@@ -190,6 +208,7 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6
 
 double TwinRow::error() const {
   if (estimate.parameter == "emg_delay") return (estimate.estimate - truth) / kDelayUnit_s;
+  if (identification::is_voluntary_angle(estimate.parameter)) return (estimate.estimate - truth) / kAngleUnit_rad;
   return (estimate.estimate - truth) / std::abs(truth);
 }
 

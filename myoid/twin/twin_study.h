@@ -29,7 +29,8 @@ struct TwinRow {
   double truth = 0.0;
   identification::ParameterEstimate estimate;
 
-  /// Returns the error relative to the truth; for the EMG delay in units of 100 ms, so that 0.1 is 10 ms.
+  /// Returns the error relative to the truth; for the EMG delay in units of 100 ms, so that 0.1 is 10 ms; for an
+  /// angle in units of 100 degrees.
   [[nodiscard]] double error() const;
   [[nodiscard]] bool covered() const;  ///< The 95 % interval holds the truth.
 };

@@ -34,10 +34,15 @@ class TrueMuscle {
     }
   }
 
-  /// Returns the torque at a steady speed of the joint, with fibers and tendons in equilibrium.
-  [[nodiscard]] double torque_nm(double activation, double angle_rad, double speed_radps) const {
+  /// Returns the torque at a steady speed of the joint, with fibers and tendons in equilibrium. `driven`: each head is
+  /// active by its own drive.
+  [[nodiscard]] double torque_nm(double muscle_activation,
+                                 double angle_rad,
+                                 double speed_radps,
+                                 bool driven = false) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < heads_.size(); ++i) {
+      const double activation = driven ? std::min(1.0, muscle_activation * heads_[i]->drive) : muscle_activation;
       const model::MuscleTravel path = model::travel(heads_[i]->path, angle_rad);
       const muscle::MusculotendonInput<double> input{activation, path.length_m, -path.moment_arm_m * speed_radps};
       const auto state = muscle::equilibrium_state(units_[i], input);
@@ -172,6 +177,19 @@ double resting_torque_nm(const TrueArm& person,
                          double elbow_flexion_rad,
                          double elbow_flexion_speed_radps) {
   return TrueMuscle(person, muscle).torque_nm(0.0, elbow_flexion_rad, elbow_flexion_speed_radps);
+}
+
+std::vector<double> active_torque_nm(const TrueArm& person,
+                                     std::size_t muscle,
+                                     double activation,
+                                     const std::vector<double>& elbow_flexion_rad,
+                                     double elbow_flexion_speed_radps) {
+  const TrueMuscle of(person, muscle);
+  std::vector<double> torque_nm;
+  for (const double angle_rad : elbow_flexion_rad)
+    torque_nm.push_back(of.torque_nm(activation, angle_rad, elbow_flexion_speed_radps, true) -
+                        of.torque_nm(0.0, angle_rad, elbow_flexion_speed_radps));
+  return torque_nm;
 }
 
 PerMuscle anatomical_strength_n(const TrueArm& person) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "myoid/virtual_person/true_arm.h"
 #include "myoid/virtual_person/virtual_arm.h"
 
@@ -25,6 +27,14 @@ namespace myoid::twin {
                                        std::size_t muscle,
                                        double elbow_flexion_rad,
                                        double elbow_flexion_speed_radps);
+
+/// Returns the torque that a muscle's excitation adds at steady speed, at each angle [N m]. Each head's activation is
+/// the muscle's times TrueHead::drive, at most 1.
+[[nodiscard]] std::vector<double> active_torque_nm(const TrueArm& person,
+                                                   std::size_t muscle,
+                                                   double activation,
+                                                   const std::vector<double>& elbow_flexion_rad,
+                                                   double elbow_flexion_speed_radps);
 
 /// Returns F_max of the heads added up along the tendon [N], the muscle's anatomical strength.
 [[nodiscard]] PerMuscle anatomical_strength_n(const TrueArm& person);

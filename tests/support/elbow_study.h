@@ -38,7 +38,18 @@ struct ElbowStudyOptions {
                                   ///< fixed deviation of 10-20 %.
   bool with_priors = false;
   std::uint64_t seed = 1;
+  bool with_motion = false;     ///< Angles, rates and accelerations are known.
+  double true_arm_scale = 1.0;  ///< The person's moment arms over the study's.
 };
+
+/// Length and moment arm of a muscle whose moment arm is `scale` times the path's; the length at 1.18 rad stays.
+inline model::MuscleTravel scaled_travel(const model::PlanarMuscle& path, double q, double scale) {
+  model::MuscleTravel travel = model::travel(path, q);
+  const double middle = model::travel(path, 1.18).length_m;
+  travel.length_m = middle + scale * (travel.length_m - middle);
+  travel.moment_arm_m *= scale;
+  return travel;
+}
 
 class StudyNoise {
  public:
@@ -114,6 +125,9 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
     trial.velocity_mps.resize(n, 4);
     trial.moment_arm_m.resize(n, 4);
     trial.force_n.resize(n, 4);
+    trial.torque_nm.setZero(n);
+    if (o.with_motion)
+      for (Eigen::VectorXd* of : {&trial.angle_rad, &trial.velocity_radps, &trial.acceleration_radps2}) of->resize(n);
     const double w1 = 2.0 * kPi * (0.35 + 0.3 * number + 0.1 * noise.uniform());
     const double w2 = 2.0 * kPi * (1.1 + 0.2 * noise.uniform());
     const double phase = 2.0 * kPi * noise.uniform();
@@ -148,18 +162,24 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
       const double t = trial.time_s[i];
       const double q = 1.18 + 0.75 * std::sin(w1 * t + phase) + 0.25 * std::sin(w2 * t);
       const double qdot = 0.75 * w1 * std::cos(w1 * t + phase) + 0.25 * w2 * std::cos(w2 * t);
+      if (o.with_motion) {
+        trial.angle_rad[i] = q;
+        trial.velocity_radps[i] = qdot;
+        trial.acceleration_radps2[i] = -0.75 * w1 * w1 * std::sin(w1 * t + phase) - 0.25 * w2 * w2 * std::sin(w2 * t);
+      }
       for (std::size_t k = 0; k < 4; ++k) {
         const auto c = static_cast<Eigen::Index>(k);
         const model::MuscleTravel travel = model::travel(elbow.muscles[k], q);
         trial.length_m(i, c) = travel.length_m;
         trial.moment_arm_m(i, c) = travel.moment_arm_m;
         trial.velocity_mps(i, c) = -travel.moment_arm_m * qdot;
+        const model::MuscleTravel own = scaled_travel(elbow.muscles[k], q, o.true_arm_scale);
         trial.force_n(i, c) =
-            muscle::hill_force(envelope[k].at(t - o.delay_s), travel.length_m - study.truth[k].tendon_slack_length_m,
-                               trial.velocity_mps(i, c), study.truth[k]);
+            muscle::hill_force(envelope[k].at(t - o.delay_s), own.length_m - study.truth[k].tendon_slack_length_m,
+                               -own.moment_arm_m * qdot, study.truth[k]);
+        trial.torque_nm[i] += own.moment_arm_m * trial.force_n(i, c);
       }
     }
-    trial.torque_nm = trial.moment_arm_m.cwiseProduct(trial.force_n).rowwise().sum();
     if (o.torque_sd_nm > 0.0) trial.torque_nm += o.torque_sd_nm * noise.band(n, 6.0, o.rate_hz);
     study.data.trials.push_back(std::move(trial));
   }

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/posterior/likelihood.h"
+#include "myoid/posterior/postures.h"
+#include "myoid/posterior/trial_run.h"
+
+namespace myoid::identification {
+
+/// Steady states in which one muscle alone pulls with its greatest effort: the postures at rest, then the postures at
+/// each speed.
+struct VoluntaryStates {
+  int joint = 0;           ///< Index in ParameterMap::joints().
+  std::size_t muscle = 0;  ///< The muscle that pulls.
+  int direction = 1;       ///< Of the muscle's torque about the joint.
+  Eigen::VectorXd speeds_radps;
+};
+
+/// Returns the greatest effort of each EMG channel as its envelope: 1 where a maximal contraction was recorded, else
+/// the largest envelope of the fitted trials.
+[[nodiscard]] Eigen::VectorXd greatest_envelopes(const Likelihood& likelihood, bool from_mvc);
+
+/// Returns the states as a run of n (1 + speeds) samples of one joint, n the number of postures. At a speed the joint
+/// turns in the direction of the muscle's torque. Every other muscle is without moment arm and nearly without EMG.
+[[nodiscard]] TrialRun run_of(const VoluntaryStates& states,
+                              const Postures& postures,
+                              const ParameterMap& map,
+                              const Eigen::VectorXd& greatest_envelope);
+
+/// A torque in those states, to the first order in independent standard normal numbers e: T = mean + by_chance e.
+struct NormalTorque {
+  Eigen::VectorXd mean_nm;    ///< n (1 + speeds)
+  Eigen::MatrixXd by_chance;  ///< n (1 + speeds) x numbers
+
+  NormalTorque& operator+=(const NormalTorque& other);
+};
+
+/// A posterior of z and x to the first order.
+class LinearReading {
+ public:
+  LinearReading(const Likelihood& likelihood,
+                const Eigen::VectorXd& z,
+                const NoiseValues& noise,
+                const Eigen::MatrixXd& covariance);
+  /// Returns the torque of the muscles that pull, times `direction`.
+  [[nodiscard]] NormalTorque torque(const TrialRun& run, int direction) const;
+
+ private:
+  const Likelihood& likelihood_;
+  Eigen::VectorXd z_;
+  NoiseValues noise_;
+  Likelihood::UnseenGiven unseen_;
+  Eigen::MatrixXd root_z_, root_unseen_;  ///< Roots of both covariances.
+};
+
+/// The maximum over the places of draws of a torque.
+struct Peaks {
+  double value = 0.0, place = 0.0;  ///< Of the mean.
+  bool at_end = false;              ///< The mean is greatest at an end of the range.
+  Eigen::VectorXd values, places;   ///< Of each draw.
+  double at_ends = 0.0;             ///< Share of the draws that are greatest at an end.
+};
+
+/// Returns standard normal numbers, places x draws, the same in every call.
+[[nodiscard]] Eigen::MatrixXd voluntary_draws(Eigen::Index places);
+
+/// Returns the peaks of the n samples of `torque` from `first` on, over the even places (n). The size of a draw is
+/// log-normal about the mean's peak. `draws`: at least n rows of `voluntary_draws`.
+[[nodiscard]] Peaks peaks_of(const NormalTorque& torque,
+                             Eigen::Index first,
+                             const Eigen::VectorXd& place,
+                             const Eigen::MatrixXd& draws);
+
+}  // namespace myoid::identification

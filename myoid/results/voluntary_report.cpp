@@ -1,0 +1,230 @@
+#include "myoid/results/voluntary_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/units.h"
+#include "myoid/files/quoted_text.h"
+#include "myoid/files/text_file.h"
+#include "myoid/report/typeset.h"
+#include "myoid/report/verdict_mark.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using identification::VoluntaryCurve;
+using report::Cell;
+
+/// Returns the curve's row with this parameter; null: none.
+const ParameterEstimate* row_of(const IdentificationResult& method,
+                                const VoluntaryCurve& curve,
+                                const std::string& parameter) {
+  const auto row = std::ranges::find_if(method.estimates, [&](const ParameterEstimate& e) {
+    return e.muscle == curve.owner && e.parameter == parameter + curve.ending;
+  });
+  return row == method.estimates.end() ? nullptr : &*row;
+}
+
+const ParameterEstimate* torque_of(const IdentificationResult& method, const VoluntaryCurve& curve) {
+  return row_of(method, curve, std::string(identification::kVoluntaryTorque));
+}
+
+const ParameterEstimate* angle_of(const IdentificationResult& method, const VoluntaryCurve& curve) {
+  return row_of(method, curve, std::string(identification::kVoluntaryAngle));
+}
+
+/// Returns the owner for people: "BIC", "BIC at the knee angle", "elbow flexion, BIC and BRA together".
+std::string name_of(const VoluntaryCurve& curve) {
+  if (!curve.of_joint)
+    return curve.ending.empty() ? curve.owner : fmt::format("{} at {}", curve.owner, report::spelled(curve.joint));
+  return fmt::format("{}, {}{}", report::spelled(curve.joint), fmt::join(curve.muscles, " + "),
+                     curve.direction > 0 ? "" : " (negative direction)");
+}
+
+bool is_at_end(const VoluntaryCurve& curve) {
+  Eigen::Index top = 0;
+  curve.torque_nm.maxCoeff(&top);
+  return top == 0 || top + 1 == curve.torque_nm.size();
+}
+
+std::string degrees(double angle_rad) { return fmt::format("{:.0f}°", angle_rad / kDegree); }
+
+std::string angle_text(const VoluntaryCurve& curve, const ParameterEstimate& angle) {
+  return degrees(angle.estimate) + (is_at_end(curve) ? " or beyond" : "");
+}
+
+std::string spelled_verdict(const ParameterEstimate& e) { return report::spelled(identification::name(e.verdict)); }
+
+std::string size_text(const ParameterEstimate& e) { return report::format_beside(e.estimate, e.ci_low, e.ci_high); }
+
+std::string sentence(const IdentificationResult& method, const VoluntaryCurve& curve) {
+  const ParameterEstimate* torque = torque_of(method, curve);
+  if (torque == nullptr) return "";
+  const ParameterEstimate* angle = angle_of(method, curve);
+  std::string text = fmt::format("{}: {} N m", name_of(curve), size_text(*torque));
+  if (angle != nullptr) text += " at " + angle_text(curve, *angle);
+  text += fmt::format(", 95 % {} N m", report::format_interval(*torque->ci_low, *torque->ci_high));
+  if (angle != nullptr) text += fmt::format(" and {} to {}", degrees(*angle->ci_low), degrees(*angle->ci_high));
+  text += fmt::format(" ({}", spelled_verdict(*torque));
+  if (angle != nullptr && angle->verdict != torque->verdict) text += "; angle " + spelled_verdict(*angle);
+  return text + (curve.from_mvc ? ")" : "; at the largest recorded EMG, no maximal contraction was recorded)");
+}
+
+std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
+  for (const TrueValue& t : result.source.truth)
+    if (t.parameter == e.parameter && t.muscle == e.muscle) return t.value;
+  return std::nullopt;
+}
+
+/// Returns "41 at 60°/s, 73 at 120°/s" of the powers of a curve.
+std::string powers_text(const IdentificationResult& method, const VoluntaryCurve& curve) {
+  std::vector<std::string> powers;
+  for (const ParameterEstimate& e : method.estimates) {
+    if (e.muscle != curve.owner || !identification::is_voluntary_power(e.parameter)) continue;
+    const std::string speed = e.parameter.substr(identification::kVoluntaryPower.size() + 1);
+    const std::size_t digits = std::min(speed.find_first_not_of("0123456789"), speed.size());
+    if (speed.substr(digits) != curve.ending) continue;
+    powers.push_back(fmt::format("{} at {}°/s", size_text(e), speed.substr(0, digits)));
+  }
+  return powers.empty() ? "–" : fmt::format("{}", fmt::join(powers, ", "));
+}
+
+Cell truth_cell(const StudyResult& result, const ParameterEstimate& e, double unit) {
+  const std::optional<double> truth = truth_of(result, e);
+  if (!truth) return {"-"};
+  const bool inside = *truth >= *e.ci_low && *truth <= *e.ci_high;
+  return {report::format_beside(*truth / unit, *e.ci_low / unit, *e.ci_high / unit),
+          inside ? report::Badge::good : report::Badge::weak};
+}
+
+Cell verdict_cell(const ParameterEstimate* e) {
+  if (e == nullptr) return {"–"};
+  return {spelled_verdict(*e), report::verdict_badge(identification::name(e->verdict)), e->reason};
+}
+
+std::string interval_text(const std::optional<double>& low, const std::optional<double>& high, double unit) {
+  return low && high ? report::format_interval(*low / unit, *high / unit) : "–";
+}
+
+report::Table table_of(const StudyResult& result, const IdentificationResult& method) {
+  report::Table table{
+      .id = "voluntary_torque",
+      .title = "Greatest voluntary torque, steady, and power",
+      .caption =
+          "Behind each number stand its 95 % interval of the person and the one given geometry and sensors. "
+          "Power: the greatest over the recorded angles while the joint turns at this speed.",
+      .columns = {"muscle or joint", "N m", "95 % interval", "given geometry and sensors", "at angle (°)",
+                  "95 % interval", "power (W)", "verdict", "verdict of the angle"}};
+  const bool known = !result.source.truth.empty();
+  if (known) table.columns.insert(table.columns.end(), {"true N m", "true angle (°)"});
+  for (const VoluntaryCurve& curve : method.voluntary) {
+    const ParameterEstimate* torque = torque_of(method, curve);
+    if (torque == nullptr) continue;
+    const ParameterEstimate* angle = angle_of(method, curve);
+    std::vector<Cell> row{{name_of(curve)},
+                          {size_text(*torque)},
+                          {interval_text(torque->ci_low, torque->ci_high, 1.0)},
+                          {interval_text(torque->given_ci_low, torque->given_ci_high, 1.0)},
+                          {angle == nullptr ? "–" : angle_text(curve, *angle)},
+                          {angle == nullptr ? "–" : interval_text(angle->ci_low, angle->ci_high, kDegree)},
+                          {powers_text(method, curve)},
+                          verdict_cell(torque),
+                          verdict_cell(angle)};
+    if (known) {
+      row.push_back(truth_cell(result, *torque, 1.0));
+      row.push_back(angle == nullptr ? Cell{"-"} : truth_cell(result, *angle, kDegree));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+report::Panel panel_of(const VoluntaryCurve& curve) {
+  const bool over_angle = curve.angle_rad.size() > 0;
+  const std::vector<double> x = report::to_vector(over_angle ? Eigen::VectorXd(curve.angle_rad / kDegree)
+                                                             : Eigen::VectorXd(1e3 * curve.length_m));
+  report::Panel panel{.title = name_of(curve)};
+  panel.x = over_angle ? report::Axis{.label = report::spelled(curve.joint), .unit = "deg"}
+                       : report::Axis{.label = "length of muscle and tendon", .unit = "mm"};
+  panel.y = {.label = "torque", .unit = "N m", .lower = 0.0};
+  report::Series person{"95 %, of the person", x, report::to_vector(curve.low_nm), report::Role::band};
+  person.y_upper = report::to_vector(curve.high_nm);
+  report::Series given{"95 %, given geometry and sensors", x, report::to_vector(curve.given_low_nm),
+                       report::Role::norm};
+  given.y_upper = report::to_vector(curve.given_high_nm);
+  panel.series = {std::move(person),
+                  std::move(given),
+                  {"greatest voluntary torque", x, report::to_vector(curve.torque_nm), report::Role::identified}};
+  return panel;
+}
+
+report::Figure figure_of(const IdentificationResult& method) {
+  report::Figure figure{.id = "voluntary_torque",
+                        .title = "Greatest voluntary torque over the joint's angle",
+                        .caption =
+                            "Steady efforts at the activation of the maximal contraction, over the recorded "
+                            "angles. A dynamometer would measure these torques if one muscle pulled alone.",
+                        .panels = {},
+                        .columns = 2};
+  for (const VoluntaryCurve& curve : method.voluntary) figure.panels.push_back(panel_of(curve));
+  figure.bad = "The band is as high as the curve, or the curve still rises at the end of the recorded angles.";
+  figure.act =
+      "Record efforts against greater loads to narrow the band, and a wider range of angles to find where the curve is "
+      "highest.";
+  return figure;
+}
+
+}  // namespace
+
+std::vector<std::string> voluntary_sentences(const IdentificationResult& method) {
+  std::vector<std::string> sentences;
+  for (const VoluntaryCurve& curve : method.voluntary) {
+    std::string text = sentence(method, curve);
+    if (!text.empty()) sentences.push_back(std::move(text));
+  }
+  return sentences;
+}
+
+report::Section voluntary_section(const StudyResult& result, const IdentificationResult& method) {
+  report::Section section{.id = "voluntary",
+                          .heading = "How strong is each muscle, and at which angle",
+                          .paragraphs = voluntary_sentences(method),
+                          .tables = {table_of(result, method)},
+                          .figures = {figure_of(method)}};
+  section.paragraphs.insert(section.paragraphs.begin(),
+                            "The greatest torque that each muscle makes about the joint by itself. The size of its "
+                            "moment arm, the effort of the maximal contraction and the scale of the EMG cancel in it, "
+                            "so that it is known better than the muscle's force.");
+  if (std::ranges::any_of(method.voluntary, &VoluntaryCurve::averaged))
+    section.paragraphs.push_back(
+        "Other joints move these muscles, too: the torque at an angle is that of their mean length there.");
+  return section;
+}
+
+std::string voluntary_csv(const IdentificationResult& method) {
+  std::string text =
+      "owner,joint,direction,muscles,angle_rad,length_m,torque_nm,low_nm,high_nm,given_low_nm,given_high_nm\n";
+  for (const VoluntaryCurve& curve : method.voluntary) {
+    const std::string head =
+        fmt::format("{},{},{},{}", recording::csv_cell(curve.owner), recording::csv_cell(curve.joint),
+                    curve.direction > 0 ? "positive" : "negative",
+                    recording::csv_cell(fmt::format("{}", fmt::join(curve.muscles, "+"))));
+    const auto cell = [](const Eigen::VectorXd& values, Eigen::Index i) {
+      return i < values.size() ? recording::format_number(values[i]) : std::string();
+    };
+    for (Eigen::Index i = 0; i < curve.torque_nm.size(); ++i)
+      text += fmt::format("{},{},{},{},{},{},{},{}\n", head, cell(curve.angle_rad, i), cell(curve.length_m, i),
+                          cell(curve.torque_nm, i), cell(curve.low_nm, i), cell(curve.high_nm, i),
+                          cell(curve.given_low_nm, i), cell(curve.given_high_nm, i));
+  }
+  return text;
+}
+
+}  // namespace myoid

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/intervals/result.h"
+#include "myoid/report/report.h"
+#include "myoid/run/study_result.h"
+
+namespace myoid {
+
+/// Returns a sentence for each muscle and each joint, in the order of IdentificationResult::voluntary:
+///
+///   BIC: 41.2 N m at 85°, 95 % 38.1 to 44.6 N m and 78° to 91° (identified; angle weak)
+///
+/// "at 110° or beyond" where the torque is greatest at the end of the recorded range.
+[[nodiscard]] std::vector<std::string> voluntary_sentences(const identification::IdentificationResult& method);
+
+/// Returns the section of the greatest voluntary torques: the sentences, a table, and the torque over the angle.
+[[nodiscard]] report::Section voluntary_section(const StudyResult& result,
+                                                const identification::IdentificationResult& method);
+
+/// Returns the curves, one row per owner and place, with the columns of docs/guide/run.md.
+[[nodiscard]] std::string voluntary_csv(const identification::IdentificationResult& method);
+
+}  // namespace myoid

@@ -1,0 +1,97 @@
+#include "myoid/results/voluntary_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/units.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using identification::Verdict;
+using identification::VoluntaryCurve;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+ParameterEstimate row(const std::string& parameter, Unit unit, double low, double value, double high, Verdict verdict) {
+  ParameterEstimate e{.muscle = "BIC", .tied_to = {}, .parameter = parameter, .unit = unit};
+  e.estimate = value;
+  e.ci_low = low;
+  e.ci_high = high;
+  e.given_estimate = value;
+  e.given_ci_low = 0.5 * (low + value);
+  e.given_ci_high = 0.5 * (high + value);
+  e.verdict = verdict;
+  return e;
+}
+
+/// A biceps with 41 N m at 85 degrees, and 40 W at 60 degrees a second.
+IdentificationResult biceps() {
+  IdentificationResult method;
+  method.method = "torque";
+  VoluntaryCurve curve{.owner = "BIC", .joint = "elbow_flexion", .muscles = {"BIC"}};
+  curve.angle_rad = Eigen::Vector3d(60.0, 85.0, 110.0) * kDegree;
+  curve.length_m = Eigen::Vector3d(0.34, 0.33, 0.32);
+  curve.torque_nm = Eigen::Vector3d(35.0, 41.0, 36.0);
+  curve.low_nm = 0.95 * curve.torque_nm;
+  curve.high_nm = 1.05 * curve.torque_nm;
+  curve.given_low_nm = 0.98 * curve.torque_nm;
+  curve.given_high_nm = 1.02 * curve.torque_nm;
+  method.voluntary = {curve};
+  method.estimates = {
+      row("voluntary_torque", Unit::newton_meter, 38.0, 41.0, 44.0, Verdict::identified),
+      row("voluntary_torque_angle", Unit::radian, 78.0 * kDegree, 85.0 * kDegree, 91.0 * kDegree, Verdict::weak),
+      row("voluntary_power_60", Unit::watt, 36.0, 40.0, 44.0, Verdict::identified)};
+  return method;
+}
+
+TEST(VoluntarySentences, SayTorqueAngleAndIntervals) {
+  EXPECT_THAT(voluntary_sentences(biceps()),
+              ElementsAre("BIC: 41.0 N m at 85°, 95 % 38.0 to 44.0 N m and 78° to 91° (identified; angle weak)"));
+}
+
+TEST(VoluntarySentences, AnOptimumAtTheEndIsAtOrBeyond) {
+  IdentificationResult method = biceps();
+  method.voluntary[0].torque_nm = Eigen::Vector3d(35.0, 41.0, 45.0);
+  EXPECT_THAT(voluntary_sentences(method)[0], HasSubstr("at 85° or beyond,"));
+}
+
+TEST(VoluntarySentences, WithoutAMaximalContractionSaySo) {
+  IdentificationResult method = biceps();
+  method.voluntary[0].from_mvc = false;
+  EXPECT_THAT(voluntary_sentences(method)[0], HasSubstr("at the largest recorded EMG"));
+}
+
+TEST(VoluntarySentences, WithoutAnglesHaveNone) {
+  IdentificationResult method = biceps();
+  method.voluntary[0].angle_rad.resize(0);
+  method.estimates.erase(method.estimates.begin() + 1);
+  EXPECT_THAT(voluntary_sentences(method)[0], Not(HasSubstr("°")));
+}
+
+TEST(VoluntaryCsv, HasARowForEachPlace) {
+  EXPECT_THAT(voluntary_csv(biceps()),
+              HasSubstr("owner,joint,direction,muscles,angle_rad,length_m,torque_nm,low_nm,high_nm,given_low_nm,"
+                        "given_high_nm\nBIC,elbow_flexion,positive,BIC,1.0471975511965976,0.34,35,"));
+}
+
+TEST(VoluntarySection, HasTheTableAndTheCurve) {
+  StudyResult result;
+  result.source.truth = {{.muscle = "BIC", .parameter = "voluntary_torque", .value = 42.0}};
+  const report::Section section = voluntary_section(result, biceps());
+  ASSERT_EQ(section.tables.size(), 1U);
+  ASSERT_EQ(section.tables[0].rows.size(), 1U);
+  const std::vector<report::Cell>& row = section.tables[0].rows[0];
+  ASSERT_EQ(row.size(), section.tables[0].columns.size());
+  EXPECT_EQ(row[1].text, "41.0");
+  EXPECT_THAT(row[6].text, HasSubstr("40.0 at 60°/s"));
+  EXPECT_EQ(row[9].badge, report::Badge::good);
+  ASSERT_EQ(section.figures.size(), 1U);
+  EXPECT_EQ(section.figures[0].panels[0].series[2].y[1], 41.0);
+}
+
+}  // namespace
+}  // namespace myoid
