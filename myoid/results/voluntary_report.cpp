@@ -77,7 +77,7 @@ std::string sentence(const IdentificationResult& method, const VoluntaryCurve& c
   return text + (curve.from_mvc ? ")" : "; at the largest recorded EMG, no maximal contraction was recorded)");
 }
 
-std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
+std::optional<double> true_voluntary(const StudyResult& result, const ParameterEstimate& e) {
   for (const TrueValue& t : result.source.truth)
     if (t.parameter == e.parameter && t.muscle == e.muscle) return t.value;
   return std::nullopt;
@@ -97,7 +97,7 @@ std::string powers_text(const IdentificationResult& method, const VoluntaryCurve
 }
 
 Cell truth_cell(const StudyResult& result, const ParameterEstimate& e, double unit) {
-  const std::optional<double> truth = truth_of(result, e);
+  const std::optional<double> truth = true_voluntary(result, e);
   if (!truth) return {"-"};
   const bool inside = *truth >= *e.ci_low && *truth <= *e.ci_high;
   return {report::format_beside(*truth / unit, *e.ci_low / unit, *e.ci_high / unit),
