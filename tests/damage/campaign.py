@@ -11,8 +11,8 @@ of its own, damages one of them, runs the program, and asks:
   silence    does the program refuse and not say why?
   lost       is an input, or a stranger's file beside or among the output, gone or changed?
   changed    exit code 0, other numbers, and no message that the undamaged input does not give too? Asked of damages
-             that every reader can see: rows out of order, lost or ragged, files shorter than their headers say, and
-             results that are not those on the list of their folder.
+             that every reader can see: rows out of order, lost or ragged, files shorter than their headers say;
+             numbers that no body has, of commands that compute; results that are not those on the list of their folder.
 
 Ends with 1 if any answer is yes, and prints the damage and the command of each. A run depends on its number alone:
 `--seed K` begins with K * 10000000, `--replay NUMBER` repeats one. Commands that take long come less often, so that the
@@ -155,7 +155,7 @@ def attempt(program, seeds, case, number, timeout, keep):
         endings = sorted({f.suffix for f in files})
         ending = chance.choices(endings, [1 if e in PICTURES else 6 for e in endings])[0]
         victim = chance.choice([f for f in files if f.suffix == ending])
-        damage, seen, changed = damaged(victim.read_bytes(), victim.suffix, chance)
+        damage, seen, changed = damaged(victim.read_bytes(), victim.suffix, arguments[0], chance)
         victim.write_bytes(changed)
         place = str(victim.relative_to(folder))
         before = contents(folder)

@@ -131,6 +131,21 @@ def row_twice(data, chance):
     return b"\n".join(lines)
 
 
+def far_number(data, chance):
+    """A number of a row becomes one that no body has."""
+    lines = data.split(b"\n")
+    if len(lines) < 20:
+        return None
+    at = row_place(lines, chance)
+    cells = re.split(rb"([\t,; ]+)", lines[at])
+    places = [i for i, cell in enumerate(cells) if re.fullmatch(rb"-?[\d.]+(e[-+]?\d+)?", cell)]
+    if len(places) < 2:
+        return None
+    cells[chance.choice(places)] = chance.choice([b"1e300", b"4294967296", b"-2147483649", b"1e6"])
+    lines[at] = b"".join(cells)
+    return b"\n".join(lines)
+
+
 def shorter_binary(data, chance):
     return data[: len(data) * chance.randrange(30, 95) // 100]
 
@@ -141,11 +156,15 @@ ANY = [flip_bits, flip_bits, cut_off, take_out, put_in, other_number, other_numb
 ROWS = [swap_rows, ragged_row, row_away, row_twice]
 SEEN_IN = {".trc": ROWS, ".sto": ROWS, ".mot": ROWS, ".csv": [swap_rows, ragged_row],
            ".c3d": [shorter_binary], ".edf": [shorter_binary]}
+# Commands that compute see numbers that no body has; others hand on what is a number.
+COMPUTING = ("ik", "id", "paths", "so", "emg", "identify", "muscle", "run-tool", "run", "cohort")
 
 
-def damaged(data, ending, chance):
-    """Returns (name of the damage, whether every reader can see it, the damaged bytes)."""
+def damaged(data, ending, command, chance):
+    """Returns (name of the damage, whether the command has to see it, the damaged bytes)."""
     seen = SEEN_IN.get(ending.lower(), [])
+    if command in COMPUTING and swap_rows in seen:
+        seen = [*seen, far_number]
     # Files without rows get damages of any kind only.
     damage = chance.choice(ANY + seen * (6 // max(1, len(seen))))
     changed = damage(data, chance)
