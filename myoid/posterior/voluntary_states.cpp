@@ -26,26 +26,6 @@ Envelope constant_envelope(double value) {
   return {Eigen::VectorXd::LinSpaced(kSamples, 0.0, 1.0), Eigen::VectorXd::Constant(kSamples, value)};
 }
 
-/// The greatest value and its place, by the parabola through the greatest sample and its neighbors.
-struct Peak {
-  double value = 0.0, place = 0.0;
-  bool at_end = false;
-};
-
-Peak peak_of(const Eigen::Ref<const Eigen::VectorXd>& values, const Eigen::VectorXd& place) {
-  Eigen::Index top = 0;
-  Peak peak{.value = values.maxCoeff(&top), .place = 0.0, .at_end = top == 0 || top + 1 == values.size()};
-  peak.place = place[top];
-  if (peak.at_end) return peak;
-  const double before = values[top - 1] - peak.value, after = values[top + 1] - peak.value;
-  const double bend = before + after;
-  if (!(bend < 0.0)) return peak;
-  const double shift = 0.5 * (before - after) / bend;  // in steps, within half a step
-  peak.place += shift * (place[top + 1] - place[top]);
-  peak.value += 0.25 * (after - before) * shift;
-  return peak;
-}
-
 }  // namespace
 
 Eigen::VectorXd greatest_envelopes(const Likelihood& likelihood, bool from_mvc) {
@@ -112,6 +92,20 @@ NormalTorque LinearReading::torque(const TrialRun& run, int direction) const {
   return torque;
 }
 
+Peak peak_of(const Eigen::Ref<const Eigen::VectorXd>& values, const Eigen::VectorXd& place) {
+  Eigen::Index top = 0;
+  Peak peak{.value = values.maxCoeff(&top), .place = 0.0, .at_end = top == 0 || top + 1 == values.size()};
+  peak.place = place[top];
+  if (peak.at_end) return peak;
+  const double before = values[top - 1] - peak.value, after = values[top + 1] - peak.value;
+  const double bend = before + after;
+  if (!(bend < 0.0)) return peak;
+  const double shift = 0.5 * (before - after) / bend;  // in steps, within half a step
+  peak.place += shift * (place[top + 1] - place[top]);
+  peak.value += 0.25 * (after - before) * shift;
+  return peak;
+}
+
 Eigen::MatrixXd voluntary_draws(Eigen::Index places) {
   math::Random random(kVoluntarySeed);
   Eigen::MatrixXd chance(places, 2 * kMirrored);
@@ -122,26 +116,23 @@ Eigen::MatrixXd voluntary_draws(Eigen::Index places) {
   return chance;
 }
 
-Peaks peaks_of(const NormalTorque& torque,
-               Eigen::Index first,
-               const Eigen::VectorXd& place,
-               const Eigen::MatrixXd& draws) {
-  const Eigen::Index n = place.size();
-  const Eigen::VectorXd mean = torque.mean_nm.segment(first, n);
-  const Eigen::MatrixXd by = torque.by_chance.middleRows(first, n);
-  const Peak of_mean = peak_of(mean, place);
-  Peaks peaks{of_mean.value, of_mean.place, of_mean.at_end, Eigen::VectorXd(draws.cols()),
-              Eigen::VectorXd(draws.cols())};
+Peaks peaks_of(const NormalTorque& torque, const Eigen::VectorXd& place, const Eigen::MatrixXd& draws) {
+  const Eigen::Index n = place.size(), count = draws.cols();
+  const Eigen::VectorXd mean = torque.mean_nm.head(n);
+  const Eigen::MatrixXd by = torque.by_chance.topRows(n);
+  Peaks peaks{peak_of(mean, place), Eigen::VectorXd(count), Eigen::VectorXd(count)};
   const Eigen::MatrixXd off = root(by * by.transpose()) * draws.topRows(n);
   Eigen::Index top = 0;
   mean.maxCoeff(&top);
-  for (Eigen::Index i = 0; i < draws.cols(); ++i) {
+  Eigen::VectorXd drawn(n);
+  for (Eigen::Index i = 0; i < count; ++i) {
     // The size of the torque is log-normal, the rest of the curve normal.
     const double larger = mean[top] > 0.0 ? off(top, i) / mean[top] : 0.0;
-    const Peak peak = peak_of((std::exp(larger) - larger) * mean + off.col(i), place);
+    drawn = (std::exp(larger) - larger) * mean + off.col(i);
+    const Peak peak = peak_of(drawn, place);
     peaks.values[i] = peak.value;
     peaks.places[i] = peak.place;
-    peaks.at_ends += peak.at_end ? 1.0 / static_cast<double>(draws.cols()) : 0.0;
+    peaks.at_ends += peak.at_end ? 1.0 / static_cast<double>(count) : 0.0;
   }
   return peaks;
 }

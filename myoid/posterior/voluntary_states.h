@@ -56,22 +56,24 @@ class LinearReading {
   Eigen::MatrixXd root_z_, root_unseen_;  ///< Roots of both covariances.
 };
 
-/// The maximum over the places of draws of a torque.
-struct Peaks {
-  double value = 0.0, place = 0.0;  ///< Of the mean.
-  bool at_end = false;              ///< The mean is greatest at an end of the range.
-  Eigen::VectorXd values, places;   ///< Of each draw.
-  double at_ends = 0.0;             ///< Share of the draws that are greatest at an end.
+/// The greatest of samples at even places, and its place, by the parabola through it and its neighbors.
+struct Peak {
+  double value = 0.0, place = 0.0;
+  bool at_end = false;  ///< Greatest at an end of the range.
+};
+[[nodiscard]] Peak peak_of(const Eigen::Ref<const Eigen::VectorXd>& values, const Eigen::VectorXd& place);
+
+/// The peaks of draws of a torque.
+struct Peaks : Peak {              ///< That of the mean.
+  Eigen::VectorXd values, places;  ///< Of each draw.
+  double at_ends = 0.0;            ///< Share of the draws that are greatest at an end.
 };
 
 /// Returns standard normal numbers, places x draws, the same in every call.
 [[nodiscard]] Eigen::MatrixXd voluntary_draws(Eigen::Index places);
 
-/// Returns the peaks of the n samples of `torque` from `first` on, over the even places (n). The size of a draw is
-/// log-normal about the mean's peak. `draws`: at least n rows of `voluntary_draws`.
-[[nodiscard]] Peaks peaks_of(const NormalTorque& torque,
-                             Eigen::Index first,
-                             const Eigen::VectorXd& place,
-                             const Eigen::MatrixXd& draws);
+/// Returns the peaks of the first n samples of `torque`, over the even places (n). The size of a draw is log-normal
+/// about the mean's peak. `draws`: at least n rows of `voluntary_draws`.
+[[nodiscard]] Peaks peaks_of(const NormalTorque& torque, const Eigen::VectorXd& place, const Eigen::MatrixXd& draws);
 
 }  // namespace myoid::identification

@@ -50,18 +50,31 @@ std::vector<int> reached_speeds_degps(const Postures& postures, int direction) {
   return speeds;
 }
 
-/// One reading of a number: value and draws.
+/// One reading of a number: value, 95 % interval, and standard deviation.
 struct Reading {
-  double value = 0.0;
-  Eigen::VectorXd draws;
-  [[nodiscard]] double quantile(double share) const {
-    return weighted_quantile(draws, Eigen::VectorXd::Constant(draws.size(), 1.0 / static_cast<double>(draws.size())),
-                             share);
-  }
-  /// The end of the 95 % interval, which holds the value.
-  [[nodiscard]] double low() const { return std::min(value, quantile(0.025)); }
-  [[nodiscard]] double high() const { return std::max(value, quantile(0.975)); }
+  double value = 0.0, low = 0.0, high = 0.0, sd = 0.0;
 };
+
+/// Returns the reading of draws of a number; its interval holds the value.
+Reading of_draws(double value, const Eigen::VectorXd& draws) {
+  const Eigen::VectorXd weight = Eigen::VectorXd::Constant(draws.size(), 1.0 / static_cast<double>(draws.size()));
+  const double mean = draws.mean();
+  return {.value = value,
+          .low = std::min(value, weighted_quantile(draws, weight, 0.025)),
+          .high = std::max(value, weighted_quantile(draws, weight, 0.975)),
+          .sd = std::sqrt((draws.array() - mean).square().mean())};
+}
+
+/// Returns the reading of `factor` times the greatest of n samples from `first` on. To the first order it errs as the
+/// sample at the mean's peak does, whose size is log-normal.
+Reading of_peak(const NormalTorque& torque, Eigen::Index first, const Eigen::VectorXd& place, double factor) {
+  Eigen::Index top = 0;
+  torque.mean_nm.segment(first, place.size()).maxCoeff(&top);
+  const double value = factor * peak_of(torque.mean_nm.segment(first, place.size()), place).value;
+  const double sd = factor * torque.by_chance.row(first + top).norm();
+  const double reach = value > 0.0 ? std::exp(kNormal95 * sd / value) : 1.0;
+  return {.value = value, .low = value / reach, .high = value * reach, .sd = sd};
+}
 
 /// Makes the rows and the curve of one owner.
 class Rows {
@@ -81,8 +94,8 @@ class Rows {
   }
 
   void add_to(VoluntaryTorques& all) {
-    const Peaks person = peaks_of(torque_.of_person, 0, place_, draws_);
-    const Peaks given = peaks_of(torque_.given, 0, place_, draws_);
+    const Peaks person = peaks_of(torque_.of_person, place_, draws_);
+    const Peaks given = peaks_of(torque_.given, place_, draws_);
     const bool one_place = place_.size() < 3;
     all.estimates.push_back(torque_row(person, given, one_place));
     if (curve_.angle_rad.size() > 0 && !one_place) all.estimates.push_back(angle_row(person, given));
@@ -109,13 +122,12 @@ class Rows {
     e.method = "torque";
     e.fit_case = "both";
     e.estimate = facts.value = person.value;
-    e.ci_low = facts.low = person.low();
-    e.ci_high = facts.high = person.high();
-    const double mean = person.draws.mean();
-    e.std_error = std::sqrt((person.draws.array() - mean).square().mean());
+    e.ci_low = facts.low = person.low;
+    e.ci_high = facts.high = person.high;
+    e.std_error = person.sd;
     e.given_estimate = facts.given = given.value;
-    e.given_ci_low = facts.low_given = given.low();
-    e.given_ci_high = facts.high_given = given.high();
+    e.given_ci_low = facts.low_given = given.low;
+    e.given_ci_high = facts.high_given = given.high;
     const Finding found = finding(facts);
     e.verdict = verdict_of(found);
     e.reason = reason_of(found, facts);
@@ -127,8 +139,8 @@ class Rows {
   }
 
   [[nodiscard]] ParameterEstimate torque_row(const Peaks& person, const Peaks& given, bool one_place) const {
-    ParameterEstimate e = row(std::string(kVoluntaryTorque), Unit::newton_meter, {person.value, person.values},
-                              {given.value, given.values}, fit_);
+    ParameterEstimate e = row(std::string(kVoluntaryTorque), Unit::newton_meter, of_draws(person.value, person.values),
+                              of_draws(given.value, given.values), fit_);
     e.initial = torque_.literature_nm.head(place_.size()).maxCoeff();
     if (one_place)
       e.reason += "; recorded at one angle only";
@@ -141,8 +153,8 @@ class Rows {
     PosteriorFacts facts = fit_;
     facts.is_angle = true;
     facts.at_range_end = person.at_end || person.at_ends > kEndShare;
-    ParameterEstimate e = row(std::string(kVoluntaryAngle), Unit::radian, {person.place, person.places},
-                              {given.place, given.places}, facts);
+    ParameterEstimate e = row(std::string(kVoluntaryAngle), Unit::radian, of_draws(person.place, person.places),
+                              of_draws(given.place, given.places), facts);
     Eigen::Index top = 0;
     torque_.literature_nm.head(place_.size()).maxCoeff(&top);
     e.initial = place_[top];
@@ -154,11 +166,9 @@ class Rows {
     const Eigen::Index n = place_.size(), first = static_cast<Eigen::Index>(s + 1) * n;
     const int speed_degps = torque_.speeds_degps[s];
     const double speed_radps = speed_degps * kDegree;
-    const Peaks person = peaks_of(torque_.of_person, first, place_, draws_);
-    const Peaks given = peaks_of(torque_.given, first, place_, draws_);
     ParameterEstimate e = row(fmt::format("{}_{}", kVoluntaryPower, speed_degps), Unit::watt,
-                              {speed_radps * person.value, speed_radps * person.values},
-                              {speed_radps * given.value, speed_radps * given.values}, fit_);
+                              of_peak(torque_.of_person, first, place_, speed_radps),
+                              of_peak(torque_.given, first, place_, speed_radps), fit_);
     e.initial = speed_radps * torque_.literature_nm.segment(first, n).maxCoeff();
     return e;
   }
@@ -193,10 +203,12 @@ struct OwnerTorques {
     std::vector<std::string> pulling[2];
     bool averaged = false;
     Postures places = postures(data, name, 0);
+    Eigen::MatrixXd draws = voluntary_draws(places.count());
     for (std::size_t k = 0; k < data.muscles.size(); ++k) {
       if (!parts.crosses(k, joint)) continue;
       if (!places.over_angle) places = postures(data, name, k);
       if (places.count() == 0) continue;
+      if (places.count() > draws.rows()) draws = voluntary_draws(places.count());
       const auto column = static_cast<Eigen::Index>(k);
       const int direction = places.arm_m.col(column).mean() < 0.0 ? -1 : 1;
       const OwnTorque torque = torque_of(joint, k, direction, places);
@@ -210,8 +222,7 @@ struct OwnerTorques {
       averaged |= curve.averaged;
       pulling[direction > 0 ? 0 : 1].push_back(curve.owner);
       sums[direction > 0 ? 0 : 1] += torque;
-      if (covers(options.muscles, curve.owner))
-        Rows(fit, std::move(curve), torque, places, several, voluntary_draws(places.count())).add_to(all);
+      if (covers(options.muscles, curve.owner)) Rows(fit, std::move(curve), torque, places, several, draws).add_to(all);
     }
     for (int side = 0; side < 2 && places.over_angle; ++side) {
       if (pulling[side].empty()) continue;
@@ -219,7 +230,7 @@ struct OwnerTorques {
       curve.muscles = pulling[side];
       curve.from_mvc = options.from_mvc;
       curve.averaged = averaged;
-      Rows(fit, std::move(curve), sums[side], places, several, voluntary_draws(places.count())).add_to(all);
+      Rows(fit, std::move(curve), sums[side], places, several, draws).add_to(all);
     }
   }
 
