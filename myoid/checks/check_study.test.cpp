@@ -66,8 +66,9 @@ TEST(CheckStudy, BeliefsBesideLeastSquaresAreSaidToBeUnused) {
       return r.severity == Severity::note && r.says.find("[beliefs]") != std::string::npos;
     });
   };
-  EXPECT_TRUE(said("[beliefs]\nmoment_arm_sd = 0.05\n"));
-  EXPECT_FALSE(said("[beliefs]\nmoment_arm_sd = 0.05\n[identify]\nestimator = \"posterior\"\n"));
+  EXPECT_TRUE(said("[beliefs]\nmoment_arm_sd = 0.05\n[identify]\nestimator = \"least_squares\"\n"));
+  EXPECT_TRUE(said("[beliefs]\nmoment_arm_sd = 0.05\n[identify]\npriors = false\n"));
+  EXPECT_FALSE(said("[beliefs]\nmoment_arm_sd = 0.05\n"));
   EXPECT_FALSE(said(""));
 }
 

@@ -12,6 +12,7 @@
 #include "myoid/methods/smooth_prediction.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/posterior/likelihood.h"
+#include "myoid/posterior/posterior.h"
 
 namespace myoid::identification {
 
@@ -114,8 +115,10 @@ double smooth_hz(const TrialData& trial,
   return smooth_prediction(trial.time_s, predicted.torque_nm, noise).cutoff_hz;
 }
 
-EstimatorOptions with_lag(EstimatorOptions options, EmgLag lag) {
-  options.lag = lag;
+/// Returns the options of a fit's predictions: its lag, and its answer as the reference of the unseen quantities.
+EstimatorOptions of_predictions(EstimatorOptions options, const IdentificationResult& fit) {
+  options.lag = fit.lag;
+  options.begin_at = beginning_at(fit);
   options.progress = {};
   return options;
 }
@@ -130,7 +133,7 @@ Eigen::VectorXd variance_by(const Eigen::MatrixXd& jacobian, const Eigen::Matrix
 /// The law at the fit's values and its derivatives by the unknowns.
 struct TrialPredictions::ByLaw {
   ByLaw(const StudyData& of_data, const EstimatorOptions& of_options, const IdentificationResult& of)
-      : data(of_data), options(with_lag(of_options, of.lag)), fit(of) {
+      : data(of_data), options(of_predictions(of_options, of)), fit(of) {
     if (fit.solution.size() == 0 || !fit.covariance.allFinite() || fit.covariance.rows() != fit.solution.size() ||
         fit.exact)
       return;
@@ -186,10 +189,9 @@ struct TrialPredictions::ByLaw {
 /// The posterior at the fit's values, given the torque of the fitted trials.
 struct TrialPredictions::ByPosterior {
   ByPosterior(const StudyData& of_data, const EstimatorOptions& of_options, const IdentificationResult& of)
-      : data(of_data), options(with_lag(of_options, of.lag)), fit(of), likelihood(data, options) {
+      : data(of_data), options(of_predictions(of_options, of)), fit(of), likelihood(data, options) {
     if (likelihood.parameters().size() != fit.solution.size())
       throw std::logic_error("a fit predicts by other unknowns than its own");
-    likelihood.refer_to(fit.solution);
     unseen = likelihood.unseen_given(fit.solution, fit.noise);
   }
 

@@ -122,15 +122,10 @@ Eigen::VectorXd Density::start() const {
 }
 
 Eigen::VectorXd Density::start_at(const FitStart& at) const {
-  Eigen::VectorXd z = parameters().start();
-  for (std::size_t j = 0; j < parameters().free().size(); ++j) {
-    const auto found = std::find(at.unknowns.begin(), at.unknowns.end(), parameters().free()[j].label);
-    if (found != at.unknowns.end()) z[static_cast<Eigen::Index>(j)] = at.z[found - at.unknowns.begin()];
-  }
   NoiseValues noise = noise_of(start());
   const Eigen::Index shared = std::min<Eigen::Index>(kNoiseFieldCount, at.noise.size());
   noise.head(shared) = at.noise.head(shared);
-  return x_of(z, noise);
+  return x_of(likelihood_.reference(), noise);
 }
 
 Eigen::VectorXd Density::longest_step(const Eigen::VectorXd& x) const {

@@ -50,7 +50,8 @@ class Density {
   /// Returns the point at which a search begins: the study's starting values, with large errors.
   /// Small errors would give far points gradients that lead the search astray.
   [[nodiscard]] Eigen::VectorXd start() const;
-  /// Returns the point of another fit's answer. Unknowns and trials that this density alone has begin as in `start`.
+  /// Returns the point of another fit's answer, EstimatorOptions::begin_at, which is the reference of a new density.
+  /// Unknowns and trials that this density alone has begin as in `start`.
   [[nodiscard]] Eigen::VectorXd start_at(const FitStart& at) const;
   /// Returns the longest step of a search for each entry of x: a standard deviation of the prior,
   /// and at most 2, over which the logistic map changes its shape.

@@ -26,6 +26,19 @@ Eigen::VectorXd diagonal_sums(const Eigen::Ref<const Eigen::MatrixXd>& b) {
   return sums;
 }
 
+constexpr double kSameReference = 1e-6;  // in the solver's scale, ln or SI
+
+/// Returns the starting values of the unknowns; where a search begins at another fit's answer, that answer.
+Eigen::VectorXd start_of(const ParameterMap& map, const EstimatorOptions& options) {
+  Eigen::VectorXd z = map.start();
+  for (std::size_t j = 0; options.begin_at && j < map.free().size(); ++j) {
+    const FitStart& at = *options.begin_at;
+    const auto found = std::find(at.unknowns.begin(), at.unknowns.end(), map.free()[j].label);
+    if (found != at.unknowns.end()) z[static_cast<Eigen::Index>(j)] = at.z[found - at.unknowns.begin()];
+  }
+  return z;
+}
+
 /// Two joints i <= j of a run, by their first rows among the n J samples and among the rows of L y.
 struct JointPair {
   Eigen::Index i, j, row_i, row_j;
@@ -75,7 +88,7 @@ Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, c
   }
   if (session == nullptr) recorded_.told_by_motion = told_by_motion_alone(data).value_or(0.0);
   weigh_rows();
-  refer_to(map_.start());
+  refer_to(start_of(map_, options_));
 }
 
 void Likelihood::weigh_rows() {
@@ -95,6 +108,7 @@ double Likelihood::log_share(std::size_t r, const NoiseValues& noise) const {
 }
 
 void Likelihood::refer_to(const Eigen::VectorXd& z) {
+  if (reference_.size() == z.size() && (z - reference_).cwiseAbs().maxCoeff() <= kSameReference) return;
   reference_ = z;
   const ModelValues values = map_.values(z);
   std::vector<RunEvaluation> at;

@@ -43,7 +43,7 @@ class Likelihood {
  public:
   static constexpr double kLeastTorqueError = 0.002;  ///< Of its root mean square, behind L.
 
-  /// Takes the start as the reference. `session` is the recording of which the data are a part;
+  /// Takes the start as the reference, or the answer at which a search begins (EstimatorOptions::begin_at). `session` is the recording of which the data are a part;
   /// null: the data are the whole recording.
   Likelihood(const StudyData& data, const EstimatorOptions& options, const Recorded* session = nullptr);
 

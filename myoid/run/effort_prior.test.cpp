@@ -36,6 +36,7 @@ TEST(ExpectAnyEffort, HasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratu
 TEST(MeaningOfStrength, FollowsTheEstimatorAndTheRecordedEfforts) {
   using testing::HasSubstr;
   Study study;
+  study.identify.estimator = identification::EstimatorKind::least_squares;
   EXPECT_THAT(meaning_of_strength(study, true), HasSubstr("greatest effort that was recorded"));
   EXPECT_THAT(meaning_of_strength(study, false), HasSubstr("not the muscle's maximum"));
   study.identify.estimator = identification::EstimatorKind::posterior;

@@ -43,7 +43,8 @@ TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   const identification::EstimatorOptions known = options_of(result);
   EXPECT_NEAR(known.gain_prior_mean.at("BIC"), 0.8, 1e-12);
   EXPECT_NEAR(known.gain_prior_sd.at("BIC"), 0.05, 1e-12);  // 3 % and 4 %, independent
-  // Without MVC the greatest effort of the study is no known share of anything.
+  // Without MVC the greatest effort of the study is no known share of anything, by least squares.
+  result.source.study.identify.estimator = identification::EstimatorKind::least_squares;
   result.source.study.emg.has_mvc = false;
   const identification::EstimatorOptions unknown = options_of(result);
   EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), 1.0, 1e-12);
@@ -141,6 +142,7 @@ TEST(EstimatorData, AVmaxThatTheStudyDoesNotStateIsFree) {
 TEST(EstimatorData, WithoutAMaximalContractionFMaxMayBeThatOfAnySmallerEffort) {
   StudyResult result = with_one_channel();
   const auto prior = [&] { return data_of(result).muscles[0].priors.at("max_isometric_force"); };
+  result.source.study.identify.estimator = identification::EstimatorKind::least_squares;
   result.source.study.emg = {.kind = EmgKind::raw, .has_mvc = true};
   const Prior literature = prior();
   result.source.study.emg.has_mvc = false;

@@ -98,6 +98,9 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
                                          "std_error",
                                          "ci_low",
                                          "ci_high",
+                                         "given_estimate",
+                                         "given_ci_low",
+                                         "given_ci_high",
                                          "prior_mean",
                                          "prior_sd",
                                          "shrinkage",
@@ -114,7 +117,13 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
                                          "ci_high_bootstrap",
                                          "ci_low_profile",
                                          "ci_high_profile",
-                                         "routes_disagree"};
+                                         "routes_disagree",
+                                         "variance_noise",
+                                         "variance_literature",
+                                         "variance_geometry",
+                                         "variance_electrodes",
+                                         "variance_torque_scale",
+                                         "variance_model"};
   EXPECT_EQ(table.names, columns);
   EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
   EXPECT_TRUE(std::filesystem::exists(out / "parameters.json"));

@@ -42,7 +42,8 @@ class WorkbenchPage : public testing::Test {
     myoid::recording::write_file(
         *folder_ / "rec/study.toml",
         study + "\n[[norm]]\nname = \"adults, N = 24\"\nfile = \"norm.csv\"\ntrials = [\"ramp\"]\n");
-    const auto run = myoid({"run", *folder_ / "rec/study.toml", "--out", *folder_ / "result"});
+    const auto run = myoid(
+        {"run", *folder_ / "rec/study.toml", "--estimator", "least_squares", "--out", *folder_ / "result"});
     ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
     const std::string text = ::myoid::test::read_text(*folder_ / "result/report.html");
     if (text.find("id=\"workbench-data\"") == std::string::npos) return;  // built without three.js
@@ -426,7 +427,7 @@ TEST_F(WorkbenchPage, ThePosteriorsContoursHoldTheirSharesOfItsDraws) {
   const auto twin = myoid({"twin", "--protocol", *folder_ / "two.toml", "--out", *folder_ / "two"});
   ASSERT_EQ(twin.exit_code, 0) << twin.err;
   const std::string out = *folder_ / "posterior";
-  const auto run = myoid({"run", *folder_ / "two/study.toml", "--estimator", "posterior", "--out", out});
+  const auto run = myoid({"run", *folder_ / "two/study.toml", "--out", out});
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
   browser_->open("file://" + out + "/report.html#trial=lift");
   const std::vector<myoid::test::Row> draws = myoid::test::read_rows(out + "/posterior.csv");

@@ -1,5 +1,6 @@
 """Draws from the posterior: the numbers of the file, pandas, xarray, ArviZ."""
 
+import shutil
 import sys
 import types
 import warnings
@@ -89,9 +90,11 @@ def test_without_arviz_the_error_has_the_remedy(drawn, monkeypatch):
         drawn.to_inference_data()
 
 
-def test_a_run_without_draws_says_so(result):
+def test_a_run_without_draws_says_so(result, tmp_path):
+    for file in ("parameters.csv", "parameters.json", "run.json"):
+        shutil.copy(result.path / file, tmp_path)
     with pytest.raises(myoid.InvalidInput, match='estimator="posterior"'):
-        result.draws  # noqa: B018
+        myoid.Result(tmp_path).draws  # noqa: B018
 
 
 @pytest.mark.parametrize("text, line, found", [

@@ -43,7 +43,7 @@ class Results:
 
     def verdicts(self, run):
         """How many numbers have each verdict, by the gate that counts them."""
-        gate = re.search(r"(\d+) identified, (\d+) weak, (\d+) prior-dominated, (\d+) not identifiable, (\d+) non-phys",
+        gate = re.search(r"(\d+) identified, \d+ reproducible, (\d+) weak, (\d+) prior-dominated, (\d+) not identifiable, (\d+) non-phys",
                          self.printed[run])  # fmt: skip
         return [int(count) for count in gate.groups()]
 
