@@ -133,6 +133,7 @@ TEST(GroupReport, NamesFilesThatWereChangedSinceTheRun) {
   const test::TemporaryFolder folder;
   const fs::path anna = run(folder / "anna", 600);
   recording::RecordContent list;
+  list.commands = {"run"};
   list.files["parameters.csv"] = {{sha256(recording::read_text_file(anna / "parameters.csv")), "run", true}};
   recording::write_file(anna / std::string(recording::kRecordFile), recording::record_text(list));
   EXPECT_TRUE(group_report({.persons = {anna}, .after = {}, .folder = "x"}).gates.empty());
