@@ -13,8 +13,8 @@
 #include "myoid/methods/force.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/paper.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
-#include "myoid/posterior/posterior.h"
 #include "myoid/results/prediction_files.h"
 
 namespace myoid::commands {
@@ -76,12 +76,6 @@ IdentificationResult fit_data(const IdentifyOptions& o,
   IdentificationResult fit = fit_torque(table, options, data);
   identification::look_around(data, options, fit);
   return fit;
-}
-
-/// Returns the options of fits whose search begins at this fit's answer.
-EstimatorOptions beginning_at(const IdentificationResult& fit, EstimatorOptions options) {
-  options.begin_at = identification::beginning_at(fit);
-  return options;
 }
 
 /// Predicts trials or blocks by the fit to the others. `data` are the data before the fit.

@@ -9,7 +9,8 @@ const std::vector<std::string_view>& result_names() {
   static const std::vector<std::string_view> names{
       // run, identify, predict
       "figures", "tables", "report.html", "report.json", "parameters.csv", "parameters.json", "fold_parameters.csv",
-      "posterior.csv", "voluntary_torque.csv", "methods.txt", "methods.bib", "run.json", "solvers.csv", "predictions.csv", "predictions.json",
+      "posterior.csv", "voluntary_torque.csv", "methods.txt", "methods.bib", "run.json", "solvers.csv",
+      "predictions.csv", "predictions.json",
       // a person of a cohort
       "study.toml", "outcome.json",
       // beside the results

@@ -12,9 +12,15 @@
 #include "myoid/methods/smooth_prediction.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/posterior/likelihood.h"
-#include "myoid/posterior/posterior.h"
 
 namespace myoid::identification {
+
+EstimatorOptions beginning_at(const IdentificationResult& fit, EstimatorOptions options) {
+  if (fit.noise.size() > 0)
+    options.begin_at =
+        std::make_shared<const FitStart>(FitStart{fit.free_parameters, fit.solution, fit.noise, fit.lag});
+  return options;
+}
 
 Prediction predict(const StudyData& data,
                    const TrialData& trial,
@@ -118,9 +124,8 @@ double smooth_hz(const TrialData& trial,
 /// Returns the options of a fit's predictions: its lag, and its answer as the reference of the unseen quantities.
 EstimatorOptions of_predictions(EstimatorOptions options, const IdentificationResult& fit) {
   options.lag = fit.lag;
-  options.begin_at = beginning_at(fit);
   options.progress = {};
-  return options;
+  return beginning_at(fit, std::move(options));
 }
 
 /// Returns diag(J C J'), J n x p.

@@ -57,6 +57,10 @@ class TrialPredictions {
   double residual_cutoff_hz_ = 0.0;
 };
 
+/// Returns the options of a fit whose search begins at the answer of `fit` (EstimatorOptions::begin_at); unchanged
+/// where `fit` is none of the posterior.
+[[nodiscard]] EstimatorOptions beginning_at(const IdentificationResult& fit, EstimatorOptions options);
+
 /// Returns the share of measured torques within 1.96 standard deviations of the prediction; NaN
 /// without standard deviations.
 [[nodiscard]] double covered_share(const Eigen::VectorXd& measured_nm,

@@ -43,8 +43,8 @@ class Likelihood {
  public:
   static constexpr double kLeastTorqueError = 0.002;  ///< Of its root mean square, behind L.
 
-  /// Takes the start as the reference, or the answer at which a search begins (EstimatorOptions::begin_at). `session` is the recording of which the data are a part;
-  /// null: the data are the whole recording.
+  /// Takes the start as the reference, or the answer at which a search begins (EstimatorOptions::begin_at). `session`
+  /// is the recording of which the data are a part; null: the data are the whole recording.
   Likelihood(const StudyData& data, const EstimatorOptions& options, const Recorded* session = nullptr);
 
   /// Computes S, its slopes and Q at the reference values z.

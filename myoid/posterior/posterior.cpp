@@ -365,11 +365,6 @@ void add_warnings(const std::vector<Candidate>& candidates,
 
 }  // namespace
 
-std::shared_ptr<const FitStart> beginning_at(const IdentificationResult& fit) {
-  if (fit.noise.size() == 0) return nullptr;
-  return std::make_shared<const FitStart>(FitStart{fit.free_parameters, fit.solution, fit.noise, fit.lag});
-}
-
 IdentificationResult identify_by_posterior(const StudyData& data, const EstimatorOptions& options) {
   validate(data);
   if (!options.priors)

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
@@ -18,9 +16,5 @@ namespace myoid::identification {
 /// fit) it is the first without a width. IdentificationResult::trials is left empty. Throws InvalidInput without
 /// priors.
 [[nodiscard]] IdentificationResult identify_by_posterior(const StudyData& data, const EstimatorOptions& options);
-
-/// Returns the answer of a fit as the beginning of others (EstimatorOptions::begin_at); null of a fit that is none of
-/// the posterior.
-[[nodiscard]] std::shared_ptr<const FitStart> beginning_at(const IdentificationResult& fit);
 
 }  // namespace myoid::identification

@@ -1,6 +1,7 @@
 #include "myoid/posterior/posterior.h"
 
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -188,7 +189,8 @@ TEST(IdentifyByPosterior, ASearchThatBeginsAtTheAnswerStaysThere) {
   EstimatorOptions options;
   options.choose_lag = true;
   const IdentificationResult whole = identify_by_posterior(data, options);
-  options.begin_at = beginning_at(whole);
+  options.begin_at =
+      std::make_shared<const FitStart>(FitStart{whole.free_parameters, whole.solution, whole.noise, whole.lag});
   options.marginals = false;
   const IdentificationResult again = identify_by_posterior(data, options);
   EXPECT_EQ(again.lag, whole.lag);

@@ -20,6 +20,7 @@ StudyResult small_study() {
   StudyResult result;
   Study& study = result.source.study;
   study.model.coordinate = "elbow_flexion";
+  study.identify.estimator = identification::EstimatorKind::least_squares;
   study.emg.lowpass_hz = 4.0;
   study.motion.smoothing = Smoothing::cutoff;
   study.motion.cutoff_hz = 5.0;

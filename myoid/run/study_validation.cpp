@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
-#include "myoid/posterior/posterior.h"
 
 namespace myoid {
 namespace {
@@ -56,9 +56,7 @@ StudyValidation study_validation(const FitSource& source,
     return identification::identify_torque(split, options);
   };
   StudyValidation found;
-  identification::EstimatorOptions options = input.options;
-  options.begin_at = identification::beginning_at(whole);
-  found.folds = identification::cross_validate(input.data, fit, options, how);
+  found.folds = identification::cross_validate(input.data, fit, beginning_at(whole, input.options), how);
   std::string why_not;
   (void)identification::splits(input.data, how, &why_not);
   if (!why_not.empty()) found.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);

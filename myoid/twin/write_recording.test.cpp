@@ -1,5 +1,6 @@
 #include "myoid/twin/write_recording.h"
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -159,7 +160,12 @@ TEST_F(WriteRecording, TruthHasARowForEveryParameter) {
     const std::size_t second = row.find(',', row.find(',') + 1);
     values[row.substr(0, second)] = std::stod(row.substr(last + 1));
   }
-  EXPECT_EQ(values.size(), 4U * 8U + 1U + 4U * 3U + 3U);
+  const auto voluntary = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](const auto& value) {
+    return value.first.find(",voluntary_") != std::string::npos;
+  }));
+  // Torque, angle and three powers of four muscles and of both directions of the elbow.
+  EXPECT_EQ(voluntary, 5U * (4U + 2U));
+  EXPECT_EQ(values.size() - voluntary, 4U * 8U + 1U + 4U * 3U + 3U);
   EXPECT_EQ(values.at("BRA,max_isometric_force"), made.truth.muscles[1].max_isometric_force_n);
   EXPECT_EQ(values.at("TRI,eccentric_curvature_product"), made.truth.muscles[3].eccentric_curvature_product);
   EXPECT_EQ(values.at("subject,emg_delay"), made.truth.emg_delay_s);
