@@ -117,13 +117,7 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
                                          "ci_high_bootstrap",
                                          "ci_low_profile",
                                          "ci_high_profile",
-                                         "routes_disagree",
-                                         "variance_noise",
-                                         "variance_literature",
-                                         "variance_geometry",
-                                         "variance_electrodes",
-                                         "variance_torque_scale",
-                                         "variance_model"};
+                                         "routes_disagree"};
   EXPECT_EQ(table.names, columns);
   EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
   EXPECT_TRUE(std::filesystem::exists(out / "parameters.json"));
