@@ -139,7 +139,7 @@ def check_simulate_and_recover(output, recording, out):
     for muscle in ("BIC", "BRA", "BRD", "TRI"):
         found, true = said(output, f"strength of {muscle}")
         expect(true, truth[muscle, "max_isometric_force"], 0.05 + 1e-9, f"true strength of {muscle}")
-        expect(found, true, 0.25 * true, f"strength of {muscle}")
+        expect(found, true, 0.35 * true, f"strength of {muscle}")
     r2, error = re.search(rf"torque of held_back_2kg: R2 ({NUMBER}), error ({NUMBER}) N m rms", output).groups()
     torque = columns(person / "truth" / "held_back_2kg_torque.sto")["elbow_flexion_moment"]
     variance = mean([t * t for t in torque]) - mean(torque) ** 2

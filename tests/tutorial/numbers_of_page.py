@@ -42,10 +42,12 @@ class Results:
         return next(e for e in self.torque(run)["estimates"] if (e["muscle"], e["parameter"]) == (muscle, parameter))
 
     def verdicts(self, run):
-        """How many numbers have each verdict, by the gate that counts them."""
-        gate = re.search(r"(\d+) identified, \d+ reproducible, (\d+) weak, (\d+) prior-dominated, (\d+) not identifiable, (\d+) non-phys",
-                         self.printed[run])  # fmt: skip
-        return [int(count) for count in gate.groups()]
+        """How many numbers are identified, weak, prior dominated, not identifiable, non-physical and reproducible, by the
+        gate that counts them."""
+        gate = re.search(r"(\d+) identified, (\d+) reproducible, (\d+) weak, (\d+) prior-dominated, "
+                         r"(\d+) not identifiable, (\d+) non-phys", self.printed[run])  # fmt: skip
+        identified, reproducible, *others = (int(count) for count in gate.groups())
+        return [identified, *others, reproducible]
 
     def folds(self, run, score):
         key, part = score
