@@ -27,7 +27,7 @@ struct IdentifyOptions {
   std::vector<std::string> free_more;
   double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
   double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
-  std::string estimator = "posterior";
+  std::string estimator = "least_squares";
   int posterior_draws = 0;
   std::string loss = "square";
   int bootstrap = 0;
