@@ -197,6 +197,7 @@ struct TrialPredictions::ByPosterior {
       : data(of_data), options(of_predictions(of_options, of)), fit(of), likelihood(data, options) {
     if (likelihood.parameters().size() != fit.solution.size())
       throw std::logic_error("a fit predicts by other unknowns than its own");
+    likelihood.refer_to(fit.solution);  // nothing to do where the search of the options begins there
     unseen = likelihood.unseen_given(fit.solution, fit.noise);
   }
 
