@@ -63,10 +63,6 @@ std::string sources_text(const SourceShares& shares) {
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 /// The finding about the person's interval, of a fit that may be judged by its widths.
 Finding of_person(const PosteriorFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;

@@ -20,8 +20,8 @@ struct PosteriorFacts {
   std::optional<double> contraction_given;  ///< The same with geometry and sensors exact.
   /// Distance of the value from the prior's mean, in its standard deviations; empty: no prior.
   std::optional<double> prior_distance;
-  /// Of a number that is 0 by nature: 1.96 standard deviations of its prior, of which widths are shares; empty: widths
-  /// are shares of the value.
+  /// The size of which widths are shares. A number that is 0 by nature has 1.96 standard deviations of its prior here;
+  /// empty: widths are shares of the value.
   std::optional<double> usual_size;
   bool possible = true;  ///< A muscle can have this value.
   bool is_delay = false;

@@ -235,17 +235,25 @@ std::string html(const Report& report, const Workbench* workbench) {
   for (const Link& link : report.links)
     text += fmt::format("<p><a href=\"{}\">{}</a></p>\n", recording::url_path(link.file), typeset(link.text));
   text += "</header>\n<nav class=\"contents\">";
+  const auto links_to = [&](bool before_numbers) {
+    for (const Section& section : report.sections)
+      if (section.before_numbers == before_numbers)
+        text += fmt::format("<a href=\"#{}\">{}</a>", escape_xml(section.id), typeset(section.heading));
+  };
+  links_to(true);
   if (!report.forest.empty()) text += "<a href=\"#numbers\">All numbers</a>";
   if (live) text += "<a class=\"live-only\" href=\"#workbench\" hidden>Workbench</a>";
   if (!report.gates.empty()) text += "<a href=\"#quality\">Quality</a>";
-  for (const Section& section : report.sections)
-    text += fmt::format("<a href=\"#{}\">{}</a>", escape_xml(section.id), typeset(section.heading));
+  links_to(false);
   text += "</nav>\n<main>\n";
+  for (const Section& section : report.sections)
+    if (section.before_numbers) text += section_html(section);
   if (!report.forest.empty()) text += part_html("numbers", "All numbers", forest_html(report.forest));
   if (live) text += "<section id=\"workbench\" class=\"workbench\" hidden></section>\n";
   if (!report.gates.empty())
     text += part_html("quality", "Quality of the data and of the fit", gates_html(report.gates));
-  for (const Section& section : report.sections) text += section_html(section);
+  for (const Section& section : report.sections)
+    if (!section.before_numbers) text += section_html(section);
   if (!report.assumptions.empty()) {
     text += part_html("assumptions", "Assumptions", "<ul>\n" + items_html(report.assumptions) + "</ul>\n");
   }

@@ -149,6 +149,7 @@ struct Link {
 struct Section {
   std::string id;
   std::string heading;
+  bool before_numbers = false;            ///< The section stands before the table of all numbers.
   std::vector<std::string> paragraphs{};  ///< Plain text.
   std::vector<Gate> gates{};
   std::vector<Table> tables{};

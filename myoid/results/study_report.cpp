@@ -76,9 +76,9 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   return list;
 }
 
-/// Returns true for a number of its own: no nuisance, not tied to another, and no power, which follows from the torque.
+/// Returns true for a parameter of its own: no nuisance, not tied to another, and no torque that follows from others.
 bool is_counted(const ParameterEstimate& e) {
-  return !identification::is_nuisance(e) && e.tied_to.empty() && !identification::is_voluntary_power(e.parameter);
+  return !identification::is_nuisance(e) && e.tied_to.empty() && !identification::is_voluntary(e.parameter);
 }
 
 /// Lists the numbers that are identified: "max isometric force of BIC, TRI; delay".
@@ -110,9 +110,10 @@ std::string headline(const StudyResult& result) {
     if (e.verdict == Verdict::reproducible) ++repeat;
     if (e.verdict == Verdict::weak) ++weak;
   }
-  std::string text = sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
-                               : fmt::format("This recording identifies {} of {} parameters: {}", sure, total,
-                                             identified_numbers(*best));
+  std::string text = voluntary_headline(*best);
+  text += sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
+                    : fmt::format("This recording identifies {} of {} parameters: {}", sure, total,
+                                  identified_numbers(*best));
   text += ".";
   if (repeat > 0)
     text += fmt::format(" {} {} reproducible: given geometry and sensors, for comparing sessions of this person.",

@@ -62,6 +62,12 @@ std::string angle_text(const VoluntaryCurve& curve, const ParameterEstimate& ang
 
 std::string spelled_verdict(const ParameterEstimate& e) { return report::spelled(identification::name(e.verdict)); }
 
+/// Returns true if the recording tells the number for the person, or for sessions of the person.
+bool is_told(const ParameterEstimate& e) {
+  return e.verdict == identification::Verdict::identified || e.verdict == identification::Verdict::reproducible ||
+         e.verdict == identification::Verdict::weak;
+}
+
 std::string size_text(const ParameterEstimate& e) { return report::format_beside(e.estimate, e.ci_low, e.ci_high); }
 
 std::string sentence(const IdentificationResult& method, const VoluntaryCurve& curve) {
@@ -192,9 +198,27 @@ std::vector<std::string> voluntary_sentences(const IdentificationResult& method)
   return sentences;
 }
 
+std::string voluntary_headline(const IdentificationResult& method) {
+  std::vector<std::string> parts;
+  for (const VoluntaryCurve& curve : method.voluntary) {
+    const ParameterEstimate* torque = torque_of(method, curve);
+    const ParameterEstimate* angle = angle_of(method, curve);
+    if (torque == nullptr || !is_told(*torque)) continue;
+    const std::string place =
+        angle != nullptr && is_told(*angle) ? fmt::format(" at {}", angle_text(curve, *angle)) : std::string();
+    parts.push_back(fmt::format("{} {} N m ({}){}", name_of(curve), size_text(*torque),
+                                report::format_interval(*torque->ci_low, *torque->ci_high), place));
+  }
+  if (parts.empty()) return "";
+  const bool maximal = std::ranges::all_of(method.voluntary, &VoluntaryCurve::from_mvc);
+  return fmt::format("Greatest voluntary torque{} (95 % interval): {}. ", maximal ? "" : " at the largest recorded EMG",
+                     fmt::join(parts, "; "));
+}
+
 report::Section voluntary_section(const StudyResult& result, const IdentificationResult& method) {
   report::Section section{.id = "voluntary",
                           .heading = "How strong is each muscle, and at which angle",
+                          .before_numbers = true,
                           .paragraphs = voluntary_sentences(method),
                           .tables = {table_of(result, method)},
                           .figures = {figure_of(method)}};

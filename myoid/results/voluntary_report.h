@@ -16,6 +16,11 @@ namespace myoid {
 /// "at 110° or beyond" where the torque is greatest at the end of the recorded range.
 [[nodiscard]] std::vector<std::string> voluntary_sentences(const identification::IdentificationResult& method);
 
+/// Returns the torques that the recording tells, as the report's first sentence with a blank behind it; empty: none.
+///
+///   Greatest voluntary torque (95 % interval): BIC 43 N m (36 to 50) at 92°; TRI 52 N m (47 to 58) at 51°.
+[[nodiscard]] std::string voluntary_headline(const identification::IdentificationResult& method);
+
 /// Returns the section of the greatest voluntary torques: the sentences, a table, and the torque over the angle.
 [[nodiscard]] report::Section voluntary_section(const StudyResult& result,
                                                 const identification::IdentificationResult& method);

@@ -72,6 +72,18 @@ TEST(VoluntarySentences, WithoutAnglesHaveNone) {
   EXPECT_THAT(voluntary_sentences(method)[0], Not(HasSubstr("°")));
 }
 
+TEST(VoluntaryHeadline, HoldsOnlyTorquesAndAnglesThatTheRecordingTells) {
+  IdentificationResult method = biceps();
+  EXPECT_EQ(voluntary_headline(method),
+            "Greatest voluntary torque (95 % interval): BIC 41.0 N m (38.0 to 44.0) at 85°. ");
+  method.voluntary[0].from_mvc = false;
+  method.estimates[1].verdict = Verdict::not_identifiable;
+  EXPECT_EQ(voluntary_headline(method),
+            "Greatest voluntary torque at the largest recorded EMG (95 % interval): BIC 41.0 N m (38.0 to 44.0). ");
+  method.estimates[0].verdict = Verdict::not_identifiable;
+  EXPECT_EQ(voluntary_headline(method), "");
+}
+
 TEST(VoluntaryCsv, HasARowForEachPlace) {
   EXPECT_THAT(voluntary_csv(biceps()),
               HasSubstr("owner,joint,direction,muscles,angle_rad,length_m,torque_nm,low_nm,high_nm,given_low_nm,"

@@ -294,7 +294,7 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
   const auto count = [&](Verdict v) {
     return std::ranges::count_if(torque.estimates, [&](const auto& e) {
       return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e) &&
-             !identification::is_voluntary_power(e.parameter);
+             !identification::is_voluntary(e.parameter);
     });
   };
   list.push_back(

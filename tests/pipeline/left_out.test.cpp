@@ -394,7 +394,7 @@ TEST(LeftOut, R2OfRunIsThatOfAStudyThatHoldsTheTrialBack) {
   write_text(folder / "p.toml", kProtocol);
   ASSERT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--seed", "3", "--out", folder / "rec"}).exit_code, 0);
   const fs::path study = fs::path(folder / "rec") / "study.toml";
-  // By the posterior a fold's prediction is that of its mode, and a run's that of the mean by marginals.
+  // The posterior of a fold predicts by its mode, that of a run by the mean of its marginals: they differ a little.
   const Finished whole = myoid({"run", study.string(), "--estimator", "least_squares", "--out", folder / "all"});
   ASSERT_NE(whole.exit_code, 3) << whole.err;
   const nlohmann::json folds = json_of(folder / "all/parameters.json").at("leave_one_trial_out");

@@ -49,8 +49,8 @@ TEST(TwinCommand, ManyPersonsAreTheSameToTheBitWithAnyNumberOfThreads) {
     const fs::path other = fs::path(folder / "3") / fs::relative(entry.path(), folder / "1");
     EXPECT_EQ(read_text(entry.path()), read_text(other)) << other;
   }
-  // Of all: persons.csv and the record of the files. A person: study, model, truth, person.csv; 8 files of a trial and
-  // the torque of the MVC.
+  // The folder holds persons.csv and the record of its files. Each person has study, model, truth and person.csv, 8
+  // files of a trial, and the torque of the MVC.
   EXPECT_EQ(files, 2 + 5 * (4 + 2 * 8 + 1));
   EXPECT_EQ(read_rows(fs::path(folder / "1") / "persons.csv").size(), 5U);
 
