@@ -63,6 +63,21 @@ TEST(Report, QualityComesFirstAndTheWorstOfItBefore) {
   EXPECT_LT(page.find("Markers fit"), page.find("Table I"));
 }
 
+TEST(Report, ASectionMayStandBeforeAllNumbers) {
+  Report report = small_report();
+  report.forest = {{.owner = "BIC", .name = "optimal fiber length", .estimate = 0.12, .verdict = "weak"}};
+  const auto is_first = [&] {
+    const std::string page = html(report);
+    return page.find("Table I<") < page.find("id=\"numbers\"");
+  };
+  EXPECT_FALSE(is_first());
+  report.sections[0].before_numbers = true;
+  EXPECT_TRUE(is_first());
+  const std::string page = html(report);
+  EXPECT_EQ(page.find("Table I<"), page.rfind("Table I<"));
+  EXPECT_LT(page.find("href=\"#parameters\""), page.find("href=\"#numbers\""));
+}
+
 TEST(Report, LeadsToWhatLiesBesideIt) {
   EXPECT_THAT(html(small_report()), HasSubstr("<a href=\"motion.html\">The model, moving</a>"));
   EXPECT_EQ(nlohmann::json::parse(report_json(small_report()))["links"][0]["file"], "motion.html");
