@@ -1,5 +1,6 @@
 #include "myoid/commands/compare.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -26,11 +27,12 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
          {"unit", std::string(symbol(p.first.unit))},
          {"method", p.first.method},
          {"case", p.first.fit_case},
-         {"first", p.first.estimate},
-         {"second", p.second.estimate},
+         {"first", p.of_first.value},
+         {"second", p.of_second.value},
          {"difference", p.difference},
-         {"difference_percent", p.base == 0.0 ? nlohmann::ordered_json(nullptr)
-                                              : nlohmann::ordered_json(100.0 * p.difference / std::abs(p.base))},
+         {"difference_percent", p.of_first.value == 0.0
+                                    ? nlohmann::ordered_json(nullptr)
+                                    : nlohmann::ordered_json(100.0 * p.difference / std::abs(p.of_first.value))},
          {"smallest_detectable", optional_number(p.smallest_detectable)},
          {"p_value", optional_number(p.p_value)},
          {"change", std::string(name(p.change))},
@@ -47,15 +49,23 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
 }
 
 void print(const RunComparison& comparison) {
+  std::size_t owner = 6, parameter = 16;
+  const auto labelled = [](const ComparedParameter& p) {
+    return fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit));
+  };
+  for (const ComparedParameter& p : comparison.parameters) {
+    owner = std::max(owner, in_column(p.muscle).size());
+    parameter = std::max(parameter, labelled(p).size());
+  }
   say("{}\n\n", changes_sentence(comparison));
-  say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second",
-      "difference", "%", "p", "verdict");
+  say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", owner, "parameter [unit]", parameter, "first",
+      "second", "difference", "%", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
     if (!rests_on_measurement(p.first.method)) continue;  // in the report
-    say("{:<10} {:<30} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", p.muscle,
-        fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
-        report::format_value(p.second.estimate), report::format_value(p.difference),
-        p.base == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.base)),
+    say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", in_column(p.muscle), owner, labelled(p), parameter,
+        report::format_value(p.of_first.value), report::format_value(p.of_second.value),
+        report::format_value(p.difference),
+        p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value)),
         p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }
   for (const std::string& remark : comparison.remarks) say("{}\n", remark);

@@ -26,8 +26,8 @@ std::string with_unit(double value, Unit unit) {
 
 /// Returns "8 %", or the size itself where the number of the first session is no scale.
 std::string share_or_size(const ComparedParameter& p, double size) {
-  if (!(std::abs(p.base) > 0.0)) return with_unit(size, p.first.unit);
-  return fmt::format("{:.2g} %", 100.0 * size / std::abs(p.base));
+  if (!(std::abs(p.of_first.value) > 0.0)) return with_unit(size, p.first.unit);
+  return fmt::format("{:.2g} %", 100.0 * size / std::abs(p.of_first.value));
 }
 
 }  // namespace
@@ -55,7 +55,8 @@ std::string change_text(const ComparedParameter& p) {
   const std::string unseen = fmt::format("a change below {} would not have been seen", share_or_size(p, seen));
   if (p.change == Change::no_change)
     return fmt::format("{}: no change of {} shows; {}", p.muscle, report::spelled(p.first.parameter), unseen);
-  const std::string share = std::abs(p.base) > 0.0 ? fmt::format("{:.2g} %, ", 100.0 * size / std::abs(p.base)) : "";
+  const std::string share =
+      std::abs(p.of_first.value) > 0.0 ? fmt::format("{:.2g} %, ", 100.0 * size / std::abs(p.of_first.value)) : "";
   return fmt::format("{} {} by {} ({}95 % {} to {}); {}", p.muscle, direction(p.first.parameter, p.difference),
                      with_unit(size, p.first.unit), share, report::format_value(size - seen),
                      with_unit(size + seen, p.first.unit), unseen);

@@ -62,7 +62,7 @@ Run read_run(const std::filesystem::path& folder) {
       run.posterior |= !method.value("noise", json::array()).empty();
       for (const json& row : method.at("estimates")) {
         std::optional<ParameterEstimate> e = identification::estimate_of_json(row);
-        if (!e) continue;
+        if (!e || identification::is_voluntary_power(e->parameter)) continue;  // a power follows from the torque
         // One unknown of several muscles is one number, in the list of its first owner.
         const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method, e->fit_case};
         if (!e->tied_to.empty()) {
@@ -113,7 +113,8 @@ bool is_ratio_scale(const std::string& parameter) {
 
 /// A number in one session, and its standard error between sessions.
 struct OfSession {
-  double value = 0.0, sd = 0.0;
+  ComparedValue shown;
+  double sd = 0.0;
 };
 
 /// Returns the number given geometry and sensors; empty by least squares. Of a number that is searched for by its
@@ -122,16 +123,21 @@ std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
   if (!e.given_ci_low || !e.given_ci_high) return std::nullopt;
   const double low = *e.given_ci_low, high = *e.given_ci_high;
   const bool ratio = is_ratio_scale(e.parameter) && low > 0.0;
-  const OfSession of{.value = ratio ? std::sqrt(low * high) : 0.5 * (low + high),
+  const OfSession of{.shown = {ratio ? std::sqrt(low * high) : 0.5 * (low + high), low, high},
                      .sd = (high - low) / (2.0 * kNormal95)};
   return of.sd > 0.0 ? std::optional(of) : std::nullopt;
+}
+
+/// Returns the person's number, with the standard error that two sessions do not share.
+OfSession of_person(const ParameterEstimate& e) {
+  return {{e.estimate, e.ci_low, e.ci_high}, e.std_error ? repeat_error(e) : 0.0};
 }
 
 /// Returns a number of both sessions by one reading: given geometry and sensors, or the person's.
 std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first, const ParameterEstimate& second) {
   const auto one = given_geometry(first), other = given_geometry(second);
   if (one && other) return {*one, *other};
-  return {{first.estimate, repeat_error(first)}, {second.estimate, repeat_error(second)}};
+  return {of_person(first), of_person(second)};
 }
 
 /// Adjusts by Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result.
@@ -155,10 +161,10 @@ std::string text_of(const Key& key) {
   return fmt::format("{} {} (method {}{})", muscle, parameter, method, branch_text(fit_case, ", "));
 }
 
-std::string interval_text(const ParameterEstimate& e) {
-  const std::string value = report::format_value(e.estimate);
-  if (!e.ci_low || !e.ci_high) return value;
-  return fmt::format("{} ({})", value, report::format_interval(*e.ci_low, *e.ci_high));
+std::string interval_text(const ComparedValue& of) {
+  const std::string value = report::format_value(of.value);
+  if (!of.low || !of.high) return value;
+  return fmt::format("{} ({})", value, report::format_interval(*of.low, *of.high));
 }
 
 report::Badge badge(Change change) {
@@ -191,19 +197,19 @@ report::Panel panel_of(const RunComparison& comparison,
   report::Panel panel{.title = parameter + branch_text(fit_case, ", ")};
   report::Series first{.name = session_name("first", comparison.first_date), .role = report::Role::points};
   report::Series second{.name = session_name("second", comparison.second_date), .role = report::Role::points_beside};
-  const auto add = [&](report::Series& series, const std::string& category, const ParameterEstimate& of) {
+  const auto add = [&](report::Series& series, const std::string& category, const ComparedValue& of) {
     series.x.push_back(static_cast<double>(panel.x.categories.size()));
     panel.x.categories.push_back(category);
-    series.y.push_back(of.estimate);
-    series.y_lower.push_back(of.ci_low.value_or(of.estimate));
-    series.y_upper.push_back(of.ci_high.value_or(of.estimate));
+    series.y.push_back(of.value);
+    series.y_lower.push_back(of.low.value_or(of.value));
+    series.y_upper.push_back(of.high.value_or(of.value));
   };
   for (const ComparedParameter& p : comparison.parameters) {
     const ParameterEstimate& e = p.first;
     if (e.method != method || e.parameter != parameter || e.fit_case != fit_case) continue;
     panel.y = {.label = parameter, .unit = e.unit == Unit::dimensionless ? "" : std::string(symbol(e.unit))};
-    add(first, p.muscle + " 1", p.first);
-    add(second, p.muscle + " 2", p.second);
+    add(first, p.muscle + " 1", p.of_first);
+    add(second, p.muscle + " 2", p.of_second);
   }
   panel.series = {first, second};
   return panel;
@@ -214,12 +220,11 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
   ComparedParameter p{.muscle = std::get<0>(key), .first = run.estimates.at(key), .second = second};
   if (const auto sharers = run.sharers.find(key); sharers != run.sharers.end())
     p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
-  p.base = p.first.estimate;
-  p.difference = p.second.estimate - p.first.estimate;
+  const auto [one, other] = of_sessions(p.first, p.second);
+  p.of_first = one.shown;
+  p.of_second = other.shown;
+  p.difference = other.shown.value - one.shown.value;
   if (told(p.first) && told(p.second)) {
-    const auto [one, other] = of_sessions(p.first, p.second);
-    p.base = one.value;
-    p.difference = other.value - one.value;
     const double se = std::hypot(one.sd, other.sd);
     p.smallest_detectable = kNormal95 * se;
     p.p_value = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
@@ -259,7 +264,9 @@ std::string headline(const RunComparison& comparison) {
 report::Section method_section(const RunComparison& comparison, const std::string& method) {
   report::Table table{.id = "compared_" + method,
                       .title = "Parameters",
-                      .caption = "Estimate with its 95 % interval. p-values are adjusted for their number (Holm).",
+                      .caption =
+                          "Estimate with its 95 % interval; of the posterior those given geometry and sensors, by "
+                          "which sessions are compared. p-values are adjusted for their number (Holm).",
                       .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
                                   session_name("second", comparison.second_date), "difference", "%", "verdict"}};
   report::Figure figure{
@@ -272,14 +279,15 @@ report::Section method_section(const RunComparison& comparison, const std::strin
   for (const ComparedParameter& p : comparison.parameters) {
     const ParameterEstimate& e = p.first;
     if (e.method != method) continue;
-    table.rows.push_back({{p.muscle},
-                          {e.parameter + branch_text(e.fit_case, " (", ")")},
-                          {std::string(symbol(e.unit))},
-                          {interval_text(p.first)},
-                          {interval_text(p.second)},
-                          {report::format_value(p.difference)},
-                          {p.base == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.base))},
-                          {std::string(name(p.change)), badge(p.change), change_text(p)}});
+    table.rows.push_back(
+        {{p.muscle},
+         {e.parameter + branch_text(e.fit_case, " (", ")")},
+         {std::string(symbol(e.unit))},
+         {interval_text(p.of_first)},
+         {interval_text(p.of_second)},
+         {report::format_value(p.difference)},
+         {p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value))},
+         {std::string(name(p.change)), badge(p.change), change_text(p)}});
     if (shown.insert({e.parameter, e.fit_case}).second)
       figure.panels.push_back(panel_of(comparison, method, e.parameter, e.fit_case));
   }

@@ -19,12 +19,18 @@ enum class Change {
 };
 [[nodiscard]] std::string_view name(Change change);
 
+/// A number of one session in the compared reading: given geometry and sensors where both sessions have it.
+struct ComparedValue {
+  double value = 0.0;
+  std::optional<double> low, high;  ///< 95 % interval.
+};
+
 /// One number of both sessions.
 struct ComparedParameter {
   std::string muscle;  ///< All owners of the number, separated by commas.
   identification::ParameterEstimate first, second;
-  double base = 0.0;                          ///< Value of the first session on the compared scale.
-  double difference = 0.0;                    ///< Second minus first, on the compared scale.
+  ComparedValue of_first, of_second;
+  double difference = 0.0;                    ///< Second minus first, in the compared reading.
   std::optional<double> smallest_detectable;  ///< 1.96 standard errors of the difference.
   std::optional<double> p_value;              ///< Two-sided, adjusted (Holm) within the method.
   Change change = Change::cannot_tell;

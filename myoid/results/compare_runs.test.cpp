@@ -120,6 +120,10 @@ TEST(CompareRuns, AStrongerMuscleIsFoundWhereTheMomentArmsAreWrong) {
     if (p.muscle != "BIC") continue;
     // 40 % of what these moment arms make of the strength, within two standard errors.
     EXPECT_NEAR(p.difference, 0.4 * p.first.estimate, *p.smallest_detectable);
+    // Both sessions are shown in the reading that is compared, whose intervals exclude each other.
+    EXPECT_EQ(p.of_first.low, p.first.given_ci_low);
+    EXPECT_GT(*p.of_second.low, *p.of_first.high);
+    EXPECT_NEAR(p.of_second.value - p.of_first.value, p.difference, 1e-9);
     // The intervals of the person overlap, although the change is certain.
     EXPECT_LT(*p.second.ci_low, *p.first.ci_high);
   }
@@ -164,6 +168,24 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
             "show no change, and of 1 a recording does not tell enough.");
   EXPECT_EQ(change_text(c.parameters[1]),
             "BRA: no change of max isometric force shows; a change below 12 % would not have been seen");
+}
+
+TEST(CompareRuns, APowerFollowsFromTheTorqueAndIsNoFurtherComparison) {
+  const test::TemporaryFolder folder;
+  const auto session = [&](const char* name, double torque) {
+    const auto path = run(folder.path() / name, {{"BIC", torque, 1, "identified"}, {"TRI", 50, 1, "identified"}}, 1.0);
+    std::string json = recording::read_text_file(path / "parameters.json");
+    const std::string_view strength = "max_isometric_force";
+    json.replace(json.find(strength), strength.size(), "voluntary_torque");
+    json.replace(json.find(strength), strength.size(), "voluntary_power_60");
+    recording::write_file(path / "parameters.json", json);
+    return path;
+  };
+  const RunComparison c = compare_runs(session("one", 40), session("two", 50));
+  ASSERT_EQ(c.parameters.size(), 1U);
+  EXPECT_EQ(c.parameters[0].first.parameter, "voluntary_torque");
+  EXPECT_EQ(c.parameters[0].change, Change::differs);
+  EXPECT_TRUE(c.remarks.empty());
 }
 
 TEST(CompareRuns, AnnouncesNothingFromMethodPaper) {
