@@ -33,7 +33,8 @@ PosteriorInformation::PosteriorInformation(StudyData muscles,
   noise_[identification::kModelErrorSize] = std::log(std::max(errors.model_error, 1e-3));
   StudyData all = muscles_;
   all.trials = std::move(session);
-  const Likelihood likelihood(all, options_);
+  const Likelihood likelihood(all, options_, identification::Columns::at_reference);
+  for (const identification::Unknown& unknown : likelihood.parameters().free()) unknowns_.push_back(unknown.label);
   session_ = likelihood.recorded();
   for (const identification::UnseenQuantity& quantity : likelihood.unseen().quantities)
     quantities_.push_back(quantity.name);
@@ -42,9 +43,10 @@ PosteriorInformation::PosteriorInformation(StudyData muscles,
 Eigen::MatrixXd PosteriorInformation::of(const TrialData& trial, const Eigen::VectorXd& z) const {
   StudyData one = muscles_;
   one.trials = {trial};
-  Likelihood likelihood(one, options_, &session_);
+  EstimatorOptions at = options_;
+  at.begin_at = std::make_shared<const identification::FitStart>(identification::FitStart{unknowns_, z, {}, at.lag});
+  Likelihood likelihood(one, at, identification::Columns::at_reference, &session_);
   likelihood.believe(believed_);
-  likelihood.refer_to(z);
   return likelihood.information_by_trial(z, noise_).front();
 }
 

@@ -47,6 +47,7 @@ class PosteriorInformation {
   identification::StudyData muscles_;
   identification::EstimatorOptions options_;
   identification::NoiseValues noise_;
+  std::vector<std::string> unknowns_;
   identification::Believed believed_;
   identification::Recorded session_;
   std::vector<std::string> quantities_;

@@ -194,7 +194,10 @@ struct TrialPredictions::ByLaw {
 /// The posterior at the fit's values, given the torque of the fitted trials.
 struct TrialPredictions::ByPosterior {
   ByPosterior(const StudyData& of_data, const EstimatorOptions& of_options, const IdentificationResult& of)
-      : data(of_data), options(of_predictions(of_options, of)), fit(of), likelihood(data, options) {
+      : data(of_data),
+        options(of_predictions(of_options, of)),
+        fit(of),
+        likelihood(data, options, Columns::at_reference) {
     if (likelihood.parameters().size() != fit.solution.size())
       throw std::logic_error("a fit predicts by other unknowns than its own");
     likelihood.refer_to(fit.solution);  // nothing to do where the search of the options begins there

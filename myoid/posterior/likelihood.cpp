@@ -69,9 +69,10 @@ void add_noise(const TrialRun& run, const EmgNoise& noise, const Variance& varia
 
 }  // namespace
 
-Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, const Recorded* session)
+Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, Columns columns, const Recorded* session)
     : data_(data),
       options_(options),
+      columns_are_(columns),
       map_(data, options),
       runs_(trial_runs(data, options, map_)),
       given_(runs_.size()),
@@ -114,8 +115,9 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
   std::vector<RunEvaluation> at;
   at.reserve(runs_.size());
   for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.lag, values, nullptr);
-  unseen_ =
-      unseen_quantities(data_, options_, map_, recorded_, runs_, values, at, steps_from(z, map_, options_.lag, runs_));
+  const std::vector<Stepped> steps =
+      columns_are_ == Columns::follow ? steps_from(z, map_, options_.lag, runs_) : std::vector<Stepped>{};
+  unseen_ = unseen_quantities(data_, options_, map_, recorded_, runs_, values, at, steps);
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Reduction& reduction = runs_[r].reduction;
     columns_[r] = reduction.apply(unseen_.columns[r]);

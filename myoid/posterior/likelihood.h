@@ -12,6 +12,10 @@
 
 namespace myoid::identification {
 
+/// The columns of S away from the reference: they follow the unknowns, or they are read at the reference only, which
+/// saves their slopes.
+enum class Columns { follow, at_reference };
+
 /// Quantities that are taken to be exact: none, or the geometry and the sensors' scales.
 enum class Believed { nothing_exact, geometry_and_sensors_exact };
 
@@ -45,7 +49,10 @@ class Likelihood {
 
   /// Takes the start as the reference, or the answer at which a search begins (EstimatorOptions::begin_at). `session`
   /// is the recording of which the data are a part; null: the data are the whole recording.
-  Likelihood(const StudyData& data, const EstimatorOptions& options, const Recorded* session = nullptr);
+  Likelihood(const StudyData& data,
+             const EstimatorOptions& options,
+             Columns columns = Columns::follow,
+             const Recorded* session = nullptr);
 
   /// Computes S, its slopes and Q at the reference values z.
   void refer_to(const Eigen::VectorXd& z);
@@ -174,6 +181,7 @@ class Likelihood {
 
   const StudyData& data_;
   EstimatorOptions options_;
+  Columns columns_are_;
   ParameterMap map_;
   std::vector<TrialRun> runs_;
   std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.

@@ -34,8 +34,8 @@ class EnvelopeError {
   [[nodiscard]] Eigen::VectorXd frequencies_hz() const;
   /// Share of the variance at each of `frequencies_hz`; the shares add to 1.
   [[nodiscard]] const Eigen::VectorXd& spectrum() const { return spectrum_; }
-  /// Returns R at a time difference [s]; R is 0 from `reach_s` on.
-  [[nodiscard]] double correlation(double apart_s) const;
+  /// Returns R at the time differences 0, interval, ... last x interval [s]; R is 0 from `reach_s` on.
+  [[nodiscard]] Eigen::VectorXd correlations(double interval_s, Eigen::Index last) const;
   [[nodiscard]] double reach_s() const { return reach_s_; }
   [[nodiscard]] double share() const { return share_; }
   /// Returns weights h, an odd number about the middle one, that turn white noise of unit variance
