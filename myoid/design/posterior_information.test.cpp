@@ -46,9 +46,9 @@ TEST(PosteriorInformation, OfASessionOfOneMovementIsThatOfTheLikelihoodOfItsReco
   const Eigen::MatrixXd of_unseen = m.bottomRightCorner(q, q) + Eigen::MatrixXd::Identity(q, q);
   const Eigen::MatrixXd left =
       m.topLeftCorner(p, p) - m.topRightCorner(p, q) * of_unseen.ldlt().solve(m.bottomLeftCorner(q, p));
-  identification::NoiseValues noise(5);
-  noise << std::log(0.4), std::log(identification::beliefs::kTorqueNoiseTime.value), std::log(1e-3), std::log(0.03),
-      0.0;  // kappa: at least a thousandth
+  identification::NoiseValues noise = identification::NoiseValues::Zero(identification::kNoiseFieldCount + 1);
+  noise.head(4) << std::log(0.4), std::log(identification::beliefs::kTorqueNoiseTime.value), std::log(1e-3),
+      std::log(0.03);  // kappa: at least a thousandth
   const Eigen::MatrixXd whole = likelihood.information(z, noise).information;
   EXPECT_LT((left - whole).norm(), 1e-4 * whole.norm());
 }

@@ -174,8 +174,7 @@ Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
     const UnseenQuantity& of = unseen_.quantities[i];
     const bool exact = believed_ == Believed::geometry_and_sensors_exact && of.source != Source::model;
-    w[static_cast<Eigen::Index>(i)] =
-        exact ? 0.0 : of.weight * (of.of_the_model ? std::exp(noise[kModelErrorSize]) : 1.0);
+    w[static_cast<Eigen::Index>(i)] = exact ? 0.0 : of.weight * (of.size ? std::exp(noise[*of.size]) : 1.0);
   }
   return w;
 }
@@ -365,8 +364,8 @@ double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gra
   gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
   gradient->by_noise.setZero(noise.size());
   for (Eigen::Index i = 0; i < quantities; ++i) {
-    if (unseen_.quantities[static_cast<std::size_t>(i)].of_the_model)
-      gradient->by_noise[kModelErrorSize] += expected[i] * expected[i] - (1.0 - all.variance(i, i));
+    if (const std::optional<NoiseField> size = unseen_.quantities[static_cast<std::size_t>(i)].size)
+      gradient->by_noise[*size] += expected[i] * expected[i] - (1.0 - all.variance(i, i));
   }
   for (const Gradient& part : parts) {
     gradient->by_z += part.by_z;

@@ -267,7 +267,7 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
   for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
     const UnseenQuantity& of = likelihood.unseen().quantities[static_cast<std::size_t>(i)];
     if (believed == Believed::geometry_and_sensors_exact && of.source != Source::model) continue;
-    weights[i] = of.weight * (of.of_the_model ? std::exp(noise[kModelErrorSize]) : 1.0);
+    weights[i] = of.weight * (of.size ? std::exp(noise[*of.size]) : 1.0);
     sigma += weights[i] * weights[i] * shapes.col(i) * shapes.col(i).transpose();
   }
   const Eigen::LDLT<Eigen::MatrixXd> factor(sigma);

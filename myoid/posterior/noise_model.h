@@ -8,7 +8,8 @@
 
 namespace myoid::identification {
 
-/// Indices in NoiseValues of the hyperparameters phi of the errors, each on an unbounded scale.
+/// Indices in NoiseValues of the hyperparameters phi of the errors, each on an unbounded scale. The sizes, from
+/// kModelErrorSize on, are those of quantities that residuals can tell (UnseenQuantity::size).
 /// After them stands ln b of each fitted trial, the trial's own factor of sigma_T: a dynamometer
 /// errs by more than the inverse dynamics of the same session.
 enum NoiseField : int {
@@ -16,6 +17,11 @@ enum NoiseField : int {
   kTorqueTime,      ///< ln tau_T [s]: e_T has the covariance sigma_T^2 exp(-|dt| / tau_T).
   kEmgFactor,       ///< ln kappa: noise of the envelopes over the noise that their bandwidth predicts.
   kModelErrorSize,  ///< ln s: relative size of the model's error e_m.
+  // ln of the spread of a kind of unseen quantities, over the spread that is believed.
+  kArmSlopeSize,
+  kCrosstalkSize,
+  kGainDriftSize,
+  kRiseAndFallSize,
   kNoiseFieldCount
 };
 using NoiseValues = Eigen::VectorXd;
