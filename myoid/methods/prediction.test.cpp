@@ -94,7 +94,7 @@ TEST(TrialPredictions, ThePosteriorPredictsAlsoWhatTheUnseenQuantitiesAdd) {
   study.data.trials[2].calibration = false;
   const EstimatorOptions options{.starts = 1, .estimator = EstimatorKind::posterior};
   const IdentificationResult fit = identify_torque(study.data, options);
-  ASSERT_EQ(fit.noise.size(), 6);  // four, and two fitted trials' shares
+  ASSERT_EQ(fit.noise.size(), kNoiseFieldCount + 2);  // and the shares of two fitted trials
   const TrialData& trial = study.data.trials[2];
   const TrialFit found = TrialPredictions(study.data, options, fit).of(trial);
   const Score by_law = score(trial.torque_nm, predict(study.data, trial, fit.values, fit.lag).torque_nm);
