@@ -58,9 +58,11 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
 /// Returns the fit, and makes the rules of its data those of the fit: frees the v_max that the fit freed, and without
 /// noise holds the nuisances.
 IdentificationResult with_freed(IdentificationResult fit, const MuscleTable& t, StudyData& data) {
-  if (fit.exact) identification::hold_nuisances(data);
-  if (std::ranges::any_of(fit.estimates, [](const auto& e) { return e.parameter == "max_shortening_speed"; }))
-    identification::free_speeds(data, t.speed_may_be_free);
+  const auto has = [&](std::string_view parameter) {
+    return std::ranges::any_of(fit.estimates, [&](const auto& e) { return e.parameter == parameter; });
+  };
+  if (fit.exact) identification::hold_nuisances(data, has("emg_exponent") ? "emg_exponent" : "");
+  if (has("max_shortening_speed")) identification::free_speeds(data, t.speed_may_be_free);
   return fit;
 }
 

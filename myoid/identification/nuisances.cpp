@@ -90,8 +90,10 @@ std::vector<ParameterRule> nuisance_rules(const StudyData& data, bool exponents)
   return rules;
 }
 
-void hold_nuisances(StudyData& data) {
-  std::erase_if(data.rules, [](const ParameterRule& rule) { return rule.usual && rule.free.value_or(false); });
+void hold_nuisances(StudyData& data, std::string_view but) {
+  std::erase_if(data.rules, [&](const ParameterRule& rule) {
+    return rule.usual && rule.free.value_or(false) && rule.parameter != but;
+  });
 }
 
 }  // namespace myoid::identification

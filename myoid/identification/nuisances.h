@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "myoid/identification/study_data.h"
@@ -20,7 +21,7 @@ namespace myoid::identification {
 /// the elbow 1 N m, 1 N m/rad and 0.2 N m s/rad, the size of a relaxed joint's own torque (muscle::elbow_passive).
 [[nodiscard]] std::vector<ParameterRule> nuisance_rules(const StudyData& data, bool exponents);
 
-/// Removes the rules of the nuisances. Rules that the study or the user gives stay.
-void hold_nuisances(StudyData& data);
+/// Removes the rules of the nuisances, but for those of one parameter. Rules that the study or the user gives stay.
+void hold_nuisances(StudyData& data, std::string_view but = {});
 
 }  // namespace myoid::identification

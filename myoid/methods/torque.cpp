@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/estimator.h"
 #include "myoid/identification/nuisances.h"
 #include "myoid/identification/told_by_motion.h"
@@ -234,8 +235,11 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
   hold_nuisances(held);
   StudyData freed = held;
   free_speeds(freed, speed_may_be_free);
-  for (const StudyData* study : {&held, &freed}) {
-    if (study == &freed && speed_may_be_free.empty()) break;
+  StudyData of_emg = data;
+  hold_nuisances(of_emg, beliefs::kEmgExponent.name);
+  for (const StudyData* study : {&held, &freed, &of_emg}) {
+    if (study == &freed && speed_may_be_free.empty()) continue;
+    if (study == &of_emg && of_emg.rules == held.rules) continue;
     const Estimator estimator(*study, plain);
     const std::optional<Estimator::Solution> found = noise_free_solution(*study, estimator);
     if (!found) continue;

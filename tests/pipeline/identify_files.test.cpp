@@ -68,12 +68,22 @@ std::vector<Muscle> random_muscles(std::uint64_t seed) {
   return muscles;
 }
 
+/// Noise of unit variance below 5 Hz: 24 waves.
+double wobble(std::uint64_t seed, double time) {
+  constexpr int kWaves = 24;
+  double sum = 0.0;
+  for (std::uint64_t j = 0; j < kWaves; ++j)
+    sum += std::sin(2.0 * 3.14159265 * ((0.2 + 4.8 * draw(seed, 2 * j)) * time + draw(seed, 2 * j + 1)));
+  return sum * std::sqrt(2.0 / kWaves);
+}
+
 struct Layout {
   double seconds = 10.0;
   double rate_hz = 200.0;
   std::string title = "inDegrees=no";
   double exponent = 1.0;              ///< p of activation = EMG^p; the files hold the EMG.
-  double force_noise = 0.0;           ///< Relative: a wave of 13 rad/s, which no muscle makes.
+  double emg_noise = 0.0;             ///< Relative, below 5 Hz.
+  double force_noise = 0.0;           ///< Relative, white.
   bool activations_as_csv = false;    ///< Muscles in the other order, and a column too many.
   double activation_rate_hz = 200.0;  ///< Of the activations' own clock,
   double activation_start_s = 0.0;    ///< from here on.
@@ -95,6 +105,7 @@ void write_trial(const TemporaryFolder& folder, const std::vector<Muscle>& muscl
     const double phase = static_cast<double>(k) * 1.3 + number;
     return 0.45 + 0.25 * std::sin(1.9 * time + phase) + 0.2 * std::sin(4.3 * time + 2.0 * phase);
   };
+  const auto seed = static_cast<std::uint64_t>(number);
   const auto samples = static_cast<int>(std::lround(o.seconds * o.rate_hz));
   for (int i = 0; i <= samples; ++i) {
     const double time = i / o.rate_hz;
@@ -106,7 +117,7 @@ void write_trial(const TemporaryFolder& folder, const std::vector<Muscle>& muscl
           muscles[k].slack + l0 * 1.02 + sign * swing * std::sin(w * time) + quick * std::sin(3.7 * time + number);
       rate[k] = sign * swing * w * std::cos(w * time) + 3.7 * quick * std::cos(3.7 * time + number);
       pull[k] = force(activation(k, time), length[k], rate[k], muscles[k]) *
-                (1.0 + o.force_noise * std::sin(13.0 * time + static_cast<double>(k)));
+                (1.0 + o.force_noise * (2.0 * draw(100 + seed, 2 * static_cast<std::uint64_t>(i) + k) - 1.0));
     }
     l.push_back(fmt::format("{}\t{}\t{}", time, length[0], length[1]));
     v.push_back(fmt::format("{}\t{}\t{}", time, rate[0], rate[1]));
@@ -118,7 +129,9 @@ void write_trial(const TemporaryFolder& folder, const std::vector<Muscle>& muscl
   const auto moments = static_cast<int>(std::lround((o.seconds - o.activation_start_s) * o.activation_rate_hz));
   for (int i = 0; i <= moments; ++i) {
     const double time = o.activation_start_s + i / o.activation_rate_hz;
-    const auto emg = [&](std::size_t k) { return std::pow(activation(k, time), 1.0 / o.exponent); };
+    const auto emg = [&](std::size_t k) {
+      return std::pow(activation(k, time), 1.0 / o.exponent) * std::exp(o.emg_noise * wobble(10 * seed + k, time));
+    };
     a.push_back(o.activations_as_csv ? fmt::format("{},{},0.1,{}", time, emg(1), emg(0))
                                      : fmt::format("{}\t{}\t{}", time, emg(0), emg(1)));
   }
@@ -234,7 +247,7 @@ TEST(IdentifyFromFiles, EmgThatIsNoActivationIsNoSurprise) {
     const TemporaryFolder folder;
     const std::vector<Muscle> muscles = random_muscles(7);
     for (int i = 1; i <= 3; ++i)
-      write_trial(folder, muscles, i, {.seconds = 5.0, .rate_hz = 50.0, .exponent = exponent});
+      write_trial(folder, muscles, i, {.rate_hz = 50.0, .exponent = exponent, .emg_noise = 0.1, .force_noise = 0.02});
     write_muscles(folder, muscles, false);
     std::vector<std::string> arguments = command(folder, "torque", 3);
     arguments.insert(arguments.end(), {"--folds", "none"});
@@ -252,12 +265,28 @@ TEST(IdentifyFromFiles, EmgThatIsNoActivationIsNoSurprise) {
   }
 }
 
+TEST(IdentifyFromFiles, WithoutNoiseTheExponentOfTheEmgComesBackToo) {
+  const TemporaryFolder folder;
+  const std::vector<Muscle> muscles = random_muscles(2);
+  write_trial(folder, muscles, 1, {.exponent = 0.7});
+  write_muscles(folder, muscles, false);
+  const Finished run = myoid(command(folder, "torque", 1));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(compare(folder, muscles, 1e-5), 12);
+  for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv")) {
+    if (row.at("parameter") == "emg_exponent") {
+      EXPECT_NEAR(std::stod(row.at("estimate")), 0.7, 1e-5);
+    }
+  }
+}
+
 TEST(IdentifyFromFiles, AForceHasNoGeometryThatCouldBeWrong) {
   const TemporaryFolder folder;
   const std::vector<Muscle> muscles = random_muscles(3);
-  for (int i = 1; i <= 2; ++i) write_trial(folder, muscles, i, {.seconds = 5.0, .rate_hz = 50.0, .force_noise = 0.02});
+  for (int i = 1; i <= 3; ++i)
+    write_trial(folder, muscles, i, {.rate_hz = 50.0, .emg_noise = 0.1, .force_noise = 0.02});
   write_muscles(folder, muscles, false);
-  std::vector<std::string> arguments = command(folder, "force", 2);
+  std::vector<std::string> arguments = command(folder, "force", 3);
   arguments.insert(arguments.end(), {"--folds", "none"});
   const Finished run = myoid(arguments);
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -274,7 +303,7 @@ TEST(IdentifyFromFiles, AForceHasNoGeometryThatCouldBeWrong) {
 TEST(IdentifyFromFiles, BeliefsOfAStudyAreTaken) {
   const TemporaryFolder folder;
   const std::vector<Muscle> muscles = random_muscles(5);
-  write_trial(folder, muscles, 1, {.seconds = 5.0, .rate_hz = 50.0, .exponent = 0.9});
+  write_trial(folder, muscles, 1, {.rate_hz = 50.0, .emg_noise = 0.1, .force_noise = 0.02});
   write_muscles(folder, muscles, false);
   write_text(folder / "exact.toml",
              "[beliefs]\nmoment_arm_sd = 0\nmoment_arm_slope_sd = 0\ntendon_strain = 0\ntorque_scale_sd = 0\n"
@@ -347,18 +376,28 @@ TEST(IdentifyFromFiles, WhatIsFixedStaysAndWhatIsBoundedStaysInside) {
                 ",eccentric_plateau_fixed,optimal_fiber_length_lower,concentric_curvature_prior_sd,"
                 "pennation_angle_fixed",
                 {",true,,,true", fmt::format(",,{},0.2,true", bound)});
-  const Finished run = myoid(command(folder, "force", 1));
-  EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
-  bool bounded = false;
-  for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv")) {
-    EXPECT_FALSE(row.at("muscle") == "A" && row.at("parameter") == "eccentric_plateau");
-    if (row.at("muscle") == "B" && row.at("parameter") == "optimal_fiber_length") {
+  for (const bool priors : {true, false}) {
+    std::vector<std::string> arguments = command(folder, "force", 1);
+    arguments.emplace_back("--overwrite");
+    if (!priors) arguments.emplace_back("--no-priors");
+    const Finished run = myoid(arguments);
+    EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
+    bool bounded = false;
+    for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv")) {
+      EXPECT_FALSE(row.at("muscle") == "A" && row.at("parameter") == "eccentric_plateau");
+      if (row.at("muscle") != "B" || row.at("parameter") != "optimal_fiber_length") continue;
       bounded = true;
-      EXPECT_NEAR(std::stod(row.at("estimate")), bound, 1e-6 * bound);
-      EXPECT_EQ(row.at("at_bound"), "true");
+      EXPECT_GE(std::stod(row.at("estimate")), (1.0 - 1e-9) * bound);
+      if (priors) {
+        EXPECT_GE(std::stod(row.at("ci_low")), (1.0 - 1e-9) * bound);
+        EXPECT_GE(std::stod(row.at("given_ci_low")), (1.0 - 1e-9) * bound);
+      } else {
+        EXPECT_NEAR(std::stod(row.at("estimate")), bound, 1e-6 * bound);
+        EXPECT_EQ(row.at("at_bound"), "true");
+      }
     }
+    EXPECT_TRUE(bounded);
   }
-  EXPECT_TRUE(bounded);
 }
 
 TEST(IdentifyFromFiles, ATrialThatIsHeldBackIsNotListedAsFitted) {
