@@ -190,7 +190,7 @@ void add_identify(CLI::App& app, Context& context) {
   commands::IdentifyOptions defaults;
   OptionDeclarer declarer(command);
   visit(defaults, declarer);
-  command.get_option("--free")->delimiter(',');
+  for (const char* option : {"--free", "--hold"}) command.get_option(option)->delimiter(',');
   const auto out = std::make_shared<std::string>();
   command.add_option("--out", *out, "Folder for parameters.csv, parameters.json")->required();
   const MatOption mat(command);

@@ -1,6 +1,7 @@
 #include "myoid/commands/identify.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/quoted_text.h"
@@ -45,13 +46,18 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
     data.rules.insert(data.rules.begin(), ties.rules.begin(), ties.rules.end());
     if (!ties.says.empty()) remarks.note(ties.says);
   }
-  for (const std::string& name : o.free_more) {
+  const auto add = [&](const std::string& name, std::vector<std::string> owners, bool free) {
     (void)identification::parameter_field(name);
     identification::ParameterRule rule;
     rule.parameter = name;
-    rule.free = true;
-    data.rules.push_back(rule);
-  }
+    rule.owners = std::move(owners);
+    rule.free = free;
+    data.rules.push_back(std::move(rule));
+  };
+  for (const identification::MuscleSetup& muscle : data.muscles)
+    if (identification::contains(muscle.fixed, "length_activation")) add("length_activation", {muscle.name}, false);
+  for (const std::string& name : o.free_more) add(name, {}, true);
+  for (const std::string& name : o.hold) add(name, {}, false);
   return data;
 }
 

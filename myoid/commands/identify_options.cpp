@@ -163,6 +163,9 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
           {.says = "Further parameters to identify, of all muscles, channels or the joint, by comma: "
                    "`emg_shape,joint_inertia`, beside [those of every fit](#what-is-identified).",
            .otherwise = "none"});
+  v.texts("hold", o.hold,
+          {.says = "Parameters that are known, by comma: `emg_exponent,emg_gain` for activations without error.",
+           .otherwise = "none"});
 }
 
 /// Visits the fit and the certainty of its result.

@@ -24,7 +24,7 @@ struct IdentifyOptions {
   std::optional<double> delay_s;
   std::string lag;  ///< Empty: the method's own.
   bool no_priors = false;
-  std::vector<std::string> free_more;
+  std::vector<std::string> free_more, hold;
   double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
   double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
   std::string estimator = "posterior";

@@ -73,14 +73,14 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
              forces: Files | None = None, moment_arms: Files | None = None, torques: Files | None = None,
              coordinate: Texts | None = None, motion: Files | None = None, lowpass: float | None = None,
              method: str | None = None, delay: float | None = None, lag: str | None = None, no_priors: bool = False,
-             free: Texts | None = None, residual_cutoff: float | None = None, max_rate: float | None = None,
-             estimator: str | None = None, beliefs: File | None = None, posterior_draws: int | None = None,
-             loss: str | None = None, bootstrap: int | None = None, profile: bool = False,
-             compare_solvers: bool = False, starts: int | None = None, folds: str | None = None,
-             scales: str | None = None, validate: Texts | None = None, out: File | None = None,
-             mat: File | None = None, threads: int | None = None, seed: int | None = None,
-             start: float | None = None, end: float | None = None, overwrite: bool = False,
-             progress: Report = None) -> Result:  # fmt: skip
+             free: Texts | None = None, hold: Texts | None = None, residual_cutoff: float | None = None,
+             max_rate: float | None = None, estimator: str | None = None, beliefs: File | None = None,
+             posterior_draws: int | None = None, loss: str | None = None, bootstrap: int | None = None,
+             profile: bool = False, compare_solvers: bool = False, starts: int | None = None,
+             folds: str | None = None, scales: str | None = None, validate: Texts | None = None,
+             out: File | None = None, mat: File | None = None, threads: int | None = None,
+             seed: int | None = None, start: float | None = None, end: float | None = None,
+             overwrite: bool = False, progress: Report = None) -> Result:  # fmt: skip
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
 
     Args:
@@ -99,6 +99,7 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         lag: "automatic", "delay" or "shared".
         no_priors: The data alone.
         free: Further parameters to identify, beside those of every fit.
+        hold: Parameters that are known, such as "emg_exponent" and "emg_gain" for activations without error.
         residual_cutoff: Low-pass of both sides of the residual [Hz] (default 1.5).
         max_rate: Samples are thinned to at most this [Hz] (default 20).
         estimator: "posterior" (default) or "least_squares".

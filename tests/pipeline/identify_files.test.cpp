@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "program.h"
 #include "tests/support/temporary_folder.h"
@@ -416,6 +418,26 @@ TEST(IdentifyFromFiles, ATrialThatIsHeldBackIsNotListedAsFitted) {
   EXPECT_LT(one, held) << run.out;
   EXPECT_LT(held, two) << run.out;
   EXPECT_EQ(run.out.find("Nothing was left out"), std::string::npos) << run.out;
+}
+
+TEST(IdentifyFromFiles, ALeftOutTrialIsPredictedAsByAFitWithoutIt) {
+  const TemporaryFolder folder;
+  const std::vector<Muscle> muscles = random_muscles(3);
+  for (int i = 1; i <= 3; ++i)
+    write_trial(folder, muscles, i, {.rate_hz = 50.0, .emg_noise = 0.1, .force_noise = 0.05});
+  write_muscles(folder, muscles, false);
+  std::vector<std::string> arguments = command(folder, "torque", 3);
+  arguments.emplace_back("--overwrite");
+  ASSERT_EQ(myoid(arguments).exit_code, 0);
+  std::ifstream stream(folder / "out/parameters.json");
+  const nlohmann::json folds = nlohmann::json::parse(stream).at("leave_one_trial_out");
+  ASSERT_EQ(folds.size(), 3U);
+  arguments.insert(arguments.end(), {"--folds", "none", "--validate", "1"});
+  ASSERT_EQ(myoid(arguments).exit_code, 0);
+  const std::vector<Row> alone = myoid::test::read_rows(folder / "out/predictions.csv");
+  ASSERT_EQ(alone.size(), 1U);
+  // The fold begins at the whole fit and looks for no other mode; its answer is the same to some thousandths.
+  EXPECT_NEAR(folds[0].at("identified").at("r2").get<double>(), std::stod(alone[0].at("r2")), 0.01);
 }
 
 TEST(IdentifyFromFiles, ClocksThatDoNotMeetAreRefused) {
