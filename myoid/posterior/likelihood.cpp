@@ -223,6 +223,13 @@ Likelihood::AllRuns Likelihood::all_runs(const Eigen::VectorXd& z, const NoiseVa
   return all;
 }
 
+Eigen::MatrixXd Likelihood::turned_columns(std::size_t r, const AllRuns& all) const {
+  Eigen::MatrixXd columns = columns_[r];
+  for (Eigen::Index s = 0; s < all.turned.size(); ++s)
+    columns.col(unseen_.slopes[static_cast<std::size_t>(s)].quantity) += all.turned[s] * by_slope_[r].col(s);
+  return columns;
+}
+
 bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& noise, Block& block) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
@@ -237,10 +244,7 @@ bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& nois
   block.whitening = block.factor.matrixL().solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
   const Eigen::VectorXd white = block.whitening * residual;
   block.solved = block.whitening.transpose() * white;
-  block.unseen = columns_[r];
-  for (Eigen::Index s = 0; s < all.turned.size(); ++s)
-    block.unseen.col(unseen_.slopes[static_cast<std::size_t>(s)].quantity) += all.turned[s] * by_slope_[r].col(s);
-  block.unseen = (block.unseen * all.weights.asDiagonal()).eval();
+  block.unseen = turned_columns(r, all) * all.weights.asDiagonal();
   block.unseen_half.noalias() = block.whitening * block.unseen;
   block.projected.noalias() = block.unseen_half.transpose() * white;
   block.gram.setZero(all.weights.size(), all.weights.size());

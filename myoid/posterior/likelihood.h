@@ -136,10 +136,13 @@ class Likelihood {
 
   struct Residuals {
     Eigen::VectorXd measured_nm;                           ///< L y, all runs one after the other.
-    Eigen::VectorXd predicted_nm;                          ///< L T^.
+    Eigen::VectorXd predicted_nm;                          ///< L (T^ + S W x^), without the model's error.
     std::vector<std::vector<Eigen::Index>> rows_of_joint;  ///< As ParameterMap::joints().
   };
-  [[nodiscard]] Residuals residuals(const Eigen::VectorXd& z) const;
+  /// Returns the measured torques and those of the law with geometry and sensors as the torque tells them. An error of
+  /// a moment arm is part of the explanation: where muscles work against each other, T^ alone may be off by several
+  /// times the torque that is left. The error of the model is no explanation.
+  [[nodiscard]] Residuals residuals(const Eigen::VectorXd& z, const NoiseValues& noise) const;
 
  private:
   struct AllRuns;
@@ -159,6 +162,8 @@ class Likelihood {
   [[nodiscard]] Eigen::MatrixXd envelope_covariance(std::size_t run,
                                                     const TorqueSignals& signals,
                                                     const NoiseValues& noise) const;
+  /// Returns L S of the run at the unknowns of `all`.
+  [[nodiscard]] Eigen::MatrixXd turned_columns(std::size_t run, const AllRuns& all) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
   [[nodiscard]] bool fill(std::size_t run, const AllRuns& all, const NoiseValues& noise, Block& block) const;
   void pull_back(
