@@ -7,7 +7,10 @@
  * model, each with a workspace of its own. No function throws or prints. NULL in place of a model,
  * workspace or array is an error and never read: counts are then -1, names NULL, numbers NaN.
  *
- * Units: N m, N, rad, rad/s, s. An envelope is 0..1, as activation.sto holds it.
+ * Units: N m, N, rad, rad/s, s. An envelope is 0..1, as activation.sto holds it. A run by the posterior makes its
+ * forces from the drive behind the envelope (drive.sto), which needs the samples that follow: fed with drive.sto,
+ * myoid_evaluate gives the forces of identified_forces.sto; a live program has envelopes, which are noisier, and so
+ * are its forces.
  */
 #include <stddef.h>
 

@@ -83,6 +83,8 @@ void write_predictions(const std::vector<identification::TrialFit>& predictions,
   const recording::NameIds joints(unique_values(predictions, &identification::TrialFit::joint));
   for (const identification::TrialFit& trial : predictions)
     write_prediction(trial, muscles, joints, folder / folders.of(trial.trial), comments);
+  if (!prediction.drive.empty())
+    recording::write_storage(folder / "drive.sto", prediction.drive, {.title = "Drive", .comments = comments});
   recording::write_file(folder / "predictions.csv", predictions_csv(predictions));
 }
 

@@ -19,8 +19,8 @@ struct Band {
 [[nodiscard]] Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd);
 
 /// Writes predicted_torque_<joint>.sto (`<joint>_measured`, `_predicted`, and with a band `_low`, `_high` [N m]) and
-/// predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0 [N]) of one trial. `joints` holds the id
-/// of each joint for the names of files.
+/// predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0 [N]) of one trial, and by the posterior
+/// drive.sto. `joints` holds the id of each joint for the names of files.
 void write_prediction(const identification::TrialFit& prediction,
                       const std::vector<std::string>& muscles,
                       const recording::NameIds& joints,

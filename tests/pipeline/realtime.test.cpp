@@ -50,7 +50,8 @@ class Realtime : public testing::TestWithParam<std::string> {
                "level = \"L1\"\n[[trial]]\nname = \"mvc\"\nkind = \"mvc\"\ndirection = \"both\"\n"
                "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n");
     EXPECT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--out", folder / "rec"}).exit_code, 0);
-    myoid::test::replace_in(folder / "rec/study.toml", "[identify]", "[identify]\nlag = \"" + GetParam() + "\"");
+    myoid::test::replace_in(folder / "rec/study.toml", "[identify]",
+                            "[identify]\ncross_validate = false\nnext_movements = 0\nlag = \"" + GetParam() + "\"");
     EXPECT_NE(myoid({"run", folder / "rec/study.toml", "--out", folder / "out"}).exit_code, 3);
     const auto json = nlohmann::json::parse(read_text(folder / "out/parameters.json"));
     for (const auto& method : json.at("methods")) {
@@ -80,8 +81,7 @@ class Realtime : public testing::TestWithParam<std::string> {
 /// (2 pi 6 / 100)^2 / 8 = 1.8 % of the amplitude, which is at most half of the largest force.
 TEST_P(Realtime, TheCInterfaceGivesTheForcesThatTheRunWrote) {
   const double pure_s = run_study();
-  const TimeSeries envelope = series("activation.sto"), motion = series("ik.mot"),
-                   forces = series("identified_forces.sto");
+  const TimeSeries envelope = series("drive.sto"), motion = series("ik.mot"), forces = series("identified_forces.sto");
   const Eigen::VectorXd& t = envelope.time_s();
   const double step_s = t[1] - t[0];
   std::ostringstream samples;
