@@ -48,6 +48,9 @@ std::optional<GroupNumber> number_of(const CsvTable& table, const std::vector<st
                      .estimate = *estimate,
                      .low = value("ci_low"),
                      .high = value("ci_high"),
+                     .given = value("given_estimate"),
+                     .given_low = value("given_ci_low"),
+                     .given_high = value("given_ci_high"),
                      .truth = value("truth")};
 }
 
