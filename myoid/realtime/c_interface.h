@@ -39,6 +39,13 @@ const char* myoid_version(void);
  * where it was; else NULL. Returns NULL on an error, with a sentence in `error` (of `size` bytes;
  * may be NULL). */
 myoid_model* myoid_open(const char* results, const char* study, char* error, size_t size);
+
+/* The same by the second reading, given geometry and sensors: values and bands as if the study's moment arms, tendons
+ * and sensors were exact, for use with the same model, electrodes and dynamometer. parameters.json holds the covariance
+ * of the person's reading; here each unknown's standard deviation is scaled by the ratio of the widths of its two
+ * intervals. Of a run by least squares, which has this reading alone, both functions open the same model. */
+myoid_model* myoid_open_given(const char* results, const char* study, char* error, size_t size);
+
 void myoid_close(myoid_model* model);
 
 /* EMG channels, joints and muscles; the names live as long as the model. -1 or NULL without a model or an element
