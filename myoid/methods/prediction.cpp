@@ -12,6 +12,7 @@
 #include "myoid/methods/smooth_prediction.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/posterior/likelihood.h"
+#include "myoid/posterior/trial_run.h"
 
 namespace myoid::identification {
 
@@ -231,6 +232,7 @@ TrialFit TrialPredictions::of(const TrialData& trial) const {
     found.torque_fit_nm = forecast.mean_nm;
     found.torque_sd_nm = (forecast.variance_nm2 + variance_by(forecast.by_z, covariance)).cwiseSqrt();
     found.force_fit_n = forecast.force_n;
+    found.drive = drives(run, by.likelihood.parameters().channels());
     found.force_sd_n.resizeLike(forecast.force_n);
     for (std::size_t k = 0; k < forecast.force_by_z.size(); ++k)
       found.force_sd_n.col(static_cast<Eigen::Index>(k)) = variance_by(forecast.force_by_z[k], covariance).cwiseSqrt();
