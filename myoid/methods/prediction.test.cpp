@@ -6,6 +6,7 @@
 
 #include "myoid/identification/parameters.h"
 #include "myoid/methods/torque.h"
+#include "myoid/posterior/noise_model.h"
 
 #include "tests/support/elbow_study.h"
 #include "tests/support/leg_study.h"

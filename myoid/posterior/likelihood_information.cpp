@@ -156,7 +156,7 @@ Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z, const Nois
   const AllRuns all = all_runs(z, noise);
   Eigen::VectorXd expected = all.weights.cwiseProduct(unseen_given(z, noise).mean);
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i)
-    if (unseen_.quantities[i].of_the_model) expected[static_cast<Eigen::Index>(i)] = 0.0;
+    if (unseen_.quantities[i].size == kModelErrorSize) expected[static_cast<Eigen::Index>(i)] = 0.0;
   Residuals result{Eigen::VectorXd(rows_), Eigen::VectorXd(rows_),
                    std::vector<std::vector<Eigen::Index>>(map_.joints().size())};
   Eigen::Index first = 0;

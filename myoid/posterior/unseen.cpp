@@ -213,7 +213,7 @@ struct Collector {
       column += own(of) * of.torque + of.by_length * (part(of.run.length_m) - mean) +
                 of.by_velocity * part(of.run.velocity_mps);
     });
-    add(name + "_slope" + of_joint, Source::geometry, spreads_.moment_arm_slope);
+    add(name + "_slope" + of_joint, Source::geometry, spreads_.moment_arm_slope, kArmSlopeSize);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       const Eigen::ArrayXd x = range.place(part(of.run.length_m));
       column += own(of) * of.torque * x + of.by_length * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0) +
