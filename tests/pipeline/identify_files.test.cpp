@@ -227,20 +227,27 @@ TEST(IdentifyFromFiles, GivesTheParametersBackByEveryMethod) {
   }
 }
 
-/// Expects each of the six parameters within its interval of each reading; how many there are.
-int expect_held(const TemporaryFolder& folder, const std::vector<Muscle>& muscles) {
-  int held = 0;
+/// Of twelve intervals of 95 % three miss the truth in one case of fifty.
+constexpr int kHeldOfTwelve = 10;
+
+/// Returns how many of the twelve parameters lie in the person's interval. Expects both readings of each.
+int held(const TemporaryFolder& folder, const std::vector<Muscle>& muscles) {
+  int all = 0, inside = 0;
   for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv")) {
     for (std::size_t i = 0; i < kNames.size(); ++i) {
       if (row.at("parameter") != kNames[i]) continue;
       const double truth = muscles[row.at("muscle") == "A" ? 0 : 1].x[i];
-      EXPECT_LE(std::stod(row.at("ci_low")), truth) << row.at("muscle") << " " << kNames[i];
-      EXPECT_GE(std::stod(row.at("ci_high")), truth) << row.at("muscle") << " " << kNames[i];
       EXPECT_FALSE(row.at("given_estimate").empty() || row.at("given_ci_low").empty()) << kNames[i];
-      ++held;
+      inside += std::stod(row.at("ci_low")) <= truth && truth <= std::stod(row.at("ci_high")) ? 1 : 0;
+      ++all;
+      // F_max is known to 15 % by the moment arm, 10 % by the gain and 6 % by the effort: 19 % together.
+      if (i == 0) {
+        EXPECT_NEAR(std::log(std::stod(row.at("estimate")) / truth), 0.0, 1.96 * 0.19) << row.at("muscle");
+      }
     }
   }
-  return held;
+  EXPECT_EQ(all, 12);
+  return inside;
 }
 
 TEST(IdentifyFromFiles, EmgThatIsNoActivationIsNoSurprise) {
@@ -255,12 +262,12 @@ TEST(IdentifyFromFiles, EmgThatIsNoActivationIsNoSurprise) {
     arguments.insert(arguments.end(), {"--folds", "none"});
     const Finished run = myoid(arguments);
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(expect_held(folder, muscles), 12);
+    EXPECT_GE(held(folder, muscles), kHeldOfTwelve);
     int exponents = 0;
     for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv")) {
       if (row.at("parameter") != "emg_exponent") continue;
-      EXPECT_LE(std::stod(row.at("ci_low")), exponent) << row.at("muscle");
-      EXPECT_GE(std::stod(row.at("ci_high")), exponent) << row.at("muscle");
+      // Nearer than the prior's spread, ln 0.2; a held exponent is 1, farther away than that.
+      EXPECT_NEAR(std::log(std::stod(row.at("estimate")) / exponent), 0.0, 0.2) << row.at("muscle");
       ++exponents;
     }
     EXPECT_EQ(exponents, 2);
@@ -292,7 +299,7 @@ TEST(IdentifyFromFiles, AForceHasNoGeometryThatCouldBeWrong) {
   arguments.insert(arguments.end(), {"--folds", "none"});
   const Finished run = myoid(arguments);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(expect_held(folder, muscles), 12);
+  EXPECT_GE(held(folder, muscles), kHeldOfTwelve);
   for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv")) {
     EXPECT_EQ(row.at("parameter").find("voluntary"), std::string::npos);
     // A has fiber lengths: no tendon.
