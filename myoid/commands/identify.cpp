@@ -61,6 +61,14 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
   return data;
 }
 
+/// Returns the data with the nuisances that a fit of data with noise frees.
+StudyData as_fitted(StudyData data, const MuscleTable& table, const EstimatorOptions& options) {
+  StudyData freed = data;
+  identification::free_speeds(freed, table.speed_may_be_free);
+  if (!identification::tells_nuisances(freed, options)) identification::hold_nuisances(data);
+  return data;
+}
+
 /// Returns the fit, and makes the rules of its data those of the fit: frees the v_max that the fit freed, and without
 /// noise holds the nuisances.
 IdentificationResult with_freed(IdentificationResult fit, const MuscleTable& t, StudyData& data) {
@@ -73,7 +81,9 @@ IdentificationResult with_freed(IdentificationResult fit, const MuscleTable& t, 
 }
 
 IdentificationResult fit_torque(const MuscleTable& t, const EstimatorOptions& o, StudyData& data) {
-  return with_freed(identification::identify_torque_or_exact(data, o, t.speed_may_be_free), t, data);
+  IdentificationResult fit = identification::identify_torque_or_exact(data, o, t.speed_may_be_free);
+  if (!fit.exact) data = as_fitted(std::move(data), t, o);
+  return with_freed(std::move(fit), t, data);
 }
 
 identification::ForceOptions force_options(const MuscleTable& t, const EstimatorOptions& o) {
@@ -108,7 +118,8 @@ std::vector<identification::Fold> held_out(const IdentifyOptions& o,
     identification::free_speeds(fold, table.speed_may_be_free);
     return identification::identify_torque(fold, once);
   };
-  if (o.method == "torque") return identification::cross_validate(data, fit_fold, options, how);
+  if (o.method == "torque")
+    return identification::cross_validate(as_fitted(data, table, options), fit_fold, options, how);
   const auto fit_force = [&](StudyData& fold, const EstimatorOptions& once) {
     identification::free_speeds(fold, table.speed_may_be_free);
     return identification::identify_muscle_force(fold, {.estimator = once});
@@ -116,7 +127,8 @@ std::vector<identification::Fold> held_out(const IdentifyOptions& o,
   std::vector<identification::Fold> folds;
   const EstimatorOptions of_one = identification::of_one_force(options);
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    const auto more = identification::cross_validate(identification::force_study(data, k), fit_force, of_one, how);
+    const StudyData one = as_fitted(identification::force_study(data, k), table, of_one);
+    const auto more = identification::cross_validate(one, fit_force, of_one, how);
     folds.insert(folds.end(), more.begin(), more.end());
   }
   return folds;
@@ -167,6 +179,12 @@ IdentifyResult identify(const IdentifyOptions& o) {
   result.fit = fit_data(o, table, as_asked, result.data);
   if (o.method == "torque" && identification::exchanged_electrodes(as_read, EstimatorOptions{}.delay_prior_mean_s))
     identification::apply({{.reason = std::string(identification::kExchangedCap)}}, result.fit);
+  if (o.method == "torque" && !result.fit.exact && result.data.rules != as_read.rules && by_posterior(o) &&
+      !identification::tells_nuisances(result.data, as_asked))
+    remarks.note(
+        "the trials hold few independent rows of torque for the unknowns of the muscles: exponents of the EMG, the "
+        "joint's own torque and the shift of the optimal length with activation stay at their expected values; more "
+        "trials would tell them, --free frees them");
   if (o.method != "paper" && o.folds != "none" && !result.fit.exact)
     result.folds = held_out(o, as_read, beginning_at(result.fit, as_asked), table, result.why_no_folds);
   if (const std::string text = identification::generalises_badly(result.folds); !text.empty())

@@ -251,6 +251,7 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
   }
   StudyData whole = data;
   free_speeds(whole, speed_may_be_free);
+  if (!tells_nuisances(whole, options)) hold_nuisances(whole);
   return identify_torque(whole, options);
 }
 

@@ -245,8 +245,7 @@ TEST(MeasuredWalk, ThePosteriorOfOneSpeedPredictsTheOtherAsCeinmsSubjectDoes) {
   MYOID_REQUIRE_DATA(data);
   const TemporaryFolder folder;
   add_paths_of_walks(data, folder);
-  // The envelopes have no maximal contraction, without which a run frees no exponent.
-  const Walks walks = leave_out_walks(data, folder, {"--start", "19", "--end", "24", "--hold", "emg_exponent"});
+  const Walks walks = leave_out_walks(data, folder, {"--start", "19", "--end", "24"});
   ASSERT_EQ(walks.r2.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) EXPECT_GT(walks.r2[k], kCeinms[k]) << k;
 }

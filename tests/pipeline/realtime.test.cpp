@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iterator>
 #include <numbers>
 #include <sstream>
@@ -94,6 +95,7 @@ class Realtime : public testing::TestWithParam<std::string> {
         row["given_ci_high"] = field.logarithmic ? factor * value * std::exp(quarter) : value + quarter;
       }
     }
+    std::filesystem::create_directory(folder / "given");
     write_text(folder / "given/parameters.json", json.dump());
     write_text(folder / "given/run.json", read_text(folder / "out/run.json"));
     ASSERT_EQ(example("given", step_s), 0);
