@@ -273,7 +273,7 @@ Fold score_joint(const std::string& name,
 
 /// Adds the curves of method `paper` from the calibration trials.
 void add_paper(const StudyData& data, const std::vector<std::string>& muscles, Predictors& by) {
-  for (const ParameterEstimate& e : identify_paper(data, {.muscles = muscles, .diagnoses = false}).estimates) {
+  for (const ParameterEstimate& e : identify_paper(data, {.muscles = muscles}).estimates) {
     if (!std::isfinite(e.estimate)) continue;
     for (std::size_t k = 0; k < data.muscles.size(); ++k) {
       if (data.muscles[k].name == e.muscle)
