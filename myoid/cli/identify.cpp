@@ -13,6 +13,7 @@
 #include "myoid/intervals/score.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/report/report.h"
+#include "myoid/results/paper_tables.h"
 #include "myoid/results/voluntary_report.h"
 
 namespace myoid::cli {
@@ -37,6 +38,7 @@ void print_result(const identification::IdentificationResult& result, bool freed
   }
   if (result.method == "paper")
     say("Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other number.\n");
+  for (const identification::PublishedSearch& search : result.published) say("{}\n", published_sentence(search));
   if (freed_speeds)
     say("max_shortening_speed is not stated as known: it is free, and its uncertainty widens the interval of "
         "concentric_curvature. Where it is known: max_shortening_speed_fixed = true.\n");

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/report/report.h"
+#include "myoid/results/paper_tables.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
 #include "myoid/results/voluntary_report.h"
@@ -112,14 +114,31 @@ void print_gates(const std::vector<report::Gate>& gates) {
   }
 }
 
-/// Prints the methods with intervals, their predictions, method `paper`, the next movements and the quality gates.
-void print_results(const StudyResult& result, const std::vector<report::Gate>& gates) {
-  for (const bool paper : {false, true}) {
-    for (const identification::IdentificationResult& method : result.fit.methods) {
-      if ((method.method == "paper") == paper) print_method(method, result.fit_input.data.muscles.size());
+/// Prints the source paper's tables, without their verdicts' reasons, and the searches.
+void print_paper(const identification::IdentificationResult& paper) {
+  say("\nmethod paper: minima of the published criterion, on forces that nobody measured: no intervals\n");
+  const std::vector<report::Table> tables = paper_tables(paper);
+  for (const report::Table& table : tables | std::views::take(2)) {
+    say("{}\n", table.title);
+    for (const std::string& column : table.columns) say("{:<12} ", column);
+    say("\n");
+    for (const std::vector<report::Cell>& row : table.rows) {
+      for (const report::Cell& cell : row) say("{:<12} ", in_column(cell.text));
+      say("\n");
     }
-    if (!paper) print_predictions(result);
   }
+  for (const identification::PublishedSearch& search : paper.published) say("{}\n", published_sentence(search));
+}
+
+/// Prints the methods with intervals, their predictions, the next movements and the quality gates. Method `paper` is
+/// printed where it was asked for.
+void print_results(const StudyResult& result, const std::vector<report::Gate>& gates, bool with_paper) {
+  for (const identification::IdentificationResult& method : result.fit.methods) {
+    if (method.method != "paper") print_method(method, result.fit_input.data.muscles.size());
+  }
+  print_predictions(result);
+  const identification::IdentificationResult* paper = method_of(result.fit, "paper");
+  if (paper != nullptr && with_paper) print_paper(*paper);
   print_next(result);
   print_gates(gates);
 }
@@ -144,6 +163,8 @@ void add_run(CLI::App& app, Context& context) {
   command.add_option("study", options->study, "study.toml")->required();
   command.add_option("--estimator", options->estimator, "least_squares or posterior, in place of the study's")
       ->transform(one_of<identification::EstimatorKind>());
+  command.add_option("--method", options->methods, "torque, force, paper; several, in place of the study's")
+      ->transform(one_of<identification::Method>());
   command.add_option("--out", *out, "Folder of the results")->required();
   add_video_options(command, options->video);
   const MatOption mat(command);
@@ -168,7 +189,8 @@ void add_run(CLI::App& app, Context& context) {
     if (context.json) {
       say_whole(parameters_json(study.fit.methods, study.folds, result.provenance, parameter_context(study)));
     } else {
-      print_results(study, result.gates);
+      const bool asked = std::ranges::find(options->methods, identification::Method::paper) != options->methods.end();
+      print_results(study, result.gates, asked || study.fit.methods.size() == 1);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       context.log(fmt::format("\n{:.1f} s", seconds));
       say("\nreport: {}/report.html\n", *out);

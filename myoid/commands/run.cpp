@@ -59,6 +59,7 @@ RunResult run(const RunOptions& o) {
   RunResult result;
   Study study = read_filmed_study(o.study, o.video);
   if (o.estimator) study.identify.estimator = *o.estimator;
+  if (!o.methods.empty()) study.identify.methods = o.methods;
   result.study = run_study(
       study, {.start_s = o.call.start_s, .end_s = o.call.end_s, .progress = o.call.progress, .store = o.store});
   result.gates = quality_gates(result.study);

@@ -138,6 +138,14 @@ MaybeJudgment without_effect(const ParameterEstimate& e, const VerdictContext& c
                   "has no effect"};
 }
 
+/// Judges a number of a force that nobody measured: its interval would be about the optimizer's assumptions.
+MaybeJudgment of_shared_force(const ParameterEstimate&, const VerdictContext& context) {
+  if (!context.shared_forces) return std::nullopt;
+  return Judgment{Verdict::prior_dominated,
+                  "nobody measured the force: an optimizer shared the torque among the muscles by its own assumptions, "
+                  "with the literature's F_max and without co-contraction"};
+}
+
 /// Judges a number that the recording hardly improves beyond its prior.
 MaybeJudgment mostly_prior(const ParameterEstimate& e, const VerdictContext& context) {
   if (!e.shrinkage || *e.shrinkage >= kVerdictRules.least_shrinkage) return std::nullopt;
@@ -239,10 +247,6 @@ MaybeJudgment weakened(const ParameterEstimate& e, const std::string& known, con
     return weak(
         fmt::format("rests on trial '{}': without it the value would leave its own interval; record more like it",
                     context.rests_on));
-  if (context.shared_forces)
-    return weak(known +
-                ", but about the forces that an optimizer assigned, which carry its assumptions and no co-contraction; "
-                "method torque does not need them");
   if (context.given_strength)
     return weak(known +
                 " if F_max is what it was held at: an error in it goes into every other number; method force finds it "
@@ -252,7 +256,7 @@ MaybeJudgment weakened(const ParameterEstimate& e, const std::string& known, con
 
 /// Returns the judgment by the first rule that applies.
 Judgment by_first_rule(const ParameterEstimate& e, const VerdictContext& context) {
-  for (const auto& rule : {without_fit, without_muscle, on_a_bound, without_effect, mostly_prior}) {
+  for (const auto& rule : {without_fit, without_muscle, on_a_bound, without_effect, of_shared_force, mostly_prior}) {
     if (MaybeJudgment judgment = rule(e, context)) return std::move(*judgment);
   }
   if (e.parameter == "emg_delay") return delay_by_width(e, context);

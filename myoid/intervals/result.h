@@ -128,6 +128,23 @@ struct BasinTable {
   std::vector<BasinRow> basins;  ///< By rising cost.
 };
 
+/// The searches of method `paper` for one muscle in one branch.
+struct PublishedSearch {
+  std::string muscle;
+  std::string fit_case;  ///< shortening | lengthening
+  /// End of the steps that are halved until the criterion falls, or of damped ones; `converged`: a minimum of the
+  /// published criterion.
+  math::Termination termination = math::Termination::no_descent;
+  std::string message;
+  int iterations = 0;
+  bool damped = false;                  ///< By damped steps, because the halved ones found no minimum.
+  double start_cost = 0.0, cost = 0.0;  ///< The criterion at the start and at the end [N^2].
+  /// End of the plain steps, as published.
+  math::Termination plain = math::Termination::no_descent;
+  int plain_iterations = 0;
+  bool plain_elsewhere = false;  ///< The plain steps converged to another point.
+};
+
 /// Compares the numbers that both branches of method `paper` share.
 struct BranchTest {
   std::string muscle;
@@ -193,6 +210,7 @@ struct IdentificationResult {
   std::vector<std::string> warnings;           ///< About the fit as a whole.
   std::vector<std::string> interval_warnings;  ///< About how the intervals of numbers were found.
   std::vector<BranchTest> branch_tests;        ///< Method paper.
+  std::vector<PublishedSearch> published;      ///< Method paper.
   std::vector<BasinTable> basins;              ///< One for each fit, if several starts were asked for.
   int bootstrap_replicates = 0;                ///< Number of converged replicates.
   int bootstrap_failed = 0;

@@ -137,7 +137,7 @@ BasinTable find_paper_basins(const StudyData& data, std::size_t muscle, bool sho
   BasinTable table;
   if (box.given.size() > 0 && samples.obstacle().empty()) {
     const auto search = [&](const Eigen::VectorXd& start) {
-      const math::LeastSquaresResult end = search_as_published(samples, start);
+      const math::LeastSquaresResult end = search_for_minimum(samples, start).found;
       return math::LocalMinimum{end.termination, end.x, end.cost, end.evaluations};
     };
     table = find_basins(search, box, starts, static_cast<Eigen::Index>(samples.samples.size()));

@@ -37,32 +37,23 @@ struct CaseShape {
 };
 constexpr std::array<std::string_view, 2> kShared{"optimal_fiber_length", "force_length_width"};
 
-/// Returns the minimum of damped steps where full steps find none. The minimum is no estimate, but
-/// shows the signature of an error in the data. Empty if damped steps find none either.
-std::optional<Eigen::VectorXd> damped_minimum(const PaperCase& samples) {
-  const auto p = static_cast<Eigen::Index>(samples.unknowns.size());
-  if (static_cast<Eigen::Index>(samples.samples.size()) < 10 * p) return std::nullopt;
-  if (!(samples.largest_force_n() > 0.0)) return std::nullopt;
-  try {
-    const math::LeastSquaresResult fit = math::minimize(samples.problem(), samples.start_vector());
-    // A V_sh or P that grows without limit never converges; the cost stays the same.
-    const std::vector<double>& costs = fit.cost_history;
-    constexpr std::size_t kLast = 10;
-    const bool settled = costs.size() > kLast && costs.back() > (1.0 - 1e-3) * costs[costs.size() - 1 - kLast];
-    if (fit.x.allFinite() && (fit.termination == math::Termination::converged || settled)) return fit.x;
-  } catch (const InvalidInput&) {  // not finite at the start
-  }
-  return std::nullopt;
+/// Returns where the criterion falls no further, as V_sh or P grows without limit. The end is no estimate, but shows
+/// the signature of an error in the data. Empty if the steps ended otherwise.
+std::optional<Eigen::VectorXd> settled_end(const MinimumSearch& search) {
+  const std::vector<double>& costs = search.found.cost_history;
+  const std::size_t steps = search.damped ? 10 : 1;
+  const bool settled = costs.size() > steps && costs.back() > (1.0 - 1e-3) * costs[costs.size() - 1 - steps];
+  return search.found.x.allFinite() && settled ? std::optional(search.found.x) : std::nullopt;
 }
 
-/// One muscle in one branch: samples, search and covariance.
+/// One muscle in one branch: samples, searches and covariance.
 struct CaseFit {
   PaperCase samples;
-  math::LeastSquaresResult search;  ///< Without a search, x is the start.
+  math::LeastSquaresResult search;  ///< For the minimum. Without a search, x is the start.
   std::string failure;              ///< Empty: converged.
-  /// The minimum that plain or damped steps reach; empty: none.
-  std::optional<Eigen::VectorXd> minimum;
-  bool computed = false;  ///< Residuals and covariance are known.
+  PublishedSearch told;
+  std::optional<Eigen::VectorXd> minimum;  ///< The minimum, or where the criterion falls no further.
+  bool computed = false;                   ///< Residuals and covariance are known.
   math::CovarianceResult covariance;
   double effective_samples = 0.0;
   double widen = 1.0;  ///< Samples over effective samples.
@@ -103,20 +94,33 @@ void add_statistics(CaseFit& fit) {
   fit.exact = search.residual.norm() <= kExact * force.norm();
 }
 
-CaseFit search_case(PaperCase samples, bool for_diagnoses) {
+CaseFit search_case(PaperCase samples) {
+  constexpr double kSame = 1e-6;
   CaseFit fit;
   fit.samples = std::move(samples);
-  fit.search.x = fit.samples.start_vector();
+  const Eigen::VectorXd start = fit.samples.start_vector();
+  fit.search.x = start;
   fit.failure = fit.samples.obstacle();
+  fit.told.muscle = fit.samples.muscle;
+  fit.told.fit_case = fit.samples.shortening ? "shortening" : "lengthening";
   if (fit.failure.empty()) {
-    fit.search = search_as_published(fit.samples, fit.samples.start_vector());
+    const MinimumSearch minimum = search_for_minimum(fit.samples, start);
+    fit.search = minimum.found;
+    fit.told.damped = minimum.damped;
+    const math::LeastSquaresResult plain = search_as_published(fit.samples, start);
+    fit.told.termination = fit.search.termination;
+    fit.told.iterations = fit.search.iterations;
+    fit.told.start_cost = fit.search.cost_history.empty() ? fit.search.cost : fit.search.cost_history.front();
+    fit.told.cost = fit.search.cost;
+    fit.told.plain = plain.termination;
+    fit.told.plain_iterations = plain.iterations;
+    const double apart = std::abs(plain.cost - fit.search.cost);
+    fit.told.plain_elsewhere = plain.termination == math::Termination::converged &&
+                               apart > kSame * fit.search.cost + kExact * kExact * fit.told.start_cost;
     if (fit.search.termination != math::Termination::converged) fit.failure = fit.search.message;
+    fit.minimum = fit.failure.empty() ? std::optional(fit.search.x) : settled_end(minimum);
   }
-  if (fit.failure.empty()) {
-    fit.minimum = fit.search.x;
-  } else if (for_diagnoses) {
-    fit.minimum = damped_minimum(fit.samples);
-  }
+  fit.told.message = fit.failure;
   add_statistics(fit);
   return fit;
 }
@@ -146,10 +150,6 @@ ParameterEstimate estimate_of(const CaseFit& fit,
   context.shared_forces = options.shared_forces;
   context.given_strength = !options.shared_forces && !fit.exact;
   context.r2 = fit.r2;
-  if (const auto prior = setup.priors.find(e.parameter);
-      prior != setup.priors.end() && !prior->second.logarithmic && options.shared_forces) {
-    context.prior_distance = std::abs(e.estimate - prior->second.mean) / prior->second.sd;
-  }
   context.converged = fit.failure.empty();
   context.failure = fit.failure;
   context.determined = fit.computed && fit.covariance.determined[static_cast<std::size_t>(j)];
@@ -169,6 +169,7 @@ ParameterEstimate estimate_of(const CaseFit& fit,
     context.plateau_is_flat = std::abs(x[plateau] - 1.0) < quantile * sd;
   }
   judge(e, context);
+  if (options.shared_forces) e.std_error = e.ci_low = e.ci_high = std::nullopt;
   return e;
 }
 
@@ -205,7 +206,8 @@ std::optional<CaseShape> fit_case(
   result.samples_used += static_cast<int>(samples.samples.size());
   result.muscles[muscle] = samples.start;
   if (samples.unknowns.empty()) return std::nullopt;
-  const CaseFit fit = search_case(std::move(samples), options.diagnoses);
+  const CaseFit fit = search_case(std::move(samples));
+  result.published.push_back(fit.told);
   result.iterations += fit.search.iterations;
   if (!fit.failure.empty())
     result.message += fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", fit.failure);

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/identification/muscle_law.h"
+#include "myoid/methods/halved_steps.h"
 
 namespace myoid::identification {
 namespace {
@@ -41,6 +44,34 @@ void add_samples(const StudyData& data, std::size_t muscle, PaperCase& result) {
     }
     if (run > 0) result.pieces.push_back(run);
   }
+}
+
+using Search = std::function<math::LeastSquaresResult(const math::LeastSquaresProblem&)>;
+
+/// Searches; an end where an unknown is beyond a thousand times its start is none, for the reason `away`.
+math::LeastSquaresResult searched(const PaperCase& samples,
+                                  const Eigen::VectorXd& start,
+                                  const Search& search,
+                                  std::string_view away) {
+  constexpr double kAway = 1e3;
+  math::LeastSquaresResult found;
+  try {
+    found = search(samples.problem());
+  } catch (const InvalidInput& error) {
+    found.x = start;
+    found.cost = std::numeric_limits<double>::infinity();
+    found.termination = math::Termination::not_finite;
+    found.message = error.what();
+    return found;
+  }
+  for (Eigen::Index j = 0; j < start.size(); ++j) {
+    const muscle::HillField& unknown = *samples.unknowns[static_cast<std::size_t>(j)];
+    if (unknown.name == "force_length_width") found.x[j] = std::abs(found.x[j]);
+    if (std::abs(found.x[j]) <= kAway * std::abs(start[j])) continue;
+    found.termination = math::Termination::no_descent;
+    found.message = fmt::format(fmt::runtime(away), unknown.name);
+  }
+  return found;
 }
 
 }  // namespace
@@ -121,29 +152,39 @@ math::LeastSquaresProblem PaperCase::problem() const {
 math::LeastSquaresResult search_as_published(const PaperCase& samples,
                                              const Eigen::VectorXd& start,
                                              const Progress& progress) {
-  constexpr double kAway = 1e3;
-  math::LeastSquaresResult found;
-  try {
-    found = math::minimize(samples.problem(), start,
-                           {.method = math::LeastSquaresMethod::gauss_newton,
-                            .max_iterations = 100,
-                            .step_tolerance = 1e-10,
-                            .gradient_tolerance = 1e-13,
-                            .progress = progress});
-  } catch (const InvalidInput& error) {
-    found.x = start;
-    found.cost = std::numeric_limits<double>::infinity();
-    found.termination = math::Termination::not_finite;
-    found.message = error.what();
+  const auto full_steps = [&](const math::LeastSquaresProblem& problem) {
+    return math::minimize(problem, start,
+                          {.method = math::LeastSquaresMethod::gauss_newton,
+                           .max_iterations = 100,
+                           .step_tolerance = 1e-10,
+                           .gradient_tolerance = 1e-13,
+                           .progress = progress});
+  };
+  return searched(samples, start, full_steps, "plain Gauss-Newton steps diverged");
+}
+
+MinimumSearch search_for_minimum(const PaperCase& samples, const Eigen::VectorXd& start, const Progress& progress) {
+  const auto found_by = [&](const Search& search) {
+    math::LeastSquaresResult found =
+        searched(samples, start, search, "the criterion falls as {} grows without limit: it has no minimum");
+    double idle = 0.0;  // cost of a muscle that makes no force
+    for (const MuscleSample& s : samples.samples) idle += 0.5 * s.force_n * s.force_n;
+    if (std::isfinite(found.cost) && found.cost > 0.999 * idle) {
+      found.termination = math::Termination::no_descent;
+      found.message = "the steps ended where the muscle makes no force, or one that is no better than none";
+    }
     return found;
-  }
-  for (Eigen::Index j = 0; j < start.size(); ++j) {
-    if (samples.unknowns[static_cast<std::size_t>(j)]->name == "force_length_width") found.x[j] = std::abs(found.x[j]);
-    if (std::abs(found.x[j]) <= kAway * std::abs(start[j])) continue;
-    found.termination = math::Termination::no_descent;
-    found.message = "plain Gauss-Newton steps diverged";
-  }
-  return found;
+  };
+  MinimumSearch halved{.found = found_by([&](const math::LeastSquaresProblem& problem) {
+                         return minimize_by_halved_steps(problem, start, progress);
+                       })};
+  if (halved.found.termination == math::Termination::converged) return halved;
+  MinimumSearch damped{.found = found_by([&](const math::LeastSquaresProblem& problem) {
+                         return math::minimize(problem, start, {.max_iterations = 500, .progress = progress});
+                       }),
+                       .damped = true};
+  const bool better = damped.found.termination == math::Termination::converged || damped.found.cost < halved.found.cost;
+  return better ? damped : halved;
 }
 
 }  // namespace myoid::identification

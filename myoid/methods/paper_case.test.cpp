@@ -71,6 +71,58 @@ TEST(PaperCase, StepsThatRunAwayAreNoMinimumHoweverFlatItIsOutThere) {
   EXPECT_EQ(search_as_published(samples, mirrored).termination, math::Termination::not_finite);
 }
 
+TEST(PaperCase, TheTruthIsFoundWhereverPlainStepsDoAndFromFartherStarts) {
+  test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 6.0, .delay_s = 0.0});
+  study.data.muscles[0].start = study.truth[0];
+  int rescued = 0;
+  for (const bool shortening : {true, false}) {
+    const PaperCase samples = paper_case(study.data, 0, shortening);
+    const Eigen::VectorXd truth = samples.start_vector();
+    for (const double length : {0.8, 0.9, 1.1, 1.2}) {
+      for (const double width : {0.7, 1.4}) {
+        Eigen::VectorXd start = truth;
+        start[0] *= length;
+        start[1] *= width;
+        start[2] *= 1.5;
+        const auto is_truth = [&](const math::LeastSquaresResult& found) {
+          return found.termination == math::Termination::converged &&
+                 ((found.x - truth).array().abs() <= 1e-6 * truth.array().abs()).all();
+        };
+        const bool plain = is_truth(search_as_published(samples, start));
+        const bool found = is_truth(search_for_minimum(samples, start).found);
+        EXPECT_TRUE(found || !plain) << length << " " << width << " " << shortening;
+        rescued += found && !plain ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(rescued, 0);
+}
+
+TEST(PaperCase, WhereTheMuscleMakesNoForceThereIsNoMinimum) {
+  const test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 6.0, .delay_s = 0.0});
+  const PaperCase samples = paper_case(study.data, 0, true);
+  Eigen::VectorXd far = samples.start_vector();
+  far[0] *= 100.0;
+  const math::LeastSquaresResult end = search_for_minimum(samples, far).found;
+  EXPECT_EQ(end.termination, math::Termination::no_descent);
+  EXPECT_NE(end.message.find("makes no force"), std::string::npos) << end.message;
+}
+
+TEST(PaperCase, ACriterionThatFallsWithoutLimitHasNoMinimum) {
+  // The force of a straight line over speed, f_v = (v_max + v) / v_max, which is that of V_sh without limit.
+  test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 6.0, .delay_s = 0.0});
+  study.data.muscles[0].start = study.truth[0];
+  PaperCase samples = paper_case(study.data, 0, true);
+  const double v_max = samples.start.max_shortening_speed_mps, v_sh = samples.start.concentric_curvature;
+  const Eigen::VectorXd start = samples.start_vector();
+  for (MuscleSample& s : samples.samples) s.force_n *= (v_sh * v_max - s.fiber_velocity_mps) / (v_sh * v_max);
+  const math::LeastSquaresResult end = search_for_minimum(samples, start).found;
+  EXPECT_EQ(end.termination, math::Termination::no_descent);
+  EXPECT_NE(end.message.find("concentric_curvature grows without limit"), std::string::npos) << end.message;
+  EXPECT_NEAR(end.x[0], start[0], 1e-4 * start[0]);
+  EXPECT_NEAR(end.x[1], start[1], 1e-4 * start[1]);
+}
+
 TEST(PaperCase, TenSamplesPerUnknownAndAForceAreNeeded) {
   StudyData data = test::elbow_study({.trials = 1, .seconds = 4.0, .delay_s = 0.0}).data;
   EXPECT_EQ(paper_case(data, 0, true).obstacle(), "");

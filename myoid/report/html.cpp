@@ -47,6 +47,7 @@ p { margin: 6px 0 10px; max-width: 74ch; }
 .forest tr:not(.first) td:first-child { color: #a8aeb5; }
 .beside th { padding-top: 10px; color: #5a626b; }
 details.reading { font-size: 13px; margin: 4px 0; } .reading summary { color: #1f5fa8; cursor: pointer; }
+details.part > summary { cursor: pointer; } details.part h2 { display: inline-block; }
 .reading dl { margin: 6px 0; max-width: 90ch; } .reading dt { font-weight: 600; } .reading dd { margin: 0 0 6px; }
 nav { display: flex; flex-wrap: wrap; font-size: 13px; margin: 12px 0 0; }
 nav a { margin-right: 14px; white-space: nowrap; }
@@ -196,7 +197,10 @@ std::string section_html(const Section& section) {
   for (const StripGrid& grid : section.grids) text += strip_grid_html(grid);
   for (const Table& table : section.tables) text += table_html(table);
   for (const Figure& figure : section.figures) text += figure_html(figure);
-  return part_html(section.id, section.heading, text);
+  if (!section.folded) return part_html(section.id, section.heading, text);
+  return fmt::format(
+      "<section>\n<details class=\"part\"><summary><h2 id=\"{}\">{}</h2></summary>\n{}</details>\n</section>\n",
+      escape_xml(section.id), typeset(section.heading), text);
 }
 
 /// Returns the scripts of the workbench: its values, its scenes and the program that shows them.

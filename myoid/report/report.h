@@ -152,6 +152,7 @@ struct Section {
   std::string id;
   std::string heading;
   bool before_numbers = false;            ///< The section stands before the table of all numbers.
+  bool folded = false;                    ///< Only the heading shows until a reader opens the section.
   std::vector<std::string> paragraphs{};  ///< Plain text.
   std::vector<Gate> gates{};
   std::vector<Table> tables{};

@@ -78,6 +78,14 @@ TEST(Report, ASectionMayStandBeforeAllNumbers) {
   EXPECT_LT(page.find("href=\"#parameters\""), page.find("href=\"#numbers\""));
 }
 
+TEST(Report, AFoldedSectionShowsItsHeadingOnly) {
+  Report report = small_report();
+  EXPECT_THAT(html(report), Not(HasSubstr("<details class=\"part\">")));
+  report.sections[0].folded = true;
+  EXPECT_THAT(html(report),
+              HasSubstr("<details class=\"part\"><summary><h2 id=\"parameters\">Parameters</h2></summary>"));
+}
+
 TEST(Report, LeadsToWhatLiesBesideIt) {
   EXPECT_THAT(html(small_report()), HasSubstr("<a href=\"motion.html\">The model, moving</a>"));
   EXPECT_EQ(nlohmann::json::parse(report_json(small_report()))["links"][0]["file"], "motion.html");

@@ -265,7 +265,9 @@ void say_fit(const StudyResult& result, Writer& out) {
   if (method_of(result.fit, "paper") != nullptr)
     out.say(
         "{} the method as published{} was applied: each muscle alone, shortening and lengthening apart, by "
-        "Gauss-Newton steps on forces that minimize the sum of {} to the power {:g}{}.",
+        "Gauss-Newton steps, halved until the criterion falls, or damped, on forces that minimize the sum of {} to the "
+        "power "
+        "{:g}{}.",
         torque != nullptr ? "For comparison" : "As the only method,", out.cite("venture2006"),
         result.source.study.sharing.objective == forces::SharingObjective::activation ? "activations"
         : result.source.study.sharing.objective == forces::SharingObjective::force    ? "muscle forces"

@@ -136,6 +136,20 @@ ordered_json branch_test_json(const identification::BranchTest& test) {
           {"p_value", number_or_null(test.p_value)}};
 }
 
+ordered_json published_json(const identification::PublishedSearch& search) {
+  return {{"muscle", search.muscle},
+          {"case", search.fit_case},
+          {"termination", std::string(math::name(search.termination))},
+          {"message", search.message},
+          {"iterations", search.iterations},
+          {"damped", search.damped},
+          {"start_cost", number_or_null(search.start_cost)},
+          {"cost", number_or_null(search.cost)},
+          {"plain_termination", std::string(math::name(search.plain))},
+          {"plain_iterations", search.plain_iterations},
+          {"plain_elsewhere", search.plain_elsewhere}};
+}
+
 /// Converts a trial. `number` writes numbers that method paper does not have.
 template <typename Number>
 ordered_json trial_json(const identification::TrialFit& t, Number number) {
@@ -183,6 +197,7 @@ ordered_json method_json(const IdentificationResult& method) {
           {"prior_distances", array_of(method.prior_distances, distance_json)},
           {"bootstrap", {{"converged", method.bootstrap_replicates}, {"failed", method.bootstrap_failed}}},
           {"branch_tests", array_of(method.branch_tests, branch_test_json)},
+          {"published_searches", array_of(method.published, published_json)},
           {"searches", array_of(method.basins, basins_json)},
           {"covariance",
            {{"parameters", method.free_parameters},

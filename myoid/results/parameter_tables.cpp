@@ -193,29 +193,9 @@ std::vector<report::ForestRow> forest_rows(const StudyResult& result, const Iden
                           .why = e.reason,
                           .beside = identification::is_nuisance(e)};
     if (is_undetermined(e)) row.lower = row.upper = row.given_lower = row.given_upper = std::nullopt;
-    if (!e.fit_case.empty() && method.method == "paper") row.name += ", " + e.fit_case;
     rows.push_back(std::move(row));
   }
   return rows;
-}
-
-std::vector<Table> paper_tables(const IdentificationResult& method) {
-  const auto empty = [](std::string id, std::string title) {
-    return Table{std::move(id),
-                 std::move(title),
-                 "Each muscle fitted apart to the force that force sharing assigned to it, plain Gauss-Newton, as "
-                 "published; intervals and verdicts are ours.",
-                 {"muscle", "parameter", "unit", "initial", "estimate", "95 % interval", "verdict", "why"}};
-  };
-  std::vector<Table> tables{empty("table_1_shortening", "Table I: parameters from shortening (method paper)"),
-                            empty("table_2_lengthening", "Table II: parameters from lengthening (method paper)")};
-  for (const ParameterEstimate& e : method.estimates) {
-    std::vector<Cell> row = report::text_row({e.muscle, report::spelled(e.parameter), unit(e), format_value(e.initial),
-                                              value_of(e, e.estimate), interval(e)});
-    row.insert(row.end(), {verdict_cell(e), {e.reason}});
-    tables[e.fit_case == "shortening" ? 0 : 1].rows.push_back(std::move(row));
-  }
-  return tables;
 }
 
 std::vector<Table> basin_tables(const IdentificationResult& method) {

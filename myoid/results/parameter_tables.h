@@ -31,9 +31,6 @@ struct EstimateLine {
 [[nodiscard]] std::vector<report::Table> estimate_tables(const StudyResult& result,
                                                          const identification::IdentificationResult& method);
 
-/// Returns the source paper's tables I and II: shortening, lengthening.
-[[nodiscard]] std::vector<report::Table> paper_tables(const identification::IdentificationResult& method);
-
 /// Returns a table of the minima at which searches from several starts ended; none without such searches.
 [[nodiscard]] std::vector<report::Table> basin_tables(const identification::IdentificationResult& method);
 

@@ -13,6 +13,7 @@
 #include "myoid/math/statistics.h"
 #include "myoid/report/typeset.h"
 #include "myoid/results/methods_text.h"
+#include "myoid/results/paper_tables.h"
 #include "myoid/results/parameter_tables.h"
 #include "myoid/results/phases_report.h"
 #include "myoid/results/study_figures.h"
@@ -101,7 +102,9 @@ std::string identified_numbers(const IdentificationResult& fit) {
 std::string headline(const StudyResult& result) {
   const IdentificationResult* best = method_of(result.fit, "torque");
   if (best == nullptr) best = method_of(result.fit, "force");
-  if (best == nullptr) return "Parameters by the source paper's method, each with an interval and a verdict.";
+  if (best == nullptr)
+    return "Only the source paper's method was asked for. It fits forces that nobody measured, so that this recording "
+           "identifies nothing by it; its numbers stand at the end.";
   int total = 0, sure = 0, repeat = 0, weak = 0;
   for (const ParameterEstimate& e : best->estimates) {
     if (!is_counted(e)) continue;
@@ -166,15 +169,6 @@ Section parameters_section(const StudyResult& result, const IdentificationResult
   return section;
 }
 
-Section paper_section(const IdentificationResult& paper) {
-  return {.id = "paper",
-          .heading = "The source paper's method beside it",
-          .paragraphs = {"Published in 2006: every muscle alone, shortening and lengthening apart, against forces that "
-                         "an optimization assigned. Those forces know nothing of co-contraction or of the person's own "
-                         "strength, so that its numbers often leave physiology; the verdicts say where."},
-          .tables = tables_with_basins(paper_tables(paper), paper)};
-}
-
 /// Shows the muscle forces of the trial with the most movement. The workbench shows all trials, and
 /// the trials' folders hold the numbers.
 Section forces_section(const StudyResult& result, const IdentificationResult& method) {
@@ -233,7 +227,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   const IdentificationResult* force = method_of(result.fit, "force");
   const IdentificationResult* paper = method_of(result.fit, "paper");
 
-  const IdentificationResult* best = torque != nullptr ? torque : force != nullptr ? force : paper;
+  const IdentificationResult* best = torque != nullptr ? torque : force;
   if (best != nullptr) report.forest = forest_rows(result, *best);
 
   std::vector<Section>& sections = report.sections;
@@ -246,13 +240,13 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
                         .tables = tables_with_basins(estimate_tables(result, *force), *force)});
   for (Section& section : validation_sections(result)) sections.push_back(std::move(section));
   if (result.next) sections.push_back(next_recording_section(*result.next));
-  if (paper != nullptr) sections.push_back(paper_section(*paper));
   if (const auto* shown = torque != nullptr ? torque : paper) sections.push_back(forces_section(result, *shown));
   if (auto emg = emg_section(result)) sections.push_back(std::move(*emg));
   if (!result.fit.informed.empty() || result.fit.force_loop) sections.push_back(informed_section(result));
   if (!result.fit_input.phases.empty()) sections.push_back(phases_section(result));
   sections.push_back(trials_section(result));
   sections.push_back(methods_section(methods_text(result, provenance)));
+  if (paper != nullptr) sections.push_back(paper_section(*paper));
   return report;
 }
 

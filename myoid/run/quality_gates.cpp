@@ -250,7 +250,7 @@ std::vector<Gate> model_gates(const StudyResult& result) {
 }
 
 /// Tests whether the shared forces produce the torque.
-std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
+std::vector<Gate> sharing_gates(const Study& study, const std::vector<TrialResult>& trials) {
   int sharing_frames = 0;
   int unsolved = 0;
   int reserves = 0;
@@ -261,9 +261,16 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
     reserves += t.forces.shared.frames_with_reserve;
   }
   std::vector<Gate> list;
-  list.push_back({std::string(kSharingGate), unsolved == 0 ? GateStatus::pass : GateStatus::fail,
+  // No result of the recording rests on the forces that method paper alone fits.
+  const bool counts =
+      study.identify.force_loop ||
+      std::ranges::find(study.identify.methods, identification::Method::force) != study.identify.methods.end();
+  list.push_back({std::string(kSharingGate),
+                  unsolved == 0 ? GateStatus::pass
+                  : counts      ? GateStatus::fail
+                                : GateStatus::info,
                   fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
-                  "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
+                  "all frames, residual below 1e-9", "Concerns the shared forces that methods paper and force fit."});
   const double share = sharing_frames > 0 ? static_cast<double>(reserves) / sharing_frames : 0.0;
   list.push_back({"Muscles strong enough for the torque",
                   share < forces::kReserveShare ? GateStatus::pass : GateStatus::warn, forces::reserve_words(share),
@@ -351,7 +358,7 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   const auto add = [&list](std::vector<Gate> gates) { std::ranges::move(gates, std::back_inserter(list)); };
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));
-  add(sharing_gates(result.trials));
+  add(sharing_gates(result.source.study, result.trials));
   add(reference_gates(result.source.study, result.emg));
   if (const IdentificationResult* torque = torque_of(result.fit)) add(parameter_gates(*torque));
   add(fold_gates(result.folds, std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) !=

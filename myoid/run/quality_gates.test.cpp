@@ -184,9 +184,11 @@ TEST(VerdictCaps, AGateThatFailedCapsTheMethodsThatItConcerns) {
   StudyResult result = with_emg();
   result.trials[0].forces.shared.status.resize(100);
   result.trials[0].forces.shared.frames_not_solved = 1;
+  EXPECT_EQ(status_of(result, kSharingGate), GateStatus::info) << "no result of the recording rests on shared forces";
+  result.source.study.identify.methods = {identification::Method::force, identification::Method::torque};
   EXPECT_EQ(status_of(result, kSharingGate), GateStatus::fail);
   EXPECT_EQ(capped(result, "torque").verdict, Verdict::identified);
-  EXPECT_EQ(capped(result, "paper").verdict, Verdict::weak);
+  EXPECT_EQ(capped(result, "force").verdict, Verdict::weak);
   result.fit.methods[0].termination = math::Termination::iteration_limit;
   EXPECT_EQ(status_of(result, "Fit converged"), GateStatus::fail);
   EXPECT_EQ(capped(result, "torque").verdict, Verdict::weak);

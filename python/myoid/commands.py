@@ -46,8 +46,8 @@ Numbers = Union[Mapping[str, float], Sequence[str]]
 Report = Union[Progress, bool, None]
 
 
-def run(study: File, *, out: File | None = None, mat: File | None = None, estimator: str | None = None,
-        video: Texts | None = None, video_offset: float | None = None,
+def run(study: File, *, out: File | None = None, mat: File | None = None, method: Texts | None = None,
+        estimator: str | None = None, video: Texts | None = None, video_offset: float | None = None,
         threads: int | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
         progress: Report = None) -> Result:  # fmt: skip
     """The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.
@@ -56,6 +56,7 @@ def run(study: File, *, out: File | None = None, mat: File | None = None, estima
         study: study.toml
         out: Folder of the results; None: a temporary folder that lives as long as the result (`Result.save` copies it).
         mat: Parameters, series, remarks and draws also as one MATLAB file, which ends in .mat.
+        method: "torque", "force", "paper"; several, in place of the study's.
         estimator: "least_squares" or "posterior", in place of the study's.
         video: Films that the report shows beside the model, each "TRIAL=FILE".
         video_offset: When these films begin, in seconds of the motion.

@@ -1,0 +1,145 @@
+#include "myoid/results/paper_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/counted.h"
+#include "myoid/report/verdict_mark.h"
+#include "myoid/results/parameter_tables.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using identification::PublishedSearch;
+using math::Termination;
+using report::Cell;
+using report::Table;
+
+/// A column of the paper's tables.
+struct PaperColumn {
+  std::string_view parameter;
+  std::string_view heading;
+};
+constexpr std::array<PaperColumn, 3> kShortening{
+    {{"optimal_fiber_length", "l_m⁰ [m]"}, {"force_length_width", "l_mˢʰ [m]"}, {"concentric_curvature", "V_sh"}}};
+constexpr std::array<PaperColumn, 4> kLengthening{{{"optimal_fiber_length", "l_m⁰ [m]"},
+                                                   {"force_length_width", "l_mˢʰ [m]"},
+                                                   {"eccentric_curvature_product", "V_sh V_shl"},
+                                                   {"eccentric_plateau", "V_ml"}}};
+
+std::string steps(int count, std::string_view kind = "step") { return counted(static_cast<std::size_t>(count), kind); }
+
+std::string ended(const PublishedSearch& search) {
+  if (search.termination == Termination::converged)
+    return fmt::format("minimum of the published criterion after {}",
+                       steps(search.iterations, search.damped ? "damped step" : "step"));
+  if (search.iterations == 0) return search.message;
+  return fmt::format("no minimum after {}: {}", steps(search.iterations), search.message);
+}
+
+std::string plain_ended(const PublishedSearch& search) {
+  const std::string after = " after " + steps(search.plain_iterations);
+  if (search.plain == Termination::converged)
+    return (search.plain_elsewhere ? "converged to another point" : "the same minimum") + after;
+  return (search.plain == Termination::iteration_limit ? "not converged" : "diverged") + after;
+}
+
+/// Returns true if the branch has no fit, for want of samples or force.
+bool without_search(const PublishedSearch& search) {
+  return search.iterations == 0 && search.plain_iterations == 0 && !search.message.empty();
+}
+
+const ParameterEstimate* estimate_of(const IdentificationResult& method,
+                                     const PublishedSearch& search,
+                                     std::string_view parameter) {
+  const auto found = std::ranges::find_if(method.estimates, [&](const ParameterEstimate& e) {
+    return e.muscle == search.muscle && e.fit_case == search.fit_case && e.parameter == parameter;
+  });
+  return found == method.estimates.end() ? nullptr : &*found;
+}
+
+Cell estimate_cell(const ParameterEstimate* e, bool searched) {
+  if (e == nullptr) return {"held"};
+  if (!searched || !std::isfinite(e->estimate)) return {"–", report::Badge::none, e->reason};
+  std::string text = report::format_value(e->estimate);
+  if (e->ci_low && e->ci_high && !is_undetermined(*e))
+    text += fmt::format(" ({})", report::format_interval(*e->ci_low, *e->ci_high));
+  return {std::move(text), report::verdict_badge(identification::name(e->verdict)), e->reason};
+}
+
+Table branch_table(const IdentificationResult& method,
+                   std::string_view branch,
+                   std::string title,
+                   std::span<const PaperColumn> columns) {
+  Table table{.id = fmt::format("table_{}_{}", branch == "shortening" ? 1 : 2, branch),
+              .title = std::move(title),
+              .caption =
+                  "Each muscle alone: x_init is the literature's, x̂ the minimum of the published criterion "
+                  "C = ½ Σ (F_t − F_m(x))², by Gauss-Newton steps that are halved until it falls; where they find "
+                  "none, by damped steps.",
+              .columns = {"muscle", "x"}};
+  for (const PaperColumn& column : columns) table.columns.emplace_back(column.heading);
+  table.columns.emplace_back("C [N²]");
+  for (const PublishedSearch& search : method.published) {
+    if (search.fit_case != branch) continue;
+    const bool searched = !without_search(search);
+    std::vector<Cell> start{{search.muscle}, {"x_init"}}, found{{search.muscle}, {"x̂"}};
+    for (const PaperColumn& column : columns) {
+      const ParameterEstimate* e = estimate_of(method, search, column.parameter);
+      start.push_back({e == nullptr ? "held" : report::format_value(e->initial)});
+      found.push_back(estimate_cell(e, searched));
+    }
+    start.push_back({searched ? report::format_value(search.start_cost, 4) : "–"});
+    found.push_back({searched ? report::format_value(search.cost, 4) : "–"});
+    table.rows.push_back(std::move(start));
+    table.rows.push_back(std::move(found));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string published_sentence(const PublishedSearch& search) {
+  const std::string who = fmt::format("{}, {}: ", search.muscle, search.fit_case);
+  if (without_search(search)) return who + search.message;
+  return fmt::format("{}{}; plain steps: {}", who, ended(search), plain_ended(search));
+}
+
+std::vector<Table> paper_tables(const IdentificationResult& method) {
+  Table searches{.id = "published_searches",
+                 .title = "The searches",
+                 .caption =
+                     "Plain steps, each in full, are the published search. They reach the minimum from a start "
+                     "that is near enough.",
+                 .columns = {"muscle", "branch", "steps that lower the criterion", "plain steps"}};
+  for (const PublishedSearch& search : method.published)
+    searches.rows.push_back(
+        {{search.muscle}, {search.fit_case}, {ended(search)}, {without_search(search) ? "–" : plain_ended(search)}});
+  return {branch_table(method, "shortening", "Table I: parameters from shortening (method paper)", kShortening),
+          branch_table(method, "lengthening", "Table II: parameters from lengthening (method paper)", kLengthening),
+          std::move(searches)};
+}
+
+report::Section paper_section(const IdentificationResult& paper) {
+  report::Section section{
+      .id = "paper",
+      .heading = "The source paper's method beside it",
+      .folded = true,
+      .paragraphs = {"Published in 2006: every muscle alone, shortening and lengthening apart, against forces that an "
+                     "optimization assigned. Nobody measured these forces. They know nothing of co-contraction or of "
+                     "the person's own strength, so the numbers have no interval, and none of them counts as a result "
+                     "of this recording."},
+      .tables = paper_tables(paper)};
+  for (Table& table : basin_tables(paper)) section.tables.push_back(std::move(table));
+  return section;
+}
+
+}  // namespace myoid

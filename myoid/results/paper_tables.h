@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/intervals/result.h"
+#include "myoid/report/report.h"
+
+namespace myoid {
+
+/// Says how a search of method `paper` ended and how plain steps fared: "BIC, shortening: minimum of the published
+/// criterion after 9 steps; plain steps: diverged after 5".
+[[nodiscard]] std::string published_sentence(const identification::PublishedSearch& search);
+
+/// Returns the source paper's tables I and II (shortening, lengthening) with its columns, start and estimate of each
+/// muscle in two rows, and a table of the searches.
+[[nodiscard]] std::vector<report::Table> paper_tables(const identification::IdentificationResult& method);
+
+/// Returns the section of the report, which is folded.
+[[nodiscard]] report::Section paper_section(const identification::IdentificationResult& paper);
+
+}  // namespace myoid

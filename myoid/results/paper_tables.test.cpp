@@ -1,0 +1,93 @@
+#include "myoid/results/paper_tables.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using identification::PublishedSearch;
+using math::Termination;
+
+ParameterEstimate number(const std::string& muscle, const std::string& branch, const std::string& name, double value) {
+  ParameterEstimate e;
+  e.muscle = muscle;
+  e.fit_case = branch;
+  e.parameter = name;
+  e.method = "paper";
+  e.initial = 0.14;
+  e.estimate = value;
+  e.verdict = identification::Verdict::prior_dominated;
+  e.reason = "nobody measured the force";
+  return e;
+}
+
+IdentificationResult two_branches() {
+  IdentificationResult method;
+  method.method = "paper";
+  method.estimates = {number("BIC", "shortening", "optimal_fiber_length", 0.131),
+                      number("BIC", "shortening", "concentric_curvature", 0.27),
+                      number("BIC", "lengthening", "optimal_fiber_length", 0.14)};
+  method.published = {{.muscle = "BIC",
+                       .fit_case = "shortening",
+                       .termination = Termination::converged,
+                       .iterations = 9,
+                       .start_cost = 800.0,
+                       .cost = 20.0,
+                       .plain = Termination::no_descent,
+                       .plain_iterations = 1},
+                      {.muscle = "BIC", .fit_case = "lengthening", .message = "only 3 samples in lengthening"}};
+  return method;
+}
+
+TEST(PaperTables, HaveThePapersColumnsAndStartAndMinimumOfEachMuscle) {
+  const std::vector<report::Table> tables = paper_tables(two_branches());
+  ASSERT_EQ(tables.size(), 3U);
+  EXPECT_EQ(tables[0].id, "table_1_shortening");
+  EXPECT_EQ(tables[1].id, "table_2_lengthening");
+  ASSERT_EQ(tables[0].columns.size(), 6U);  // muscle, x, three unknowns, the criterion
+  ASSERT_EQ(tables[1].columns.size(), 7U);
+  for (const report::Table& table : tables) {
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.id;
+  }
+  const auto& rows = tables[0].rows;
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0][1].text, "x_init");
+  EXPECT_EQ(rows[0][2].text, "0.14");
+  EXPECT_EQ(rows[1][2].text, "0.131");
+  EXPECT_EQ(rows[1][2].hint, "nobody measured the force");
+  EXPECT_EQ(rows[1][3].text, "held") << "the width is no unknown here";
+  EXPECT_EQ(rows[1][4].text, "0.27");
+  EXPECT_EQ(rows[1][5].text, "20");
+  EXPECT_EQ(tables[1].rows[1][2].text, "–") << "no search";
+}
+
+TEST(PaperTables, SayHowBothSearchesEnded) {
+  std::vector<PublishedSearch> searches = two_branches().published;
+  EXPECT_EQ(published_sentence(searches[0]),
+            "BIC, shortening: minimum of the published criterion after 9 steps; plain steps: diverged after 1 step");
+  EXPECT_EQ(published_sentence(searches[1]), "BIC, lengthening: only 3 samples in lengthening");
+  searches[0].plain = Termination::converged;
+  EXPECT_NE(published_sentence(searches[0]).find("plain steps: the same minimum after 1 step"), std::string::npos);
+  searches[0].damped = true;
+  EXPECT_NE(published_sentence(searches[0]).find("criterion after 9 damped steps"), std::string::npos);
+  searches[0].plain_elsewhere = true;
+  EXPECT_NE(published_sentence(searches[0]).find("another point"), std::string::npos);
+  searches[0].termination = Termination::no_descent;
+  searches[0].message = "no step lowers the cost";
+  EXPECT_NE(published_sentence(searches[0]).find("no minimum after 9 steps: no step lowers the cost"),
+            std::string::npos);
+}
+
+TEST(PaperSection, IsFolded) {
+  const report::Section section = paper_section(two_branches());
+  EXPECT_TRUE(section.folded);
+  EXPECT_EQ(section.tables.size(), 3U);
+}
+
+}  // namespace
+}  // namespace myoid
