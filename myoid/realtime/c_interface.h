@@ -9,8 +9,8 @@
  *
  * Units: N m, N, rad, rad/s, s. An envelope is 0..1, as activation.sto holds it. A run by the posterior makes its
  * forces from the drive behind the envelope (drive.sto), which needs the samples that follow: fed with drive.sto,
- * myoid_evaluate gives the forces of identified_forces.sto; a live program has envelopes, which are noisier, and so
- * are its forces.
+ * myoid_follow and myoid_evaluate give the forces of identified_forces.sto. A live program has envelopes, which are
+ * noisier, and so are its forces.
  */
 #include <stddef.h>
 
