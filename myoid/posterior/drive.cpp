@@ -59,29 +59,24 @@ Eigen::VectorXd moving_mean(const Eigen::VectorXd& x, Eigen::Index half) {
   return mean;
 }
 
-/// Returns the falling sequence nearest to x by weighted least squares; pools rising neighbors.
-Eigen::VectorXd falling(const Eigen::VectorXd& x, const Eigen::VectorXd& weight) {
-  struct Pool {
-    double weight, mean;
-    Eigen::Index count;
-  };
-  std::vector<Pool> pools;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    pools.push_back({weight[i], x[i], 1});
-    while (pools.size() > 1 && pools[pools.size() - 2].mean < pools.back().mean) {
-      const Pool last = pools.back();
+/// Returns the falling sequence nearest to x by least squares; pools rising neighbors.
+Eigen::VectorXd falling(const Eigen::VectorXd& x) {
+  std::vector<std::pair<double, Eigen::Index>> pools;  // mean and number
+  for (const double value : x) {
+    pools.push_back({value, 1});
+    while (pools.size() > 1 && pools[pools.size() - 2].first < pools.back().first) {
+      const auto [mean, number] = pools.back();
       pools.pop_back();
-      Pool& into = pools.back();
-      into.mean = (into.weight * into.mean + last.weight * last.mean) / (into.weight + last.weight);
-      into.weight += last.weight;
-      into.count += last.count;
+      auto& [of_both, count] = pools.back();
+      count += number;
+      of_both += (mean - of_both) * static_cast<double>(number) / static_cast<double>(count);
     }
   }
   Eigen::VectorXd result(x.size());
   Eigen::Index first = 0;
-  for (const Pool& pool : pools) {
-    result.segment(first, pool.count).setConstant(pool.mean);
-    first += pool.count;
+  for (const auto& [mean, count] : pools) {
+    result.segment(first, count).setConstant(mean);
+    first += count;
   }
   return result;
 }
@@ -104,8 +99,7 @@ EvenEnvelope even_envelope(const Envelope& recorded, double cutoff_hz) {
   return of;
 }
 
-/// Returns true for an envelope without noise, a short one, or one without a spectrum (a dead electrode, a muscle at
-/// one level).
+/// Returns true for an envelope without noise, a short one, or one at one level (a dead electrode).
 bool is_its_own_drive(const EvenEnvelope& of, double noise_sd) {
   return !(noise_sd > 0.0) || static_cast<double>(of.values.size()) < 2.0 * kMargin_s * of.rate_hz ||
          of.values.maxCoeff() - of.values.minCoeff() <= 1e-9 * of.values.cwiseAbs().maxCoeff();
@@ -127,9 +121,9 @@ Power power_of(const EvenEnvelope& of, double noise_sd, double rest, const Envel
   return power;
 }
 
-/// One-sided power densities of drive and noise in the recording.
+/// One-sided power density of the drive in the recording.
 struct Spectra {
-  Eigen::VectorXd drive, noise;
+  Eigen::VectorXd drive;
   double level = 1.0;  ///< Power of the noise over the expected.
 };
 Spectra spectra_of(
@@ -145,10 +139,8 @@ Spectra spectra_of(
   const double freedom =
       std::max(2.0, 2.0 * (2.0 * kBandHalf_hz) * static_cast<double>(recorded.values.size()) / recorded.rate_hz / 1.5);
   const double median = ratio[ratio.size() / 2] / std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
-  Spectra of{.level = std::min(kMostNoise, median)};
-  of.noise = of.level * power.noise;
-  of.drive = falling(power.envelope - of.noise, Eigen::VectorXd::Ones(power.noise.size())).cwiseMax(0.0);
-  return of;
+  const double level = std::min(kMostNoise, median);
+  return {falling(power.envelope - level * power.noise).cwiseMax(0.0), level};
 }
 
 /// Returns exp(i w) for each frequency, where w is the angle of one sample.
@@ -318,7 +310,7 @@ Drive drive_of_clean(
   Eigen::VectorXd left = Eigen::VectorXd::Ones(error.spectrum().size());
   if (is_its_own_drive(even, noise_sd)) return {clean, left};
   const Power power = power_of(even, noise_sd, rest, error, cutoff_hz);
-  const Eigen::ArrayXd drive = falling(power.envelope, Eigen::VectorXd::Ones(power.noise.size())).cwiseMax(0.0);
+  const Eigen::ArrayXd drive = falling(power.envelope).cwiseMax(0.0);
   const Eigen::ArrayXd wiener = drive / (drive + level * power.noise.array()).max(1e-300);
   for (Eigen::Index i = 0; i < left.size(); ++i) left[i] = level * wiener[std::min(i, wiener.size() - 1)];
   return {clean, std::move(left)};

@@ -12,8 +12,7 @@
 
 namespace myoid::identification {
 
-/// The columns of S away from the reference: they follow the unknowns, or they are read at the reference only, which
-/// saves their slopes.
+/// The columns of S follow the unknowns, or are read at the reference only, which saves their slopes.
 enum class Columns { follow, at_reference };
 
 /// Quantities that are taken to be exact: none, or the geometry and the sensors' scales.
