@@ -46,13 +46,13 @@ void add_samples(const StudyData& data, std::size_t muscle, PaperCase& result) {
   }
 }
 
-using Search = std::function<math::LeastSquaresResult(const math::LeastSquaresProblem&)>;
+using CriterionSearch = std::function<math::LeastSquaresResult(const math::LeastSquaresProblem&)>;
 
 /// Searches; an end where an unknown is beyond a thousand times its start is none, for the reason `away`.
-math::LeastSquaresResult searched(const PaperCase& samples,
-                                  const Eigen::VectorXd& start,
-                                  const Search& search,
-                                  std::string_view away) {
+math::LeastSquaresResult criterion_end(const PaperCase& samples,
+                                       const Eigen::VectorXd& start,
+                                       const CriterionSearch& search,
+                                       std::string_view away) {
   constexpr double kAway = 1e3;
   math::LeastSquaresResult found;
   try {
@@ -160,13 +160,13 @@ math::LeastSquaresResult search_as_published(const PaperCase& samples,
                            .gradient_tolerance = 1e-13,
                            .progress = progress});
   };
-  return searched(samples, start, full_steps, "plain Gauss-Newton steps diverged");
+  return criterion_end(samples, start, full_steps, "plain Gauss-Newton steps diverged");
 }
 
 MinimumSearch search_for_minimum(const PaperCase& samples, const Eigen::VectorXd& start, const Progress& progress) {
-  const auto found_by = [&](const Search& search) {
+  const auto found_by = [&](const CriterionSearch& search) {
     math::LeastSquaresResult found =
-        searched(samples, start, search, "the criterion falls as {} grows without limit: it has no minimum");
+        criterion_end(samples, start, search, "the criterion falls as {} grows without limit: it has no minimum");
     double idle = 0.0;  // cost of a muscle that makes no force
     for (const MuscleSample& s : samples.samples) idle += 0.5 * s.force_n * s.force_n;
     if (std::isfinite(found.cost) && found.cost > 0.999 * idle) {
