@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <ranges>
 
 #include <fmt/format.h>
 
