@@ -42,18 +42,14 @@ class StudyCheck {
     check_model();
     if (!study_.emg.has_mvc && study_.emg.kind != EmgKind::activation) {
       add(RemarkCode::no_maximal_contraction, Severity::warning, "study",
-          study_.identify.by_posterior()
-              ? "no trial is a maximal contraction (use = \"mvc\"): F_max will rest on the literature, because the "
-                "share of the maximum at the largest EMG is unknown"
-              : "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the study's largest "
-                "EMG");
+          "no trial is a maximal contraction (use = \"mvc\"): F_max will rest on the literature, because the share of "
+          "the maximum at the largest EMG is unknown");
     }
     if (!study_.model.file && !study_.subject.mass_kg)
       add(RemarkCode::no_body_mass, Severity::warning, "study",
           "[subject] mass_kg is not given: the built-in arm has the segments of a person of 73 kg");
-    if (!study_.identify.by_posterior() && study_.beliefs != identification::UnseenSpreads{})
-      add(RemarkCode::general, Severity::note, "study",
-          "[beliefs] are those of the posterior; least squares, which the study asks for, uses none of them");
+    for (const std::string& text : study_.identify.without_effect)
+      add(RemarkCode::general, Severity::warning, "study", text);
     check_todos();
     if (study_.truth) {
       attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });

@@ -86,10 +86,8 @@ void run_cohort(Context& context,
   if (steps.group && !context.json) say("\nreport: {}/report.html\n", folder.string());
 }
 
-/// Adds --estimator and --jobs to a command.
+/// Adds --jobs to a command.
 void add_cohort_options(CLI::App& command, commands::CohortOptions& options) {
-  command.add_option("--estimator", options.estimator, "least_squares or posterior, in place of the studies'")
-      ->transform(one_of<identification::EstimatorKind>());
   command
       .add_option("--jobs", options.jobs,
                   "Persons at a time (default: as many as threads; the files are the same for every number)")

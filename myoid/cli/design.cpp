@@ -119,8 +119,6 @@ void add_design(CLI::App& app, Context& context) {
   command.add_option("--targets", design.targets, "all, parameters, muscles or MUSCLE.PARAMETER (default all)")
       ->capture_default_str();
   command.add_option("--after", options->after, "Folder of a finished run: its result is known beforehand");
-  command.add_option("--estimator", options->estimator, "least_squares or posterior, in place of the study's")
-      ->transform(one_of<identification::EstimatorKind>());
   add_choice_options(command, *options);
   command.add_flag("--no-dynamometer", *no_dynamometer,
                    "No isokinetic movement (isometric torque can be measured still)");

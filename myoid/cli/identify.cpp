@@ -9,9 +9,8 @@
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
-#include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/score.h"
-#include "myoid/methods/noise_free.h"
+#include "myoid/methods/plain_fit.h"
 #include "myoid/report/report.h"
 #include "myoid/results/paper_tables.h"
 #include "myoid/results/voluntary_report.h"
@@ -42,9 +41,7 @@ void print_result(const identification::IdentificationResult& result, bool freed
   if (freed_speeds)
     say("max_shortening_speed is not stated as known: it is free, and its uncertainty widens the interval of "
         "concentric_curvature. Where it is known: max_shortening_speed_fixed = true.\n");
-  const std::string lag = identification::lag_remark(result);
-  if (!lag.empty()) say("{}\n", lag);
-  if (result.exact) say("The data are free of noise: fitted as they are, without priors.\n");
+  if (result.exact) say("The data are free of noise: fitted by plain least squares, without priors.\n");
   for (const std::string& text : result.diagnoses) say("signature: {}\n", text);
   for (const std::string& text : result.undetermined) say("left open by the data: {}\n", text);
   for (const identification::BranchTest& test : result.branch_tests) {
@@ -61,14 +58,13 @@ void print_samples(const identification::IdentificationResult& result,
   Eigen::Index all = 0;
   for (const TrialData& trial : data.trials) all += trial.time_s.size();
   all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size() : joint_count(data.trials.front()));
-  if (commands::by_posterior(o) && !result.exact) {
+  if (!result.exact) {
     say("{} rows of the low-passed {}, one per 0.22 s, stand for {} samples and count as {:.0f} independent ones.\n",
         result.samples_used, o.method, all, result.effective_samples);
     return;
   }
-  const double rate_hz = result.exact ? std::max(o.max_rate_hz, identification::kNoiseFreeRate_hz) : o.max_rate_hz;
-  say("{} of {} samples are fitted: at most {:g} a second, without the ends of trials{}.\n", result.samples_used, all,
-      rate_hz, result.exact ? "" : " (--max-rate)");
+  say("{} of {} samples are fitted: at most {:g} a second, without the ends of trials.\n", result.samples_used, all,
+      identification::kNoiseFreeRate_hz);
 }
 
 bool any_held_back(const StudyData& data) {
@@ -118,14 +114,14 @@ void print_folds(const std::vector<identification::Fold>& folds,
     say("\n{} was left out of the fit to be predicted: {}.\n", held_back ? "No other trial" : "Nothing", why_not);
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
-  say("\n{:<34}{:>12}{:>14}{:>10}{:>10}   {}\n", "left out of the fit, then predicted",
-      o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2", "smoothed",
+  say("\n{:<34}{:>12}{:>14}{:>10}   {}\n", "left out of the fit, then predicted",
+      o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2",
       "starting values, one gain: R2");
   for (const identification::Fold& fold : folds) {
-    say("{:<34}{:>12.4g}{:>14.1f}{:>10}{:>10}   {}\n",
+    say("{:<34}{:>12.4g}{:>14.1f}{:>10}   {}\n",
         several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial, fold.identified.rmse_nm(),
         100.0 * fold.identified.nrmse_range(), identification::r2_text(fold.identified.r2()),
-        identification::r2_text(fold.smooth.r2()), identification::r2_text(fold.literature.r2()));
+        identification::r2_text(fold.literature.r2()));
   }
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
     say("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);

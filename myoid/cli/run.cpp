@@ -160,8 +160,6 @@ void add_run(CLI::App& app, Context& context) {
   const auto out = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::RunOptions>();
   command.add_option("study", options->study, "study.toml")->required();
-  command.add_option("--estimator", options->estimator, "least_squares or posterior, in place of the study's")
-      ->transform(one_of<identification::EstimatorKind>());
   command.add_option("--method", options->methods, "torque, force, paper; several, in place of the study's")
       ->transform(one_of<identification::Method>());
   command.add_option("--out", *out, "Folder of the results")->required();

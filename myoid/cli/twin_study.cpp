@@ -42,8 +42,7 @@ void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_mu
 void print_predictions(const twin::TwinStudyResult& result) {
   if (result.predictions.empty()) return;
   say("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
-  say("{:<28} {:>5} {:>10} {:>7} {:>16} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2", "smoothed: NRMSE", "R2",
-      "below 1.5 Hz: NRMSE", "R2");
+  say("{:<28} {:>5} {:>10} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2", "below 1.5 Hz: NRMSE", "R2");
   std::vector<std::string> trials{"all"};
   for (const twin::TwinPrediction& p : result.predictions) {
     if (std::ranges::find(trials, p.trial) == trials.end()) trials.push_back(p.trial);
@@ -60,10 +59,9 @@ void print_predictions(const twin::TwinStudyResult& result) {
       count = r2.size();
       return std::pair{math::median(std::move(nrmse)), math::median(std::move(r2))};
     };
-    const auto law = medians(&twin::TwinPrediction::law), smooth = medians(&twin::TwinPrediction::smooth),
-               band = medians(&twin::TwinPrediction::band);
-    say("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>16.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial, count, law.first, law.second,
-        smooth.first, smooth.second, band.first, band.second);
+    const auto law = medians(&twin::TwinPrediction::law), band = medians(&twin::TwinPrediction::band);
+    say("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial, count, law.first, law.second, band.first,
+        band.second);
   }
 }
 
@@ -113,9 +111,6 @@ void add_twin_study(CLI::App& app, Context& context) {
   command.add_option("--method", options->study.methods, "torque, force, paper; several")
       ->transform(one_of<identification::Method>())
       ->default_str("torque");
-  command.add_option("--estimator", options->study.estimator, "Of method torque: least_squares or posterior")
-      ->transform(one_of<identification::EstimatorKind>())
-      ->default_str("posterior");
   command.add_flag("--each-muscle", *each_muscle, "A line for each muscle too");
   command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")->required();
   add_common_options(command, context, {.range = false});

@@ -40,7 +40,6 @@ std::optional<Outcome> parse_outcome(const std::string& text) {
     if (!kind) return std::nullopt;
     Outcome outcome{.kind = *kind,
                     .message = content.at("message").get<std::string>(),
-                    .settings = content.at("settings").get<std::string>(),
                     .build = content.at("build").get<std::string>(),
                     .inputs = {}};
     for (const ordered_json& input : content.at("inputs"))
@@ -69,7 +68,6 @@ std::optional<Outcome> recorded_outcome(const fs::path& folder) {
 void write_outcome(const Outcome& outcome, const fs::path& folder) {
   ordered_json record{{"outcome", std::string(choice_name(outcome.kind))},
                       {"message", outcome.message},
-                      {"settings", outcome.settings},
                       {"build", outcome.build},
                       {"inputs", ordered_json::array()}};
   for (const InputFile& input : outcome.inputs)
@@ -79,9 +77,9 @@ void write_outcome(const Outcome& outcome, const fs::path& folder) {
 
 void remove_outcome(const fs::path& folder) { recording::remove_result(folder / kFile); }
 
-bool is_current(const Outcome& outcome, const fs::path& study, std::string_view settings) {
+bool is_current(const Outcome& outcome, const fs::path& study) {
   const auto& inputs = outcome.inputs;
-  return outcome.kind != OutcomeKind::failed && outcome.settings == settings && outcome.build == build_identity() &&
+  return outcome.kind != OutcomeKind::failed && outcome.build == build_identity() &&
          std::ranges::any_of(inputs, [&](const InputFile& input) { return input.path == study.string(); }) &&
          std::ranges::all_of(inputs, is_unchanged);
 }

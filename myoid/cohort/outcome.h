@@ -25,7 +25,6 @@ constexpr ChoiceNames choice_names(OutcomeKind) { return kOutcomeNames; }
 struct Outcome {
   OutcomeKind kind = OutcomeKind::done;
   std::string message;   ///< Empty where all went well.
-  std::string settings;  ///< Options of the command that change the result.
   std::string build;     ///< `build_identity` of the program.
   std::vector<InputFile> inputs;
 };
@@ -39,7 +38,7 @@ void remove_outcome(const std::filesystem::path& folder);
 
 /// Returns true if the person need not be computed again: the same program with the same settings
 /// read the same bytes, the study among them, and computed results.
-[[nodiscard]] bool is_current(const Outcome& outcome, const std::filesystem::path& study, std::string_view settings);
+[[nodiscard]] bool is_current(const Outcome& outcome, const std::filesystem::path& study);
 
 /// The outcomes of some persons, in the order of the persons.
 struct PersonOutcome {

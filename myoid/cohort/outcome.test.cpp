@@ -19,7 +19,6 @@ TEST(Outcome, IsReadBackAndADamagedOneCountsAsNone) {
   EXPECT_FALSE(read_outcome(folder.path()));
   write_outcome({.kind = OutcomeKind::gate_failed,
                  .message = "said \"no\"",
-                 .settings = "estimator posterior",
                  .build = "b",
                  .inputs = {{"a.trc", "12"}}},
                 folder.path());
@@ -27,7 +26,6 @@ TEST(Outcome, IsReadBackAndADamagedOneCountsAsNone) {
   ASSERT_TRUE(outcome);
   EXPECT_EQ(outcome->kind, OutcomeKind::gate_failed);
   EXPECT_EQ(outcome->message, "said \"no\"");
-  EXPECT_EQ(outcome->settings, "estimator posterior");
   EXPECT_EQ(outcome->inputs[0].sha256, "12");
   for (const char* damaged : {"{", "{}", R"({"outcome": "great"})", "[1]"}) {
     recording::write_file(folder / "outcome.json", damaged);
@@ -35,26 +33,24 @@ TEST(Outcome, IsReadBackAndADamagedOneCountsAsNone) {
   }
 }
 
-TEST(Outcome, IsCurrentOnlyForTheSameProgramSettingsAndBytes) {
+TEST(Outcome, IsCurrentOnlyForTheSameProgramAndBytes) {
   const test::TemporaryFolder folder;
   const auto study = folder / "study.toml";
   recording::write_file(study, "abc");
   Outcome outcome{.kind = OutcomeKind::done,
                   .message = {},
-                  .settings = "s",
                   .build = build_identity(),
                   .inputs = {{study.string(), sha256("abc")}}};
-  EXPECT_TRUE(is_current(outcome, study, "s"));
-  EXPECT_FALSE(is_current(outcome, study, "")) << "other settings";
-  EXPECT_FALSE(is_current(outcome, folder / "other.toml", "s")) << "another study";
+  EXPECT_TRUE(is_current(outcome, study));
+  EXPECT_FALSE(is_current(outcome, folder / "other.toml")) << "another study";
   Outcome other = outcome;
   other.build = "another program";
-  EXPECT_FALSE(is_current(other, study, "s"));
+  EXPECT_FALSE(is_current(other, study));
   other = outcome;
   other.kind = OutcomeKind::failed;
-  EXPECT_FALSE(is_current(other, study, "s")) << "a failure is tried again";
+  EXPECT_FALSE(is_current(other, study)) << "a failure is tried again";
   recording::write_file(study, "abd");
-  EXPECT_FALSE(is_current(outcome, study, "s")) << "other bytes";
+  EXPECT_FALSE(is_current(outcome, study)) << "other bytes";
 }
 
 TEST(Outcome, FailuresNameThePersonsWithoutResults) {

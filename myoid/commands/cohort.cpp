@@ -36,10 +36,6 @@ constexpr const char* kCohortWord = "cohort";
 /// Names of the group's results, which a folder of other content must not have.
 const std::vector<std::string_view> kGroupFiles{"persons.csv", "cohort.csv", "report."};
 
-std::string settings_of(const CohortOptions& o) {
-  return o.estimator ? fmt::format("estimator {}", choice_name(*o.estimator)) : "";
-}
-
 void judge(const RunResult& result, Outcome& outcome) {
   std::vector<std::string> gates, trials;
   for (const report::Gate& gate : result.gates)
@@ -66,29 +62,27 @@ Outcome computed(const CohortOptions& o, const fs::path& study, const fs::path& 
                   .progress = {.report = {}, .stop = o.call.progress.stop},
                   .listener = {}};
   options.study = study.string();
-  options.estimator = o.estimator;
   options.store = folder / kStageFolder;
   RunResult result = run(options);
   result.study.times.clear();  // the same bytes however long the job takes
   write_run(result, folder);
   Outcome outcome{
-      .kind = OutcomeKind::done, .message = {}, .settings = {}, .build = {}, .inputs = result.provenance.inputs};
+      .kind = OutcomeKind::done, .message = {}, .build = {}, .inputs = result.provenance.inputs};
   judge(result, outcome);
   return outcome;
 }
 
 Outcome failure(const std::string& message) {
-  return {.kind = OutcomeKind::failed, .message = message, .settings = {}, .build = {}, .inputs = {}};
+  return {.kind = OutcomeKind::failed, .message = message, .build = {}, .inputs = {}};
 }
 
 /// Computes a person unless the results are current; records a failure.
 cohort::PersonOutcome job_in(const CohortOptions& o, const Person& person, const fs::path& folder) {
-  const std::string settings = settings_of(o);
   Outcome outcome;
   try {
     const fs::path study = cohort::person_study(person, folder);
     const std::optional<Outcome> earlier = cohort::recorded_outcome(folder);
-    if (earlier && cohort::is_current(*earlier, study, settings))
+    if (earlier && cohort::is_current(*earlier, study))
       return {.person = person.name, .outcome = earlier, .reused = true};
     cohort::remove_outcome(folder);
     recording::remove_earlier_results(folder);
@@ -102,7 +96,6 @@ cohort::PersonOutcome job_in(const CohortOptions& o, const Person& person, const
     recording::remove_results(folder, {"study.toml"});
     outcome = failure(fmt::format("internal error: {}", error.what()));
   }
-  outcome.settings = settings;
   outcome.build = build_identity();
   cohort::write_outcome(outcome, folder);
   return {.person = person.name, .outcome = std::move(outcome)};
@@ -196,7 +189,6 @@ std::string write_cohort_workflow(const CohortOptions& o, cohort::Engine engine,
   std::string options;
   if (!o.study.empty())
     options += "--study " + recording::shell_word(fs::absolute(o.study).lexically_normal().string());
-  if (o.estimator) options += fmt::format("{}--estimator {}", options.empty() ? "" : " ", choice_name(*o.estimator));
   const cohort::Workflow workflow = cohort::workflow(engine, manifest, folder, options);
   recording::RecordedFolder held(folder / "workflow", "workflow");
   for (const cohort::WorkflowFile& file : workflow.files)

@@ -21,7 +21,6 @@ struct CohortOptions {
   std::string manifest;                                    ///< Table of the persons, or folder of a BIDS data set.
   std::string study;                                       ///< BIDS: the study of every person; empty: code/study.toml.
   std::vector<std::string> persons;                        ///< Names or labels; empty: all persons.
-  std::optional<identification::EstimatorKind> estimator;  ///< In place of the studies'.
   bool overwrite = false;  ///< Also into folders with other content than a cohort's results.
   std::size_t jobs = 0;    ///< Persons computed at the same time; 0: as many as threads.
   /// Receives the end of each person at once; may be empty. Called by one thread at a time.

@@ -53,7 +53,6 @@ DesignResult design(const DesignOptions& o) {
   check_word("--criterion", o.criterion, {"D", "A"});
   Remarks remarks(o.call);
   Study study = study_of(o);
-  if (o.estimator) study.identify.estimator = *o.estimator;
   DesignStudyOptions choice = o.design;
   choice.choice.criterion =
       o.criterion == "A" ? identification::DesignCriterion::a_optimal : identification::DesignCriterion::d_optimal;

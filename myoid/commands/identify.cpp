@@ -10,10 +10,8 @@
 #include "myoid/identification/parameters.h"
 #include "myoid/identify_files/electrode_ties.h"
 #include "myoid/intervals/verdict_cap.h"
-#include "myoid/methods/basins.h"
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/force.h"
-#include "myoid/methods/noise_free.h"
 #include "myoid/methods/paper.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
@@ -37,7 +35,7 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
       o.free_more, [](const std::string& name) { return name == "joint_torque_offset" || name == "joint_stiffness"; });
   StudyData data = read_identify_data(files, table, [&](const std::string& text) { remarks.warn(text); });
   // First, so that rules of the user's own win.
-  if (by_posterior(o)) {
+  if (o.method != "paper") {
     const std::vector<identification::ParameterRule> nuisances = identification::nuisance_rules(data, true);
     data.rules.insert(data.rules.begin(), nuisances.begin(), nuisances.end());
   }
@@ -98,9 +96,7 @@ IdentificationResult fit_data(const IdentifyOptions& o,
   if (o.method == "paper") return identification::identify_paper(data, {.multistart = o.starts.value_or(1)});
   if (o.method == "force")
     return with_freed(identification::identify_force(data, force_options(table, options)), table, data);
-  IdentificationResult fit = fit_torque(table, options, data);
-  identification::look_around(data, options, fit);
-  return fit;
+  return fit_torque(table, options, data);
 }
 
 /// Predicts trials or blocks by the fit to the others. `data` are the data before the fit.
@@ -141,7 +137,7 @@ Provenance provenance_of(const IdentifyOptions& o) {
     provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
   };
   add(o.muscles.string());
-  if (o.beliefs && by_posterior(o)) add(o.beliefs->string());
+  if (o.beliefs && o.method != "paper") add(o.beliefs->string());
   for (const auto* list : {&o.files.activations, &o.files.lengths, &o.files.velocities, &o.files.forces,
                            &o.files.moment_arms, &o.files.torques, &o.files.motions}) {
     for (const std::string& path : *list) add(path);
@@ -179,7 +175,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   result.fit = fit_data(o, table, as_asked, result.data);
   if (o.method == "torque" && identification::exchanged_electrodes(as_read, EstimatorOptions{}.delay_prior_mean_s))
     identification::apply({{.reason = std::string(identification::kExchangedCap)}}, result.fit);
-  if (o.method == "torque" && !result.fit.exact && result.data.rules != as_read.rules && by_posterior(o) &&
+  if (o.method == "torque" && !result.fit.exact && result.data.rules != as_read.rules &&
       !identification::tells_nuisances(result.data, as_asked))
     remarks.note(
         "the trials hold few independent rows of torque for the unknowns of the muscles: exponents of the EMG, the "
@@ -189,18 +185,11 @@ IdentifyResult identify(const IdentifyOptions& o) {
     result.folds = held_out(o, as_read, beginning_at(result.fit, as_asked), table, result.why_no_folds);
   if (const std::string text = identification::generalises_badly(result.folds); !text.empty())
     result.fit.warnings.push_back(text);
-  if (o.compare_solvers) {
-    EstimatorOptions as_fitted = as_asked;
-    as_fitted.lag = result.fit.lag;
-    as_fitted.choose_lag = false;
+  if (o.compare_solvers && o.method == "paper")
     result.contests = identification::solver_contests(
-        result.data, o.method, as_fitted,
-        {.starts = o.starts.value_or(kStartsToCompare), .seed = o.call.seed, .progress = o.call.progress});
-  }
-  for (const auto* warnings : {&result.fit.interval_warnings, &result.fit.warnings})
-    for (const std::string& text : *warnings) remarks.warn(text);
+        result.data, {.starts = o.starts.value_or(kStartsToCompare), .seed = o.call.seed, .progress = o.call.progress});
+  for (const std::string& text : result.fit.warnings) remarks.warn(text);
   result.speed_may_be_free = !table.speed_may_be_free.empty();
-  if (o.method != "paper") result.told.max_rate_hz = o.max_rate_hz;
   result.told.left_out = o.folds;
   result.told.starting_values = table.assumed;
   result.provenance = provenance_of(o);

@@ -36,9 +36,6 @@ bool is_about_lags(const ParameterRule& rule) { return identification::is_lag(ru
 std::vector<std::string> beyond_the_paper(const IdentifyOptions& o, const MuscleTable& table) {
   std::vector<std::string> asked;
   if (o.delay_s) asked.emplace_back("--delay");
-  if (o.loss != "square") asked.emplace_back("--loss");
-  if (o.bootstrap > 0) asked.emplace_back("--bootstrap");
-  if (o.profile) asked.emplace_back("--profile");
   if (o.folds == "block") asked.emplace_back("--folds block");
   if (!o.lag.empty()) asked.push_back("--lag " + o.lag);
   for (const std::string& name : o.free_more) asked.push_back("--free " + name);
@@ -62,18 +59,10 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
 
 identification::EstimatorSettings settings_of(const IdentifyOptions& o) {
   identification::EstimatorSettings settings;
-  settings.priors = !o.no_priors;
-  settings.estimator = *choice_named<identification::EstimatorKind>(o.estimator);
   if (!o.lag.empty()) settings.lag = *choice_named<identification::LagChoice>(o.lag);
-  settings.max_rate_hz = o.max_rate_hz;
   settings.delay_s = o.delay_s;
-  settings.residual_cutoff_hz.reset();
-  if (o.residual_hz > 0.0) settings.residual_cutoff_hz = o.residual_hz;
-  settings.loss = *choice_named<identification::Loss>(o.loss);
   settings.posterior_draws = o.posterior_draws;
-  if (o.beliefs && by_posterior(o)) settings.unseen = read_beliefs(*o.beliefs);
-  settings.starts = o.starts.value_or(1);
-  settings.intervals = {.bootstrap = o.bootstrap, .profile = o.profile, .seed = o.call.seed};
+  if (o.beliefs && o.method != "paper") settings.unseen = read_beliefs(*o.beliefs);
   return settings;
 }
 
@@ -155,10 +144,9 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
       {.says =
            "How muscles follow their EMG (`force`, `torque`). `delay`: the activation is the envelope of `emg_delay` "
            "ago; `shared`: the mean delay is split into a pure delay and the lags of excitation and activation, which "
-           "damp fast changes; `automatic`: both, by their evidence ([how](../theory/posterior.md)).",
+           "damp fast changes; `automatic`: both, by their evidence ([how](../theory/identification.md)).",
        .otherwise = "`automatic` for `torque`, else `delay`",
        .words = kLags});
-  v.flag("no-priors", o.no_priors, {.says = "The data alone, plain least squares (`force`, `torque`)."});
   v.texts("free", o.free_more,
           {.says = "Further parameters to identify, of all muscles, channels or the joint, by comma: "
                    "`emg_shape,joint_inertia`, beside [those of every fit](#what-is-identified).",
@@ -172,46 +160,21 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
 void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
   static constexpr std::string_view kFolds[] = {"trial", "block", "none"};
   static constexpr std::string_view kScales[] = {"electrode", "muscle"};
-  v.number(
-      "residual-cutoff", o.residual_hz,
-      {.says =
-           "Both sides of the residual are low-passed here (`force`, `torque`): the noise of an EMG envelope reaches "
-           "to higher frequencies than the differences between muscles. 0: not at all, for activations that are known.",
-       .limits = within(0.0, 1000.0, "Hz")});
-  v.number("max-rate", o.max_rate_hz,
-           {.says = "Samples are thinned to at most this (`force`, `torque`), as by [`max_rate_hz`](study.md) of a "
-                    "study; data without noise to 200 Hz.",
-            .limits = within(5.0, 2000.0, "Hz")});
-  v.text(
-      "estimator", o.estimator,
-      {.says =
-           "Of methods `torque` and `force`: `posterior`, whose intervals also hold moment arms, tendons, the scale of "
-           "the torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); "
-           "`least_squares`, whose intervals hold given geometry and sensors only (always without priors).",
-       .words = choice_names(identification::EstimatorKind{})});
   v.path("beliefs", o.beliefs,
-         {.says = "Of estimator `posterior`: file with a table [`[beliefs]`](study.md#beliefs), such as a study.toml: "
+         {.says = "File with a table [`[beliefs]`](study.md#beliefs), such as a study.toml: "
                   "what is believed about errors that residuals hardly show.",
           .otherwise = "the [usual beliefs](../theory/priors.md)"});
   v.count("posterior-draws", o.posterior_draws,
-          {.says = "Of estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the intervals, in place of "
+          {.says = "So many draws by Hamiltonian Monte Carlo make the intervals, in place of "
                    "an approximation; 1000 take some ten times as long. 0: none.",
            .limits = within(0, 100000)});
-  v.text(
-      "loss", o.loss,
-      {.says = "Of `least_squares`: how much a large residual counts.", .words = choice_names(identification::Loss{})});
-  v.count("bootstrap", o.bootstrap,
-          {.says = "Of `least_squares`: bootstrap replicates, a second route to the intervals; 0: none.",
-           .limits = within(0, 100000)});
-  v.flag("profile", o.profile,
-         {.says = "Of `least_squares`: profile likelihood of every parameter, a third route to the intervals."});
   v.flag("compare-solvers", o.compare_solvers,
-         {.says = "Gauss–Newton, Levenberg–Marquardt, simplex and simulated annealing from the same starts: [which "
-                  "solver](#which-solver). Also writes `solvers.csv`."});
+         {.says = "Method `paper`: Gauss–Newton, Levenberg–Marquardt, simplex and simulated annealing from the same "
+                  "starts: [which solver](#which-solver). Also writes `solvers.csv`."});
   v.count("starts", o.starts,
-          {.says = "[Starts of the search](#starts-of-the-search): the given one and points about it.",
+          {.says = "Method `paper`: [starts of the search](#starts-of-the-search), the given one and points about it.",
            .limits = within(1, 1000),
-           .otherwise = "4 by the posterior, else 1; of `--compare-solvers` 3"});
+           .otherwise = "1; of `--compare-solvers` 3"});
   v.text("folds", o.folds,
          {.says = "The part that is left out of the fit and predicted (`force`, `torque`): a `trial`; a `block`, a "
                   "fifth of every trial of 3.3 s or more with half a second on either side; or `none`.",
@@ -251,19 +214,9 @@ void refuse_impossible(const IdentifyOptions& o, const MuscleTable& table) {
         "--lag automatic: method force fits each muscle alone, and all follow their EMG alike; give --lag delay or "
         "shared, or use --method torque");
   }
-  // Samples hold frequencies well below half of their rate.
-  if (o.method != "paper" && o.residual_hz >= 0.45 * o.max_rate_hz)
-    throw InvalidInput(
-        fmt::format("--residual-cutoff {0}: samples are thinned to {1} Hz, which holds less than {2:.3g} Hz; give "
-                    "--max-rate {3:.0f}, or --residual-cutoff 0 for no low-pass",
-                    o.residual_hz, o.max_rate_hz, 0.45 * o.max_rate_hz, std::ceil(o.residual_hz / 0.4)));
   if (o.files.motion_cutoff_hz && o.files.motions.empty())
     throw InvalidInput("--lowpass smooths the angles of --motion, which is not given");
   refuse_free_without_motion(o);
-}
-
-bool by_posterior(const IdentifyOptions& o) {
-  return o.method != "paper" && o.estimator == "posterior" && !o.no_priors;
 }
 
 std::vector<std::string> without_effect(const IdentifyOptions& o) {
@@ -272,19 +225,12 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
     if (given) found.push_back(fmt::format("{} has no effect: {}", option, why));
   };
   const bool paper = o.method == "paper", torque = o.method == "torque";
-  const bool posterior = by_posterior(o);
-  constexpr std::string_view kOfPosterior =
-      "it is of the estimator posterior, which methods torque and force have with priors";
-  tell(o.posterior_draws > 0 && !posterior, "--posterior-draws", kOfPosterior);
-  tell(o.beliefs.has_value() && !posterior, "--beliefs", kOfPosterior);
-  constexpr std::string_view kOfLeastSquares = "it is of the estimator least_squares (--estimator least_squares)";
-  tell(posterior && o.bootstrap > 0, "--bootstrap", kOfLeastSquares);
-  tell(posterior && o.profile, "--profile", kOfLeastSquares);
-  tell(posterior && o.loss != IdentifyOptions{}.loss, "--loss", kOfLeastSquares);
-  tell(paper && o.no_priors, "--no-priors", "the published method has no priors");
-  tell(paper && o.residual_hz != IdentifyOptions{}.residual_hz, "--residual-cutoff",
-       "the published method fits the forces as they are");
-  tell(paper && o.max_rate_hz != IdentifyOptions{}.max_rate_hz, "--max-rate", "the published method fits every sample");
+  constexpr std::string_view kNoBelief = "the published method rests on no belief";
+  tell(paper && o.posterior_draws > 0, "--posterior-draws", kNoBelief);
+  tell(paper && o.beliefs.has_value(), "--beliefs", kNoBelief);
+  constexpr std::string_view kOfPaper = "it is of method paper (--method paper)";
+  tell(!paper && o.compare_solvers, "--compare-solvers", kOfPaper);
+  tell(!paper && o.starts.has_value(), "--starts", kOfPaper);
   constexpr std::string_view kForces = "methods paper and force fit muscle forces (--forces)";
   tell(!torque && !o.files.torques.empty(), "--torques", kForces);
   tell(!torque && !o.files.moment_arms.empty(), "--moment-arms", kForces);
@@ -298,8 +244,7 @@ identification::EstimatorOptions estimator_options(const IdentifyOptions& o, con
   identification::EstimatorSettings settings = settings_of(o);
   if (!o.files.motions.empty() && !is_free(data, is_about_motion))
     remarks.warn(
-        "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be identified (--free, or "
-        "the estimator posterior)");
+        "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be identified (--free)");
   if (is_free(data, is_about_lags)) {
     if (!o.lag.empty()) {
       throw InvalidInput(
@@ -312,8 +257,7 @@ identification::EstimatorOptions estimator_options(const IdentifyOptions& o, con
         "the lags of equation (1) are to be identified: the activations given are taken for excitations that pass "
         "them, and the delay is the time that is left beside them");
   }
-  return identification::estimator_options(
-      settings, by_posterior(o) ? activation_source(data) : identification::ActivationSource(), o.call.progress);
+  return identification::estimator_options(settings, activation_source(data), o.call.progress);
 }
 
 }  // namespace myoid::commands

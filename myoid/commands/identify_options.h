@@ -23,18 +23,11 @@ struct IdentifyOptions {
   std::string method = "torque";
   std::optional<double> delay_s;
   std::string lag;  ///< Empty: the method's own.
-  bool no_priors = false;
   std::vector<std::string> free_more, hold;
-  double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
-  double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
-  std::string estimator = "posterior";
   std::optional<std::filesystem::path> beliefs;  ///< Table [beliefs] of a study file.
   int posterior_draws = 0;
-  std::string loss = "square";
-  int bootstrap = 0;
-  bool profile = false;
   bool compare_solvers = false;
-  std::optional<int> starts;  ///< Empty: one, and three for the comparison of solvers.
+  std::optional<int> starts;  ///< Method `paper`; empty: one, and three for the comparison of solvers.
   std::string folds = "trial";
   std::string scales = "electrode";
 };
@@ -43,19 +36,16 @@ struct IdentifyOptions {
 /// command line, the check of the options and the guide's table use this list.
 void visit(IdentifyOptions& options, SettingVisitor& v);
 
-/// Throws InvalidInput for numbers out of range and for unknown methods, losses, lags or kinds of folds.
+/// Throws InvalidInput for numbers out of range and for unknown methods, lags or kinds of folds.
 void check_values(const IdentifyOptions& options);
 
 /// Throws InvalidInput if the options ask for a result that the method or the files cannot give.
 void refuse_impossible(const IdentifyOptions& options, const MuscleTable& table);
 
-/// Returns true for a fit by the posterior.
-[[nodiscard]] bool by_posterior(const IdentifyOptions& options);
-
 /// Returns a sentence for each given option that has no effect.
 [[nodiscard]] std::vector<std::string> without_effect(const IdentifyOptions& options);
 
-/// Returns the estimator's options for data with these rules. Throws InvalidInput if two of the
+/// Returns the fit's options for data with these rules. Throws InvalidInput if two of the
 /// options state how muscles follow their EMG.
 [[nodiscard]] identification::EstimatorOptions estimator_options(const IdentifyOptions& options,
                                                                  const identification::StudyData& data,

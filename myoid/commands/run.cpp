@@ -58,7 +58,7 @@ RunResult run(const RunOptions& o) {
   Remarks remarks(o.call);
   RunResult result;
   Study study = read_filmed_study(o.study, o.video);
-  if (o.estimator) study.identify.estimator = *o.estimator;
+  for (const std::string& text : study.identify.without_effect) remarks.warn(text);
   if (!o.methods.empty()) study.identify.methods = o.methods;
   result.study = run_study(
       study, {.start_s = o.call.start_s, .end_s = o.call.end_s, .progress = o.call.progress, .store = o.store});

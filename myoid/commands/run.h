@@ -25,7 +25,6 @@ inline const std::vector<std::string_view> kRunFiles{"report.",     "run.json", 
 struct RunOptions {
   Call call;
   std::string study;                                       ///< study.toml
-  std::optional<identification::EstimatorKind> estimator;  ///< In place of the study's.
   std::vector<identification::Method> methods;             ///< In place of the study's; empty: the study's.
   VideoChoice video;                                       ///< In place of the study's films.
   std::optional<std::filesystem::path> store;              ///< Keeps stages between runs; empty: none.

@@ -11,7 +11,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/names.h"
-#include "myoid/intervals/identifiability.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/math/decompositions.h"
 #include "myoid/math/random.h"
 #include "myoid/math/statistics.h"
@@ -122,9 +122,7 @@ const ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier, cons
   return nullptr;
 }
 
-ParameterEstimate expected_estimate(const Unknown& f,
-                                    const Expectation& expectation,
-                                    const std::vector<identification::MuscleSetup>& muscles) {
+ParameterEstimate expected_estimate(const Unknown& f, const Expectation& expectation) {
   const auto& [mean, sd, prior_sd, model_error, found, ratio] = expectation;
   ParameterEstimate e;
   std::tie(e.muscle, e.parameter) = split_label(f.label);
@@ -134,7 +132,7 @@ ParameterEstimate expected_estimate(const Unknown& f,
   e.initial = e.estimate = f.to_value(mean);
   double below = math::normal_quantile(0.975) * sd, above = below;
   if (found != nullptr) {
-    // The run's own interval, which includes other routes, shrinks by the same ratio.
+    // The run's own interval shrinks by the same ratio.
     const bool logarithmic = f.field->logarithmic;
     const auto scaled = [&](double value) { return logarithmic ? std::log(std::max(value, 1e-300)) : value; };
     below = expectation.ratio * (scaled(found->estimate) - scaled(*found->ci_low));
@@ -146,13 +144,14 @@ ParameterEstimate expected_estimate(const Unknown& f,
   e.prior_mean = e.estimate;
   e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;
   e.shrinkage = 1.0 - sd * sd / (prior_sd * prior_sd);
-  identification::VerdictContext context{.model_error = model_error};
-  const auto own = std::ranges::find_if(muscles, [&](const auto& m) { return m.name == e.muscle; });
-  for (const identification::MuscleSetup& other : muscles) {
-    if (own != muscles.end() && other.name != own->name && other.emg_channel == own->emg_channel)
-      context.shares_electrode_with = other.name;
-  }
-  identification::judge(e, context);
+  identification::NumberFacts facts{.one_reading = true, .contraction = e.shrinkage, .model_error = model_error};
+  facts.value = facts.given = e.estimate;
+  facts.low = facts.low_given = *e.ci_low;
+  facts.high = facts.high_given = *e.ci_high;
+  facts.nuisance_gain = f.is(identification::Scope::channel, identification::kGain);
+  facts.is_delay = f.is(identification::Scope::channel, identification::kDelay);
+  if (identification::zero_by_nature(e.parameter)) facts.usual_size = math::normal_quantile(0.975) * *e.prior_sd;
+  identification::judge(e, facts);
   return e;
 }
 

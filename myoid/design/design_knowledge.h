@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "myoid/design/earlier_run.h"
-#include "myoid/identification/residual_model.h"
+#include "myoid/identification/parameters.h"
 #include "myoid/identification/study_data.h"
 
 namespace myoid {
@@ -49,9 +49,7 @@ struct Expectation {
   const identification::ParameterEstimate* found = nullptr;
   double ratio = 1.0;
 };
-[[nodiscard]] identification::ParameterEstimate expected_estimate(
-    const identification::Unknown& parameter,
-    const Expectation& expectation,
-    const std::vector<identification::MuscleSetup>& muscles);
+[[nodiscard]] identification::ParameterEstimate expected_estimate(const identification::Unknown& parameter,
+                                                                  const Expectation& expectation);
 
 }  // namespace myoid

@@ -14,8 +14,6 @@
 #include "myoid/design/design_fatigue.h"
 #include "myoid/design/design_knowledge.h"
 #include "myoid/design/posterior_information.h"
-#include "myoid/identification/residual_model.h"
-#include "myoid/intervals/identifiability.h"
 #include "myoid/math/random.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/fatigue.h"
@@ -27,7 +25,6 @@ namespace {
 
 using identification::EstimatorOptions;
 using identification::ParameterEstimate;
-using identification::ResidualModel;
 using identification::StudyData;
 using identification::TrialData;
 using identification::Unknown;
@@ -44,21 +41,6 @@ Noise noise_of(const DesignStudyOptions& options) {
   return {.torque_sd_nm = options.torque_sd_nm, .emg_cv = options.emg_cv};
 }
 
-/// Returns J' W J nu of one trial at the truth, with the estimator's weights and effective number of samples.
-Eigen::MatrixXd information_of(const StudyData& data,
-                               const EstimatorOptions& torque,
-                               const Eigen::VectorXd& z,
-                               const Noise& noise) {
-  const ResidualModel model(data, torque);
-  identification::Evaluation at;
-  model.evaluate(z, ResidualModel::Depth::noise, at);
-  const Eigen::ArrayXd power = at.channel_torque.colwise().squaredNorm().transpose();
-  const Eigen::VectorXd weight =
-      (noise.torque_sd_nm * noise.torque_sd_nm + noise.emg_cv * noise.emg_cv * power).inverse();
-  const double share = std::min(1.0, 2.0 * torque.residual_cutoff_hz.value() / model.rate_hz());
-  return share * at.gradient * weight.asDiagonal() * at.gradient.transpose();
-}
-
 /// Returns the study's muscles without trials; unstated v_max are free.
 StudyData muscles_of(const Study& study, const model::BodyModel& model) {
   StudyData data;
@@ -73,7 +55,6 @@ EstimatorOptions estimator_of(const Study& study, const StudyData& data, double 
   torque.muscles = study.identify.muscles;
   torque.delay_s = study.emg.delay_s;
   torque.max_rate_hz = 25.0;
-  if (study.identify.by_posterior()) torque.estimator = identification::EstimatorKind::posterior;
   torque.unseen = study.beliefs;
   for (const identification::MuscleSetup& m : data.muscles) torque.gain_prior_sd[m.emg_channel] = gain_sd;
   return torque;
@@ -111,7 +92,7 @@ MovementPerson person_of(const identification::ModelValues& values, std::size_t 
   return person;
 }
 
-/// Returns the estimator's parameters, from the first movement within the strength of a person with
+/// Returns the fit's parameters, from the first movement within the strength of a person with
 /// the starting values; empty if there is none.
 std::optional<identification::ParameterMap> parameters_of(const StudyData& muscles,
                                                           const EstimatorOptions& torque,
@@ -124,7 +105,7 @@ std::optional<identification::ParameterMap> parameters_of(const StudyData& muscl
     if (auto trial = perform(course, muscles.muscles, person_of(start, 0, seed))) {
       StudyData data = muscles;
       data.trials = {std::move(*trial)};
-      return ResidualModel(data, torque).parameters();
+      return identification::ParameterMap(data, torque);
     }
   }
   return std::nullopt;
@@ -196,7 +177,7 @@ std::vector<TrialData> session_of(const std::vector<MovementCourse>& courses,
   return session;
 }
 
-/// The information that the study's estimator takes from a movement, and the further quantities
+/// The information that the posterior takes from a movement, and the further quantities
 /// that it informs: the posterior's unseen quantities, which all movements of a person share.
 struct Teller {
   Information information;
@@ -208,13 +189,6 @@ Teller teller_of(const StudyData& muscles,
                  const std::vector<MovementCourse>& courses,
                  const identification::ModelValues& start,
                  const DesignStudyOptions& options) {
-  if (torque.estimator == identification::EstimatorKind::least_squares)
-    return {[&](const TrialData& trial, const Eigen::VectorXd& z) {
-              StudyData one = muscles;
-              one.trials = {trial};
-              return information_of(one, torque, z, noise_of(options));
-            },
-            {}};
   // Moment arms, tendons and scales are the same as in an earlier run, so a further recording does
   // not narrow their part of the intervals.
   const auto posterior = std::make_shared<const PosteriorInformation>(
@@ -246,8 +220,7 @@ struct Expected {
   const Knowledge& known;
   const std::vector<Eigen::Index>& targets;
   const Eigen::VectorXd& prior_sd;
-  double strength_sd = 0.0;  ///< UnseenSpreads::strength; 0: estimator least_squares.
-  const std::vector<identification::MuscleSetup>& muscles;
+  double strength_sd = 0.0;  ///< UnseenSpreads::strength.
   const std::optional<EarlierRun>& earlier;
 
   [[nodiscard]] std::vector<ParameterEstimate> with(const Eigen::VectorXd& sd) const {
@@ -261,8 +234,7 @@ struct Expected {
                              .prior_sd = f.prior.sd > 0.0 ? identification::prior_spread(f, strength_sd) : prior_sd[j],
                              .model_error = earlier ? earlier->model_error : 0.0,
                              .found = found_by(earlier, f),
-                             .ratio = ratio(j, sd)},
-                            muscles));
+                             .ratio = ratio(j, sd)}));
     }
     return estimates;
   }
@@ -281,8 +253,8 @@ struct Expected {
     return std::sqrt(stays + (1.0 - stays) * narrower * narrower);
   }
 
-  /// Returns the estimates before the recording. The earlier run judged its numbers by profiles and
-  /// left-out trials, so its verdicts stay.
+  /// Returns the estimates before the recording. The earlier run's verdicts know its
+  /// quality gates, so they stay.
   [[nodiscard]] std::vector<ParameterEstimate> beforehand() const {
     std::vector<ParameterEstimate> estimates = with(prior_sd);
     for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -298,7 +270,7 @@ struct Expected {
 }  // namespace
 
 double relative_half_width(const ParameterEstimate& estimate) {
-  const double half = identification::half_width(estimate);
+  const double half = std::max(*estimate.ci_high - estimate.estimate, estimate.estimate - *estimate.ci_low);
   if (estimate.parameter == "emg_delay") return 1e3 * half;
   const bool zero = identification::zero_by_nature(estimate.parameter) && estimate.prior_sd;
   return 100.0 * half / (zero ? math::normal_quantile(0.975) * *estimate.prior_sd : std::abs(estimate.estimate));
@@ -341,8 +313,7 @@ DesignStudyResult design_study(const Study& study, const model::BodyModel& model
   }
   const std::vector<Unknown>& free = parameters->free();
   Knowledge known = knowledge_of(free, options.earlier);
-  const bool by_posterior = torque.estimator == identification::EstimatorKind::posterior;
-  if (by_posterior && !options.earlier) join_strengths(free, torque.unseen.strength, known);
+  if (!options.earlier) join_strengths(free, torque.unseen.strength, known);
   const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, options.persons, options.seed);
 
   options.progress.tell(0.2, "information");
@@ -369,8 +340,7 @@ DesignStudyResult design_study(const Study& study, const model::BodyModel& model
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
   const Expected expected{
-      free,         known,          problem.targets, choice.prior_sd, by_posterior ? torque.unseen.strength : 0.0,
-      data.muscles, options.earlier};
+      free, known, problem.targets, choice.prior_sd, torque.unseen.strength, options.earlier};
   result.beforehand = expected.beforehand();
   std::vector<const Effort*> chosen;
   for (const identification::DesignStep& step : choice.steps) {

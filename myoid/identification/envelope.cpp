@@ -261,20 +261,6 @@ std::vector<Envelope::Value> Envelope::at(const Eigen::Ref<const Eigen::VectorXd
   return values;
 }
 
-double noise_gain(const Envelope& envelope, double from_s, double to_s, double rest, double spread) {
-  if (!(rest > 0.0)) return 1.0;
-  const double rest2 = rest * rest;
-  double noise = 0.0, signal = 0.0;
-  for (Eigen::Index i = 0; i < envelope.time_s().size(); ++i) {
-    const double t = envelope.time_s()[i];
-    if (t < from_s || t > to_s) continue;
-    const double u2 = std::pow(std::max(0.0, envelope.samples()[i]), 2);
-    signal += u2;
-    noise += std::pow(u2 + rest2, 2) / (u2 + 2.0 * spread * rest2);
-  }
-  return signal > 0.0 ? std::sqrt(noise / signal) : 1.0;
-}
-
 std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag) {
   if (lag == EmgLag::delay) return {};
   const ChannelValues c = lag == EmgLag::shared ? shared(channel) : channel;

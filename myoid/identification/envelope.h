@@ -53,12 +53,6 @@ class Envelope {
   double rate_hz_ = 0.0;       ///< Rate of an even clock; 0: uneven.
 };
 
-/// Returns the factor on the relative spread of rectified EMG, `spread`, in an envelope after
-/// subtraction of the electrode's noise as power, u^2 = m^2 - rest^2: du / u = (1 + (rest/u)^2) dm
-/// / m. The factor is a root mean square over the samples from `from_s` to `to_s`, weighted by u^2.
-/// A u below the level that chance makes counts as that level. The factor is 1 if `rest` is 0.
-[[nodiscard]] double noise_gain(const Envelope& envelope, double from_s, double to_s, double rest, double spread);
-
 /// Returns the time constants of the two lags that a channel's envelope passes (0: no lag); the
 /// activation's is the mean of rise and fall.
 [[nodiscard]] std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag);

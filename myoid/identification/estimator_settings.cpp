@@ -21,23 +21,15 @@ EstimatorOptions estimator_options(const EstimatorSettings& settings,
                                    const Progress& progress) {
   EstimatorOptions options;
   options.muscles = settings.muscles;
-  options.priors = settings.priors;
-  options.weights = settings.priors;
-  options.estimator = settings.priors ? settings.estimator : EstimatorKind::least_squares;
   options.unseen = settings.unseen;
   follow_emg(settings.lag, options);
   options.delay_s = settings.delay_s;
   options.delay_per_channel = settings.delay_per_channel;
-  options.max_rate_hz = settings.max_rate_hz;
-  options.residual_cutoff_hz = settings.residual_cutoff_hz;
   options.angle_sd_rad = settings.angle_sd_rad;
   options.angle_rate_sd_radps = settings.angle_rate_sd_radps;
-  options.loss = settings.loss;
   options.eccentric = settings.eccentric;
   options.normalised = settings.normalised;
-  options.multistart = settings.starts;
   options.posterior_draws = settings.posterior_draws;
-  options.intervals = settings.intervals;
   options.from_mvc = source.from_mvc;
   options.envelope_cutoff_hz = source.envelope_cutoff_hz;
   for (const ChannelSource& c : source.channels) {

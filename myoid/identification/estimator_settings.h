@@ -13,8 +13,7 @@ namespace myoid::identification {
 
 /// A person's choice of how muscles follow their EMG.
 enum class LagChoice {
-  automatic,   ///< Method `torque`: the lag that fits best (least squares), or both lags by their
-               ///< evidence (posterior); other methods: `delay`.
+  automatic,   ///< Method `torque`: both lags by their evidence; other methods: `delay`.
   delay,       ///< EmgLag::delay
   shared,      ///< EmgLag::shared
   equation_1,  ///< EmgLag::equation_1: the delay is the time beside the lags.
@@ -22,26 +21,19 @@ enum class LagChoice {
 inline constexpr std::string_view kLagNames[] = {"automatic", "delay", "shared", "equation_1"};
 constexpr ChoiceNames choice_names(LagChoice) { return kLagNames; }
 
-/// A person's choices about an estimator, in a study file or on a command line. The defaults are
+/// A person's choices about a fit, in a study file or on a command line. The defaults are
 /// those of `EstimatorOptions`.
 struct EstimatorSettings {
-  std::vector<std::string> muscles;                    ///< Muscles to identify; empty: all.
-  bool priors = true;                                  ///< False: plain least squares from the data alone.
-  EstimatorKind estimator = EstimatorKind::posterior;  ///< Without `priors` always least squares.
+  std::vector<std::string> muscles;  ///< Muscles to identify; empty: all.
   UnseenSpreads unseen;
   LagChoice lag = LagChoice::automatic;
   std::optional<double> delay_s;  ///< Fixed delay; empty: estimated.
   bool delay_per_channel = false;
-  double max_rate_hz = EstimatorOptions{}.max_rate_hz;
-  std::optional<double> residual_cutoff_hz = EstimatorOptions{}.residual_cutoff_hz;
   double angle_sd_rad = 0.0;         ///< Error of the joint angle.
   double angle_rate_sd_radps = 0.0;  ///< Error of the joint angle's rate.
-  Loss loss = Loss::square;
   Eccentric eccentric = Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
-  int starts = 1;           ///< Starts of the search (EstimatorOptions::multistart).
   int posterior_draws = 0;  ///< EstimatorOptions::posterior_draws
-  IntervalOptions intervals;
 };
 
 /// The facts about one EMG channel that determine its noise and its gain.
@@ -54,7 +46,7 @@ struct ChannelSource {
   double rest = 0.0;          ///< EstimatorOptions::emg_rest
 };
 
-/// The facts about the activations that an estimator receives. The defaults describe activations of unknown origin.
+/// The facts about the activations that a fit receives. The defaults describe activations of unknown origin.
 struct ActivationSource {
   bool from_mvc = true;  ///< Activation 1 is a maximal effort.
   double envelope_cutoff_hz = EstimatorOptions{}.envelope_cutoff_hz;

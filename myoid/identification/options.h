@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -51,15 +50,6 @@ enum class Eccentric {
 inline constexpr std::string_view kEccentricNames[] = {"automatic", "product", "slope_ratio", "smooth"};
 constexpr ChoiceNames choice_names(Eccentric) { return kEccentricNames; }
 
-/// The loss function of the residuals.
-enum class Loss {
-  square,
-  huber,   ///< Linear beyond 1.345 standard deviations.
-  cauchy,  ///< Logarithmic, scale 2.385.
-};
-inline constexpr std::string_view kLossNames[] = {"square", "huber", "cauchy"};
-constexpr ChoiceNames choice_names(Loss) { return kLossNames; }
-
 /// The part of the data that each fit of a cross-validation leaves out.
 enum class FoldKind {
   trial,      ///< One trial.
@@ -80,23 +70,6 @@ enum class Method {
 inline constexpr std::string_view kMethodNames[] = {"paper", "force", "torque"};
 constexpr ChoiceNames choice_names(Method) { return kMethodNames; }
 
-/// The rule by which method `torque` computes numbers, intervals and verdicts.
-enum class EstimatorKind {
-  least_squares,  ///< Weighted and corrected for the errors of the EMG (estimator.h).
-  posterior,      ///< One posterior (posterior/posterior.h).
-};
-inline constexpr std::string_view kEstimatorNames[] = {"least_squares", "posterior"};
-constexpr ChoiceNames choice_names(EstimatorKind) { return kEstimatorNames; }
-
-/// Intervals in addition to those of the sandwich estimator.
-struct IntervalOptions {
-  int bootstrap = 0;  ///< Replicates; 0: none.
-  /// Block length [s]; 0: whole trials if there are at least 8, else 2 s.
-  double bootstrap_block_s = 0.0;
-  bool profile = false;  ///< Profile likelihood of every parameter.
-  std::uint64_t seed = 1;
-};
-
 class DriveMemory;  // posterior/drive.h
 
 /// Another fit's answer, next to which a search begins: the folds of a cross-validation begin at the whole fit's.
@@ -111,7 +84,7 @@ struct FitStart {
 struct EstimatorOptions {
   /// Muscles to identify; the others keep their start. Empty: all.
   std::vector<std::string> muscles;
-  bool priors = true;
+  bool priors = true;             ///< False: bounds alone (plain_fit.h). The posterior needs priors.
   std::optional<double> delay_s;  ///< Fixed delay; empty: estimated, with a prior.
   double delay_prior_mean_s = beliefs::kEmgDelay.value;
   double delay_prior_sd_s = beliefs::kEmgDelay.sd;
@@ -121,8 +94,7 @@ struct EstimatorOptions {
   std::map<std::string, double> gain_prior_sd;
   std::map<std::string, double> gain_prior_mean;  ///< In place of 1.
   /// Statistical bandwidth [Hz] of the raw EMG by channel (signals::statistical_bandwidth_hz). It determines an
-  /// envelope's noise: relative sd 0.7555 / sqrt(2 B T), T = 0.4815 / cut-off (two passes, -3 dB). If known for every
-  /// channel, c_a is estimated about this value (ln 0.3), else from the residuals alone.
+  /// envelope's noise (`envelope_spread`).
   std::map<std::string, double> emg_bandwidth_hz;
   /// Resting level of each channel over the level that counts as 1: the electrode's noise, whose
   /// power is subtracted from the envelope's. Its spread remains and enlarges the relative spread
@@ -132,40 +104,25 @@ struct EstimatorOptions {
   /// Highest rate after thinning. EMG and motion reach 6 Hz, but a power of the envelope reaches
   /// further, and at 12 Hz folds to frequencies that tell lags and delay apart.
   double max_rate_hz = 20.0;
-  /// Low-pass of both sides of the residual (two passes, -3 dB). T^ is linear in the envelope, whose noise reaches
-  /// higher frequencies than the differences between muscles do. The frequencies above the cut-off would only pull
-  /// F_max towards zero (errors in the regressors). Empty: no low-pass.
+  /// Low-pass L of both sides of the residual (two passes, -3 dB). The noise of an envelope reaches higher frequencies
+  /// than the differences between muscles do. Empty: no low-pass.
   std::optional<double> residual_cutoff_hz = 1.5;
-  bool weights = true;      ///< Heteroscedastic weights and effective number of samples; false: plain
-                            ///< least squares.
-  bool model_error = true;  ///< Widens the intervals by the systematic error in the residuals
-                            ///< (discrepancy.h); needs `weights`.
-  /// Treats the EMG's errors as errors of a regressor (estimator.h); needs `weights`.
-  bool correct_attenuation = true;
   double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample.
   double angle_rate_sd_radps = 0.0;  ///< Error of the joint angle's rate.
-  Loss loss = Loss::square;
   Eccentric eccentric = Eccentric::automatic;
   bool normalised = false;     ///< l_sh and v_max keep their ratio to l0.
   EmgLag lag = EmgLag::delay;  ///< The law by which a muscle follows its EMG.
-  /// Method `torque`: takes `delay` or `shared`, whichever fits the data better.
+  /// Method `torque`: `delay` and `shared`, each by its evidence.
   bool choose_lag = false;
   bool measured_is_force = false;  ///< The fit is to the force of one muscle, not to a torque.
-  bool gauss_newton = false;       ///< Plain full steps instead of Levenberg-Marquardt.
-  int passes = 4;                  ///< Rounds of estimating the noise and weighting by it.
-  int starts = 3;                  ///< The given start and moved ones; the best result is kept.
-  int multistart = 0;              ///< Above 1: in place of `starts`, the given start and Sobol points
-                                   ///< (start_box.h); fills IdentificationResult::basins.
   bool from_mvc = true;            ///< Activation 1 is a maximal effort; verdicts use this.
   bool predictions = true;         ///< Fills IdentificationResult::trials.
-  IntervalOptions intervals;
   Progress progress;
-  EstimatorKind estimator = EstimatorKind::least_squares;
-  UnseenSpreads unseen;                      ///< Used by the estimator `posterior`.
+  UnseenSpreads unseen;
   int posterior_draws = 0;                   ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
   bool marginals = true;                     ///< The approximation includes the skewness of each unknown.
   std::shared_ptr<DriveMemory> drives;       ///< Drives that fits of one recording share.
-  std::shared_ptr<const FitStart> begin_at;  ///< Estimator `posterior`; null: its own starts and both laws of lag.
+  std::shared_ptr<const FitStart> begin_at;  ///< Null: the posterior's own starts and both laws of lag.
 
   /// Returns the held delay, else the expected one.
   [[nodiscard]] double usual_delay_s() const { return delay_s.value_or(delay_prior_mean_s); }
@@ -174,5 +131,10 @@ struct EstimatorOptions {
   /// Returns `emg_rest` of the channel; 0 where not known, or where what was subtracted from the envelope is not known.
   [[nodiscard]] double rest_level(const std::string& channel) const;
 };
+
+/// Returns an envelope's relative spread without electrode noise: that of rectified Gaussian noise
+/// with the EMG's bandwidth, averaged over the filters' time (0.4815 / cut-off of two passes of
+/// second order). An unknown bandwidth counts as 150 Hz.
+[[nodiscard]] double envelope_spread(const EstimatorOptions& options, const std::string& channel);
 
 }  // namespace myoid::identification

@@ -209,4 +209,22 @@ void apply_rules(const std::vector<ParameterRule>& rules, const OwnerNames& name
   }
 }
 
+double held_slack_sd_m(const StudyData& data, std::size_t muscle) {
+  constexpr const char* kSlackName = "tendon_slack_length";
+  const MuscleSetup& setup = data.muscles[muscle];
+  double sd_m = 0.0;
+  if (const auto known = setup.priors.find(kSlackName); known != setup.priors.end())
+    sd_m = known->second.sd * (known->second.logarithmic ? setup.start.tendon_slack_length_m : 1.0);
+  if (contains(setup.fixed, kSlackName)) sd_m = 0.0;
+  for (const ParameterRule& rule : data.rules) {
+    if (rule.parameter != kSlackName || !covers(rule.owners, setup.name)) continue;
+    if (rule.prior_sd) {
+      sd_m = *rule.prior_sd;
+    } else if (rule.value || !rule.free.value_or(true)) {
+      sd_m = 0.0;
+    }
+  }
+  return sd_m;
+}
+
 }  // namespace myoid::identification

@@ -149,8 +149,7 @@ Eigen::MatrixXd motion_of(const TrialData& trial) {
 
 std::vector<std::vector<Eigen::Index>> fitted_stretches(const TrialData& trial,
                                                         double max_rate_hz,
-                                                        double longest_delay_s,
-                                                        int* dropped) {
+                                                        double longest_delay_s) {
   const Eigen::Index all = trial.time_s.size();
   if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all)
     throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
@@ -169,7 +168,6 @@ std::vector<std::vector<Eigen::Index>> fitted_stretches(const TrialData& trial,
       found.back().push_back(i);
       continue;
     }
-    if (dropped != nullptr) ++*dropped;
     if (!found.back().empty()) found.emplace_back();
   }
   return found;

@@ -129,12 +129,10 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 
 /// Returns every stride-th sample that may be fitted, at most `max_rate_hz`, in stretches without a gap. Leaves out
 /// what the study excludes and the ends of a trial, where splines and filters are unreliable and the delay reaches
-/// beyond the recorded EMG; `dropped`, if given, counts these. Throws InvalidInput if the trial has no torque or no
-/// moment arms.
+/// beyond the recorded EMG. Throws InvalidInput if the trial has no torque or no moment arms.
 [[nodiscard]] std::vector<std::vector<Eigen::Index>> fitted_stretches(const TrialData& trial,
                                                                       double max_rate_hz,
-                                                                      double longest_delay_s,
-                                                                      int* dropped = nullptr);
+                                                                      double longest_delay_s);
 
 /// Throws InvalidInput, with trial and muscle, unless sizes agree, values are finite and every EMG channel exists.
 void validate(const StudyData& data);

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
-#include "myoid/identification/estimator.h"
-#include "myoid/intervals/reported_interval.h"
+#include <Eigen/Core>
+
+#include "myoid/identification/parameters.h"
+#include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
 
 namespace myoid::identification {
@@ -18,13 +21,8 @@ namespace myoid::identification {
 /// Returns the row of V_sh V_shl of a muscle whose slope ratio is the unknown: names and start, no estimate.
 [[nodiscard]] ParameterEstimate product_row_of(const MuscleSetup& muscle);
 
-/// Returns the rows of parameters.csv of one solution with their intervals and verdicts: one row
-/// for each unknown and owner, and one for each product V_sh V_shl that follows from a slope ratio.
-/// `fit` holds the covariance, the values and the distances from the priors of the same solution.
-[[nodiscard]] std::vector<ParameterEstimate> estimate_rows(const Estimator& estimator,
-                                                           const Estimator::Solution& solution,
-                                                           const StudyData& data,
-                                                           const Intervals& intervals,
-                                                           const IdentificationResult& fit);
+/// Gives the last `count` estimates, which are one unknown of several owners, the worst of their
+/// verdicts with its reason. A number of one owner stays unchanged.
+void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count);
 
 }  // namespace myoid::identification

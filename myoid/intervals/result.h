@@ -44,13 +44,8 @@ inline constexpr std::string_view kVerdictNames[] = {"identified",      "reprodu
 constexpr ChoiceNames choice_names(Verdict) { return kVerdictNames; }
 [[nodiscard]] constexpr std::string_view name(Verdict verdict) { return choice_name(verdict); }
 
-/// The 95 % interval by one route.
-struct RouteInterval {
-  std::string route;                ///< sandwich | cluster | jackknife | bootstrap | profile
-  std::optional<double> low, high;  ///< Empty: open on that side.
-  /// Chance spread of the width's logarithm, from the route's own sample; 0: none.
-  double spread = 0.0;
-};
+/// Returns the rank of a verdict; a greater rank is worse.
+[[nodiscard]] constexpr int severity(Verdict verdict) { return static_cast<int>(verdict); }
 
 /// One row of parameters.csv.
 struct ParameterEstimate {
@@ -63,12 +58,10 @@ struct ParameterEstimate {
   double initial = 0.0;
   double estimate = 0.0;
   std::optional<double> std_error;
-  std::optional<double> ci_low, ci_high;  ///< 95 %, by the first of `routes`.
+  std::optional<double> ci_low, ci_high;  ///< 95 %.
   /// The second reading: value and 95 % interval if moment arms, tendons and the sensors' scales were exact. Sessions
-  /// of one person are compared by it. Empty by least squares, which knows no reading of the person.
+  /// of one person are compared by it. Empty for method `paper`.
   std::optional<double> given_estimate, given_ci_low, given_ci_high;
-  std::vector<RouteInterval> routes;  ///< At least two, where they were asked for.
-  bool routes_disagree = false;       ///< One interval is more than 1.5 times as wide as another.
   std::optional<double> prior_mean, prior_sd;
   std::optional<double> prior_distance;         ///< Distance of the estimate from the prior's mean, in
                                                 ///< prior spreads (in the prior's scale).
@@ -92,8 +85,6 @@ struct TrialFit {
   Eigen::VectorXd torque_fit_nm;
   /// Standard deviation of a measured torque about the prediction, from parameters and noise. Empty: unknown.
   Eigen::VectorXd torque_sd_nm;
-  /// Cut-off at which the prediction's noise does least harm (smooth_prediction.h).
-  double smooth_hz = 0.0;
   Eigen::MatrixXd literature_force_n;  ///< n x m
   Eigen::MatrixXd force_fit_n;         ///< n x m
   Eigen::MatrixXd force_sd_n;          ///< n x m: from the parameters. Empty: unknown.
@@ -185,13 +176,9 @@ struct IdentificationResult {
   std::vector<muscle::HillParameters<double>> muscles;
   ModelValues values;          ///< All numbers of the model with the estimates (methods force, torque).
   EmgLag lag = EmgLag::delay;  ///< The law by which the muscles follow their EMG.
-  /// Chi-square of the lag `delay` minus that of `shared`, if the fit chose the lag by it. A
-  /// positive value favors `shared`.
-  std::optional<double> shared_lag_gain;
   double delay_s = 0.0;      ///< Delay of the first channel.
   Eigen::VectorXd solution;  ///< In the solver's scale (method torque).
-  /// Covariance of the free parameters in the solver's scale (logarithms where logarithmic), for given slack lengths of
-  /// the tendons. Standard errors and intervals include the slack lengths' uncertainty (`held_tendon_shift`).
+  /// Covariance of the free parameters in the solver's scale (logarithms where logarithmic).
   Eigen::MatrixXd covariance;
   std::vector<std::string> free_parameters;  ///< Names of the rows of `covariance`.
   /// Draws of the values of `free_parameters` (SI) from the posterior, one column each, and their
@@ -202,19 +189,14 @@ struct IdentificationResult {
   std::vector<VoluntaryCurve> voluntary;
   /// Hyperparameters of the errors (posterior/noise_model.h) of the posterior; else empty.
   Eigen::VectorXd noise;
-  /// Sets of numbers that the data hardly separate, as sentences.
-  std::vector<std::string> collinear;
-  std::vector<std::string> undetermined;       ///< Combinations that the data leave open, as sentences.
+  std::vector<std::string> undetermined;       ///< Of exact data: combinations that they leave open, as sums.
   std::vector<PriorDistance> prior_distances;  ///< One for each muscle with priors.
   std::vector<std::string> diagnoses;          ///< Errors whose signature the values carry.
   std::vector<std::string> warnings;           ///< About the fit as a whole.
-  std::vector<std::string> interval_warnings;  ///< About how the intervals of numbers were found.
   std::vector<BranchTest> branch_tests;        ///< Method paper.
   std::vector<PublishedSearch> published;      ///< Method paper.
   std::vector<BasinTable> basins;              ///< One for each fit, if several starts were asked for.
-  int bootstrap_replicates = 0;                ///< Number of converged replicates.
-  int bootstrap_failed = 0;
-  bool exact = false;  ///< The data are free of noise and are fitted without priors and weights.
+  bool exact = false;  ///< The data are free of noise, and the numbers are those of plain_fit.h.
   int samples_used = 0;
   int samples_dropped = 0;
   double effective_samples = 0.0;
@@ -226,7 +208,6 @@ struct IdentificationResult {
   /// 1 - SSE/SST of the fitted samples (both sides below the residual's cut-off), about the mean
   /// over all trials; the least of several joints or muscles.
   double r2 = 1.0;
-  double condition = 0.0;
   int iterations = 0;
   double seconds = 0.0;
   std::vector<TrialFit> trials;

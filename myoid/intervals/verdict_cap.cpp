@@ -29,14 +29,13 @@ bool is_of(const VerdictCap& cap, const std::string& parameter) {
 
 void apply(const std::vector<VerdictCap>& caps, IdentificationResult& result) {
   for (ParameterEstimate& e : result.estimates) {
-    if (e.verdict != Verdict::identified && e.verdict != Verdict::reproducible) continue;
     const std::vector<std::string> owners = owners_of(e, result);
     const auto cap = std::ranges::find_if(caps, [&](const VerdictCap& c) {
-      return names(c.methods, result.method) && is_of(c, e.parameter) &&
+      return severity(e.verdict) < severity(c.at_most) && names(c.methods, result.method) && is_of(c, e.parameter) &&
              std::ranges::any_of(owners, [&](const std::string& owner) { return names(c.owners, owner); });
     });
     if (cap == caps.end()) continue;
-    e.verdict = Verdict::weak;
+    e.verdict = cap->at_most;
     e.reason = cap->reason;
   }
 }

@@ -27,24 +27,16 @@ std::string verdict_rules_markdown() {
                                          ms(r.delay_weak_s), degrees(r.angle_weak_rad)));
   row("1 − posterior/prior variance, of `prior_dominated`", fmt::format("below {:g}", r.least_shrinkage));
   row("the same, of `weak` at best", fmt::format("below {:g}", r.half_shrinkage));
-  row("the recording does not narrow the prior", fmt::format("below {:g}", r.any_shrinkage));
   row("distance from the prior's mean, of `weak` at best", fmt::format("above {:g} spreads", r.prior_conflict));
-  row("distance at which a value that is not narrowed is called the literature's",
-      fmt::format("at most {:g} spread", r.prior_stays));
   row("systematic error of the model, of `weak` at best", fmt::format("above {}", percent(r.model_error)));
   row("torque of moving joints that their angle, rate and acceleration explain, of `weak` at best",
       fmt::format("above {}", percent(r.motion_alone)));
-  row("R² of the fit, of `weak` at best", fmt::format("below {:g}", r.least_r2));
-  row("R² of the fit, of neither `identified` nor `weak`", fmt::format("below {:g}", r.mean_r2));
+  row("R² of the fit, of `not_identifiable`", fmt::format("below {:g}", r.least_r2));
   row("l_mˢʰ over l_m⁰ that a muscle can have",
       fmt::format("{:g} to {:g}", r.relative_width.lower, r.relative_width.upper));
   row("span of the active lengths that tells l_m⁰ and l_mˢʰ",
       fmt::format("{} of l_m⁰ or more", percent(r.least_length_span)));
-  row("V_ml whose interval reaches lower says nothing of P", fmt::format("{:g}", r.flat_plateau));
-  row("activation of an active muscle", fmt::format("above {}", percent(r.active)));
-  row("speed of a muscle that shortens or lengthens",
-      fmt::format("above {:g} v_max, for {:g} s", r.moving_share, r.least_s));
-  row("share of the variance that makes an uncertainty the tendon's", fmt::format("above {:g}", r.mostly_tendon));
+  row("activation of an active muscle", fmt::format("above {}, for {:g} s", percent(r.active), r.least_s));
   row("distance of the posterior's interval from a bound that counts as none",
       fmt::format("below {} of the possible range", percent(r.on_bound)));
   row("a delay on its bound that counts as none", fmt::format("at most {:g} µs", 1e6 * r.no_delay_s));

@@ -25,26 +25,17 @@ struct VerdictRules {
   double motion_alone = 0.98;
   /// Distance from the prior's mean, in its spreads, above which at most `weak`.
   double prior_conflict = 3.0;
-  /// Within this distance a value that is not narrowed is the literature's.
-  double prior_stays = 1.0;
   /// Share of the optimal fiber length. If a muscle's active lengths span less, F_max f_l(l) is one
   /// number, and the data do not determine l0 and l_sh.
   double least_length_span = 0.05;
-  double flat_plateau = 1.02;                              ///< A V_ml whose interval reaches below leaves P open.
   muscle::Range relative_width = muscle::kRelativeWidths;  ///< l_sh over l0 of real muscles.
   [[nodiscard]] bool possible(double width) const {
     return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
   }
   double least_r2 = 0.50;        ///< A fit that explains less of the torque identifies nothing.
-  double mean_r2 = 0.0;          ///< A fit that explains less errs more than the mean of the torque: it tells nothing.
   double on_bound = 0.001;       ///< Share of the possible range: an interval that ends nearer to a bound is cut off.
   double no_delay_s = 1e-6;      ///< Limit up to which a delay on its bound counts as 0.
-  double any_shrinkage = 0.005;  ///< Below, the recording does not narrow the prior at all.
-  /// Share of the variance above which the tendon slack length dominates.
-  double mostly_tendon = 0.5;
-  // A muscle is active above activation `active`, moves above the share `moving_share` of v_max,
-  // and has done so only after `least_s`.
-  double active = 0.02, moving_share = 0.01, least_s = 0.1;
+  double active = 0.02, least_s = 0.1;  ///< A muscle acts above this activation, and has done so only after this time.
 };
 
 inline constexpr VerdictRules kVerdictRules;

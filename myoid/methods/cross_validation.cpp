@@ -218,12 +218,11 @@ Fold score_joint(const std::string& name,
   fold.trial = name;
   fold.gain = from.gain;
   std::vector<Eigen::VectorXd> time, deviation;
-  Curves identified, smooth, band, literature, regression;
+  Curves identified, band, literature, regression;
   for (const TrialData& t : held) {
     const std::vector<Eigen::Index> rows = included_rows(t);
     const TrialFit found = by.predictions.of(t);
     const Eigen::VectorXd& torque = found.torque_fit_nm;
-    if (time.empty()) fold.smooth_hz = found.smooth_hz;
     const Eigen::VectorXd resting = resting_torque_nm(t);
     const Eigen::VectorXd muscles =
         predict(by.data, t, by.literature, by.literature_delay_s, by.fit.lag).torque_nm - resting;
@@ -231,7 +230,6 @@ Fold score_joint(const std::string& name,
     const Eigen::VectorXd measured = t.torque_nm(rows);
     time.emplace_back(t.time_s(rows));
     identified.add(measured, torque(rows));
-    smooth.add(measured, below(t.time_s, torque, found.smooth_hz)(rows));
     if (found.torque_sd_nm.size() > 0) deviation.emplace_back(found.torque_sd_nm(rows));
     band.add(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows), below(t.time_s, torque, by.cutoff_hz)(rows));
     literature.add(measured, (resting + from.gain * muscles)(rows));
@@ -252,7 +250,6 @@ Fold score_joint(const std::string& name,
   fold.literature_nm = joined(literature.predicted);
   fold.covered = covered_share(fold.measured_nm, fold.predicted_nm, fold.predicted_sd_nm);
   fold.identified = identified.scored();
-  fold.smooth = smooth.scored();
   fold.band = band.scored();
   fold.literature = literature.scored();
   fold.regression = regression.scored();
@@ -344,7 +341,6 @@ std::string beyond_what_was_fitted(const std::vector<Fold>& folds) {
 
 EstimatorOptions of_a_fold(EstimatorOptions options) {
   options.predictions = false;
-  options.intervals = {};
   options.posterior_draws = 0;
   options.marginals = false;
   options.progress.report = nullptr;

@@ -38,8 +38,6 @@ struct Fold {
   bool converged = true;
   Score fitted;            ///< Score of the same parameters on the fitted trials.
   Score identified;        ///< Score of the fit to the others.
-  Score smooth;            ///< Score of this prediction below `smooth_hz` (smooth_prediction.h).
-  double smooth_hz = 0.0;  ///< Cut-off of the first trial; 0: not smoothed.
   Score band;              ///< Score with both torques below the fit's own cut-off.
   Score literature;        ///< Score of literature parameters with the one gain that fits the others best.
   Score regression;        ///< Score of the torque's regression on activation times moment arm of every
@@ -59,7 +57,7 @@ using SplitFit = std::function<IdentificationResult(StudyData& data, EstimatorOp
 
 /// Leaves out and predicts one part after another, folds in parallel; samples are never shuffled. `fit` is the reported
 /// fit on fewer trials; it gets `of_a_fold(options)`, which keeps EstimatorOptions::begin_at. Predictions are those of
-/// TrialPredictions, not smoothed. One entry for each part and joint; empty where `splits` is.
+/// TrialPredictions. One entry for each part and joint; empty where `splits` is.
 [[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data,
                                                const SplitFit& fit,
                                                const EstimatorOptions& options,

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/intervals/verdict_cap.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 
@@ -50,9 +52,9 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
   return one;
 }
 
-EstimatorOptions of_one_force(EstimatorOptions options, bool shared_forces) {
+EstimatorOptions of_one_force(EstimatorOptions options) {
   options.muscles.clear();
-  options.measured_is_force = !shared_forces || options.estimator == EstimatorKind::posterior;
+  options.measured_is_force = true;
   options.unseen.moment_arm = options.unseen.moment_arm_slope = options.unseen.crosstalk = 0.0;
   options.choose_lag = false;
   options.progress.report = nullptr;
@@ -60,7 +62,7 @@ EstimatorOptions of_one_force(EstimatorOptions options, bool shared_forces) {
 }
 
 IdentificationResult identify_muscle_force(const StudyData& one, const ForceOptions& options) {
-  const EstimatorOptions once = of_one_force(options.estimator, options.shared_forces);
+  const EstimatorOptions once = of_one_force(options.estimator);
   const std::string& name = one.muscles.front().name;
   std::vector<std::string> speed;
   if (contains(options.speed_may_be_free, name)) speed.push_back(name);
@@ -70,8 +72,7 @@ IdentificationResult identify_muscle_force(const StudyData& one, const ForceOpti
 namespace {
 
 /// Copies the fit of muscle k into the result of all muscles.
-void take_over(
-    IdentificationResult fit, const StudyData& data, std::size_t k, bool shared_forces, IdentificationResult& all) {
+void take_over(IdentificationResult fit, const StudyData& data, std::size_t k, IdentificationResult& all) {
   const std::string& name = data.muscles[k].name;
   const auto column = static_cast<Eigen::Index>(k);
   all.muscles[k] = fit.muscles.front();
@@ -84,33 +85,19 @@ void take_over(
   for (ParameterEstimate& e : fit.estimates) {
     e.method = "force";
     if (e.muscle == "subject" || e.muscle == data.muscles[k].emg_channel) e.muscle = name;
-    if (shared_forces && (e.verdict == Verdict::identified || e.verdict == Verdict::reproducible)) {
-      e.verdict = Verdict::weak;
-      e.reason +=
-          ", but about the forces that an optimizer assigned, which carry its assumptions and no co-contraction; "
-          "method torque does not need them";
-    }
   }
-  for (BasinTable& table : fit.basins) table.fit = name;
   const auto append = [](auto& to, auto& from) {
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
   };
   append(all.estimates, fit.estimates);
   append(all.prior_distances, fit.prior_distances);
-  append(all.basins, fit.basins);
-  append(all.collinear, fit.collinear);
   append(all.undetermined, fit.undetermined);
   append(all.diagnoses, fit.diagnoses);
   append(all.warnings, fit.warnings);
-  append(all.interval_warnings, fit.interval_warnings);
   all.model_error = std::max(all.model_error, fit.model_error);
   all.samples_used += fit.samples_used;
-  all.samples_dropped += fit.samples_dropped;
   all.effective_samples += fit.effective_samples;
   all.iterations += fit.iterations;
-  all.bootstrap_replicates = fit.bootstrap_replicates;
-  all.bootstrap_failed += fit.bootstrap_failed;
-  all.condition = std::max(all.condition, fit.condition);
   for (std::size_t t = 0; t < all.trials.size() && t < fit.trials.size(); ++t) {
     all.trials[t].literature_force_n.col(column) = fit.trials[t].literature_force_n.col(0);
     all.trials[t].force_fit_n.col(column) = fit.trials[t].force_fit_n.col(0);
@@ -147,7 +134,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     const StudyData one = force_study(data, k);
     all.muscles.push_back(data.muscles[k].start);
     if (covers(options.estimator.muscles, data.muscles[k].name)) {
-      take_over(identify_muscle_force(one, options), data, k, options.shared_forces, all);
+      take_over(identify_muscle_force(one, options), data, k, all);
     } else {
       predict_unfitted(one, k, options.estimator, all);
     }
@@ -161,6 +148,11 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     const Eigen::VectorXd measured = trial.torque_nm(rows);
     const Eigen::VectorXd predicted = fit.torque_fit_nm(rows);
     fit.score = score(measured, predicted);
+  }
+  if (options.shared_forces) {
+    identification::apply({{.reason = reason_of(Finding::shared_force, {}), .at_most = Verdict::prior_dominated}}, all);
+    for (ParameterEstimate& e : all.estimates)
+      e.std_error = e.ci_low = e.ci_high = e.given_ci_low = e.given_ci_high = std::nullopt;
   }
   all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return all;

@@ -8,19 +8,19 @@ namespace myoid::identification {
 
 struct ForceOptions {
   EstimatorOptions estimator;
-  bool shared_forces = false;                  ///< Computed by an optimizer: at best `weak`.
+  bool shared_forces = false;                  ///< Computed by an optimizer: at best `prior_dominated`.
   bool detect_exact = false;                   ///< As in identify_torque_or_exact.
   std::vector<std::string> speed_may_be_free;  ///< As in identify_torque_or_exact.
 };
 
 /// Fits every muscle alone, shortening and lengthening together, to its own force (measured, or from force sharing).
-/// The estimator is that of method `torque` with one muscle and a moment arm of 1, by the options of `of_one_force`.
+/// The density is that of method `torque` with one muscle and a moment arm of 1, by the options of `of_one_force`.
 /// Throws InvalidInput if the data have no forces.
 [[nodiscard]] IdentificationResult identify_force(const StudyData& data, const ForceOptions& options = {});
 
 /// Returns the options of one muscle's fit. A force has no moment arm that could be wrong, and the electrode is the
 /// muscle's own: both are exact. All muscles of one person follow their EMG by the same law, which is not chosen.
-[[nodiscard]] EstimatorOptions of_one_force(EstimatorOptions options, bool shared_forces = false);
+[[nodiscard]] EstimatorOptions of_one_force(EstimatorOptions options);
 
 /// Fits one muscle of the study that `force_study` makes.
 [[nodiscard]] IdentificationResult identify_muscle_force(const StudyData& one_muscle, const ForceOptions& options = {});

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/intervals/score.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/methods/prediction.h"
@@ -46,7 +47,7 @@ Eigen::MatrixXd errors_nm(
 
 std::string LateEmg::sentence() const {
   return fmt::format(
-      "the best fit leans on the bound 0, and with the EMG of {} taken {:.2f} s earlier the same muscles err by {:.3g} "
+      "the delay is as good as 0, and with the EMG of {} taken {:.2f} s earlier the same muscles err by {:.3g} "
       "N m rms instead of {:.3g}: EMG that comes after the torque has a late clock, or an envelope that was filtered "
       "in one direction",
       trial.empty() ? "all trials" : "'" + trial + "'", late_s, moved_nm, as_stamped_nm);
@@ -87,19 +88,14 @@ std::optional<LateEmg> late_emg(const StudyData& data, const IdentificationResul
   return found;
 }
 
-void judge_late_emg(const StudyData& data, const EstimatorOptions& options, IdentificationResult& result) {
+std::optional<LateEmg> late_emg_of_no_delay(const StudyData& data,
+                                            const EstimatorOptions& options,
+                                            const IdentificationResult& fit) {
   const auto is_none = [](const ParameterEstimate& e) {
-    return e.parameter == "emg_delay" && e.at_bound && e.estimate <= kVerdictRules.no_delay_s;
+    return e.parameter == "emg_delay" && e.at_bound && e.estimate < beliefs::kEmgDelay.value;
   };
-  if (std::ranges::none_of(result.estimates, is_none)) return;
-  const std::optional<LateEmg> late = late_emg(data, result, options.residual_cutoff_hz.value_or(0.0));
-  if (!late) return;
-  for (ParameterEstimate& e : result.estimates) {
-    if (!is_none(e)) continue;
-    e.verdict = Verdict::not_identifiable;
-    e.reason = late->sentence();
-  }
-  result.warnings.push_back("emg_delay: " + late->sentence());
+  if (std::ranges::none_of(fit.estimates, is_none)) return std::nullopt;
+  return late_emg(data, fit, options.residual_cutoff_hz.value_or(0.0));
 }
 
 }  // namespace myoid::identification

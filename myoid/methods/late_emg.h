@@ -25,7 +25,9 @@ struct LateEmg {
                                               const IdentificationResult& fit,
                                               double residual_cutoff_hz);
 
-/// Calls a delay of 0 on its bound not identifiable, and warns, where `late_emg` finds a trial.
-void judge_late_emg(const StudyData& data, const EstimatorOptions& options, IdentificationResult& result);
+/// Returns `late_emg` of a fit whose delay has an interval that ends at 0 (ParameterEstimate::at_bound); else nothing.
+[[nodiscard]] std::optional<LateEmg> late_emg_of_no_delay(const StudyData& data,
+                                                          const EstimatorOptions& options,
+                                                          const IdentificationResult& fit);
 
 }  // namespace myoid::identification

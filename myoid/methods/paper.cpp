@@ -14,9 +14,10 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
-#include "myoid/intervals/identifiability.h"
 #include "myoid/intervals/score.h"
 #include "myoid/intervals/signatures.h"
+#include "myoid/intervals/verdict_rules.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/math/covariance.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/basins.h"
@@ -125,6 +126,55 @@ CaseFit search_case(PaperCase samples) {
   return fit;
 }
 
+/// Returns the likely error behind a value outside physiology, known from simulation of single errors.
+std::string diagnosis(const ParameterEstimate& e) {
+  const std::string& p = e.parameter;
+  if (p == "eccentric_plateau" && e.estimate < 1.0) {
+    return "force in lengthening below the isometric one contradicts muscle physiology: EMG and assigned force "
+           "disagree in gain while lengthening (co-contraction that force sharing set to zero, or F_max too high), not "
+           "a property of the muscle";
+  }
+  if (p == "eccentric_curvature_product" && e.estimate <= 0.0) {
+    return "a product that is not positive is no force-velocity curve: the velocity effect in lengthening is not "
+           "resolved (an EMG delay that was not accounted for does this)";
+  }
+  if (p == "concentric_curvature") {
+    return e.estimate > 1.0 ? "a curvature above 1 means a straight line: the velocity effect in shortening is not "
+                              "resolved (an EMG delay that was not accounted for does this)"
+                            : "a curvature this small is below that of the slowest muscle: co-contraction that force "
+                              "sharing set to zero does this";
+  }
+  if (p == "force_length_width") {
+    return e.initial > 0.0 && e.estimate > e.initial ? "a width this size is no muscle's: F_max or the EMG gain too "
+                                                       "high, a wrong geometry or electrode flattens the curve"
+                                                     : "a width this size is no muscle's: co-contraction set to zero, "
+                                                       "a delay, a wrong geometry or electrode narrows the curve";
+  }
+  return "the value lies outside what a muscle can have: the fit describes something else";
+}
+
+/// Returns the reason why no muscle can have number j of a case; empty: a muscle can.
+std::string impossible(const CaseFit& fit, Eigen::Index j, const ParameterEstimate& e) {
+  const Eigen::VectorXd start = fit.samples.start_vector();
+  if (fit.unphysical(j, start)) return diagnosis(e);
+  const Eigen::Index length = fit.position(kShared[0]);
+  const double l0 = length >= 0 ? fit.search.x[length] : fit.samples.start.optimal_fiber_length_m;
+  const double x = fit.search.x[j];
+  if (e.parameter != kShared[1] || fit.exact || !(l0 > 0.0) || x == start[j]) return "";
+  const double width = std::abs(x) / l0;
+  if (kVerdictRules.possible(width)) return "";
+  return fmt::format("{:.2g} of the optimal length, and muscles have {} to {}: {}", width,
+                     kVerdictRules.relative_width.lower, kVerdictRules.relative_width.upper, diagnosis(e));
+}
+
+/// Returns true if V_ml of a case is not clearly above 1.
+bool plateau_is_flat(const CaseFit& fit) {
+  const Eigen::Index plateau = fit.position("eccentric_plateau");
+  if (plateau < 0 || !std::isfinite(fit.search.x[plateau])) return false;
+  const double sd = fit.computed ? std::sqrt(fit.variance(plateau, plateau)) : 0.0;
+  return std::abs(fit.search.x[plateau] - 1.0) < math::normal_quantile(0.975) * sd;
+}
+
 /// Returns number j of a case with its verdict.
 ParameterEstimate estimate_of(const CaseFit& fit,
                               Eigen::Index j,
@@ -142,33 +192,36 @@ ParameterEstimate estimate_of(const CaseFit& fit,
   e.fit_case = fit.samples.shortening ? "shortening" : "lengthening";
   e.initial = start[j];
   e.estimate = std::abs(x[j]) <= 1e3 * std::abs(start[j]) ? x[j] : std::numeric_limits<double>::quiet_NaN();
-  VerdictContext context;
-  for (Eigen::Index other = 0; other < fit.size(); ++other) {
-    if (fit.unphysical(other, start))
-      context.bad_company = std::string(fit.samples.unknowns[static_cast<std::size_t>(other)]->name);
+  NumberFacts facts{.converged = fit.failure.empty(),
+                    .failure = fit.failure,
+                    .determined = fit.computed && fit.covariance.determined[static_cast<std::size_t>(j)],
+                    .shared_force = options.shared_forces,
+                    .given_strength = !options.shared_forces && !fit.exact,
+                    .one_reading = true};
+  if (!std::isfinite(e.estimate) && facts.converged) {
+    facts.converged = false;
+    facts.failure = "it gave no number";
   }
-  context.shared_forces = options.shared_forces;
-  context.given_strength = !options.shared_forces && !fit.exact;
-  context.r2 = fit.r2;
-  context.converged = fit.failure.empty();
-  context.failure = fit.failure;
-  context.determined = fit.computed && fit.covariance.determined[static_cast<std::size_t>(j)];
-  if (context.determined && context.converged) {
+  if (facts.determined && facts.converged) {
     e.std_error = std::sqrt(fit.variance(j, j));
     e.ci_low = e.estimate - quantile * *e.std_error;
     e.ci_high = e.estimate + quantile * *e.std_error;
   }
-  context.outside_physical = fit.unphysical(j, start);
-  const Eigen::Index length = fit.position(kShared[0]);
-  const double l0 = length >= 0 ? x[length] : fit.samples.start.optimal_fiber_length_m;
-  if (field.name == kShared[1] && !fit.exact && l0 > 0.0 && x[j] != start[j])
-    context.relative_width = std::abs(x[j]) / l0;
-  const Eigen::Index plateau = fit.position("eccentric_plateau");
-  if (plateau >= 0 && std::isfinite(x[plateau])) {
-    const double sd = fit.computed ? std::sqrt(fit.variance(plateau, plateau)) : 0.0;
-    context.plateau_is_flat = std::abs(x[plateau] - 1.0) < quantile * sd;
+  for (Eigen::Index other = 0; other < fit.size(); ++other) {
+    if (fit.unphysical(other, start))
+      facts.bad_company = std::string(fit.samples.unknowns[static_cast<std::size_t>(other)]->name);
   }
-  judge(e, context);
+  facts.impossible = impossible(fit, j, e);
+  if (e.parameter == "eccentric_curvature_product" && plateau_is_flat(fit))
+    facts.no_effect =
+        "no rise of force in lengthening is resolved (V_ml not clearly above 1), and without one this number has no "
+        "effect";
+  facts.r2 = fit.r2;
+  facts.of_force = true;
+  facts.value = facts.given = e.estimate;
+  facts.low = facts.low_given = e.ci_low.value_or(e.estimate);
+  facts.high = facts.high_given = e.ci_high.value_or(e.estimate);
+  judge(e, facts);
   if (options.shared_forces) e.std_error = e.ci_low = e.ci_high = std::nullopt;
   return e;
 }

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "myoid/identification/muscle_activation.h"
-#include "myoid/identification/muscle_rows.h"
 #include "myoid/math/statistics.h"
-#include "myoid/methods/smooth_prediction.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/posterior/likelihood.h"
 #include "myoid/posterior/trial_run.h"
@@ -60,7 +58,6 @@ Prediction predict(const StudyData& data, const TrialData& trial, const ModelVal
   Prediction p;
   p.force_n.resize(n, trial.length_m.cols());
   p.activation.resize(n, trial.length_m.cols());
-  p.channel_torque_nm.setZero(n, static_cast<Eigen::Index>(values.channels.size()));
   const bool with_torque = trial.moment_arm_m.rows() == n;
   std::vector<std::string> channels;
   std::vector<std::vector<Activation>> activations;
@@ -79,10 +76,6 @@ Prediction predict(const StudyData& data, const TrialData& trial, const ModelVal
       p.activation(i, column) = a.value;
       p.force_n(i, column) =
           tension_n(a.value, trial.length_m(i, column), trial.velocity_mps(i, column), values.muscles[k]);
-      if (!with_torque || !(a.value > 0.0)) continue;
-      // Force is nearly proportional to activation.
-      p.channel_torque_nm(i, static_cast<Eigen::Index>(c)) +=
-          trial.moment_arm_m(i, column) * p.force_n(i, column) * a.by_log_envelope / a.value;
     }
   }
   if (with_torque) {
@@ -102,26 +95,6 @@ Prediction predict(const StudyData& data, const TrialData& trial, const ModelVal
 
 namespace {
 
-/// Returns the cut-off at which the law's torque is expected to come closest to the torque without
-/// the envelopes' noise (smooth_prediction.h); 0: not smoothed.
-double smooth_hz(const TrialData& trial,
-                 const Prediction& predicted,
-                 const IdentificationResult& fit,
-                 double envelope_cutoff_hz) {
-  const Eigen::MatrixXd& torque = predicted.channel_torque_nm;
-  EnvelopeNoise noise{.cutoff_hz = envelope_cutoff_hz};
-  if (torque.cols() == fit.envelope_variance.size() && torque.rows() > 0) {
-    const Eigen::VectorXd variance_nm2 =
-        torque.cwiseAbs2().colwise().mean().transpose().cwiseProduct(fit.envelope_variance);
-    noise.variance_nm2 = variance_nm2.sum();
-    // Channels may lag differently: take the channel with the most noise.
-    Eigen::Index loudest = 0;
-    variance_nm2.maxCoeff(&loudest);
-    noise.lag_s = lag_times_s(fit.values.channels[static_cast<std::size_t>(loudest)], fit.lag);
-  }
-  return smooth_prediction(trial.time_s, predicted.torque_nm, noise).cutoff_hz;
-}
-
 /// Returns the options of a fit's predictions: its lag, and its answer as the reference of the unseen quantities.
 EstimatorOptions of_predictions(EstimatorOptions options, const IdentificationResult& fit) {
   options.lag = fit.lag;
@@ -135,62 +108,6 @@ Eigen::VectorXd variance_by(const Eigen::MatrixXd& jacobian, const Eigen::Matrix
 }
 
 }  // namespace
-
-/// The law at the fit's values and its derivatives by the unknowns.
-struct TrialPredictions::ByLaw {
-  ByLaw(const StudyData& of_data, const EstimatorOptions& of_options, const IdentificationResult& of)
-      : data(of_data), options(of_predictions(of_options, of)), fit(of) {
-    if (fit.solution.size() == 0 || !fit.covariance.allFinite() || fit.covariance.rows() != fit.solution.size() ||
-        fit.exact)
-      return;
-    map = std::make_unique<ParameterMap>(data, options);
-    if (map->size() != fit.solution.size()) map.reset();
-  }
-
-  /// Adds the standard deviations by the covariance of the unknowns.
-  void add_deviations(const TrialData& trial, const Prediction& predicted, TrialFit& found) const {
-    std::vector<ParameterMap::Chain> chains;
-    const ModelValues values = map->values(fit.solution, &chains);
-    const ChainsByOwner by_owner(*map, chains);
-    const Eigen::Index n = trial.time_s.size();
-    const bool with_torque = predicted.torque_nm.size() == n;
-    std::vector<std::vector<Activation>> activations;
-    for (std::size_t c = 0; c < map->channels().size(); ++c)
-      activations.push_back(activation(Envelope(trial.activation.time_s(), trial.activation.column(map->channels()[c])),
-                                       trial.time_s, values.channels[c], fit.lag));
-    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(n, map->size());
-    found.force_sd_n.resize(n, trial.length_m.cols());
-    MuscleRows rows;
-    for (Eigen::Index k = 0; k < trial.length_m.cols(); ++k) {
-      const auto muscle = static_cast<std::size_t>(k);
-      const auto c = static_cast<std::size_t>(map->channel_of_muscle(muscle));
-      evaluate_muscle(activations[c], trial.length_m.col(k), trial.velocity_mps.col(k), values.muscles[muscle],
-                      by_owner.of_muscle[muscle], by_owner.of_channel[c], rows);
-      const Eigen::MatrixXd own = rows.by_variable.transpose();
-      found.force_sd_n.col(k) = variance_by(own, fit.covariance(rows.variables, rows.variables)).cwiseSqrt();
-      for (std::size_t v = 0; v < rows.variables.size() && with_torque; ++v)
-        jacobian.col(rows.variables[v]) +=
-            own.col(static_cast<Eigen::Index>(v)).cwiseProduct(trial.moment_arm_m.col(k));
-    }
-    if (!with_torque) return;
-    const auto joint = static_cast<std::size_t>(std::find(map->joints().begin(), map->joints().end(), trial.joint) -
-                                                map->joints().begin());
-    if (joint < by_owner.of_joint.size()) {
-      for (const ParameterMap::Chain& chain : by_owner.of_joint[joint])
-        jacobian.col(chain.variable) += chain.slope * by_joint_field(chain.field, n, motion_of(trial));
-    }
-    Eigen::VectorXd variance = variance_by(jacobian, fit.covariance);
-    variance.array() += fit.torque_sd_nm * fit.torque_sd_nm;
-    if (predicted.channel_torque_nm.cols() == fit.envelope_variance.size())
-      variance += predicted.channel_torque_nm.cwiseAbs2() * fit.envelope_variance;
-    found.torque_sd_nm = variance.cwiseSqrt();
-  }
-
-  const StudyData& data;
-  EstimatorOptions options;
-  const IdentificationResult& fit;
-  std::unique_ptr<ParameterMap> map;  ///< Null: no standard deviations.
-};
 
 /// The posterior at the fit's values, given the torque of the fitted trials.
 struct TrialPredictions::ByPosterior {
@@ -215,8 +132,7 @@ struct TrialPredictions::ByPosterior {
 TrialPredictions::TrialPredictions(const StudyData& data,
                                    const EstimatorOptions& options,
                                    const IdentificationResult& fit)
-    : by_law_(std::make_unique<ByLaw>(data, options, fit)),
-      residual_cutoff_hz_(options.residual_cutoff_hz.value_or(0.0)) {
+    : data_(data), fit_(fit), residual_cutoff_hz_(options.residual_cutoff_hz.value_or(0.0)) {
   if (fit.noise.size() > 0) by_posterior_ = std::make_unique<ByPosterior>(data, options, fit);
 }
 TrialPredictions::~TrialPredictions() = default;
@@ -237,10 +153,7 @@ TrialFit TrialPredictions::of(const TrialData& trial) const {
     for (std::size_t k = 0; k < forecast.force_by_z.size(); ++k)
       found.force_sd_n.col(static_cast<Eigen::Index>(k)) = variance_by(forecast.force_by_z[k], covariance).cwiseSqrt();
   } else {
-    const ByLaw& by = *by_law_;
-    Prediction predicted = predict(by.data, trial, by.fit.values, by.fit.lag);
-    found.smooth_hz = smooth_hz(trial, predicted, by.fit, by.options.envelope_cutoff_hz);
-    if (by.map) by.add_deviations(trial, predicted, found);
+    Prediction predicted = predict(data_, trial, fit_.values, fit_.lag);
     found.force_fit_n = std::move(predicted.force_n);
     found.torque_fit_nm = std::move(predicted.torque_nm);
   }

@@ -13,10 +13,9 @@ namespace myoid::identification {
 
 /// Torque of each muscle set over a trial with given parameters, delay and gains of 1.
 struct Prediction {
-  Eigen::MatrixXd force_n;            ///< n x m
-  Eigen::VectorXd torque_nm;          ///< n
-  Eigen::MatrixXd activation;         ///< n x m: activation of each muscle's EMG channel.
-  Eigen::MatrixXd channel_torque_nm;  ///< n x channels: change by a relative error of an envelope.
+  Eigen::MatrixXd force_n;     ///< n x m
+  Eigen::VectorXd torque_nm;   ///< n
+  Eigen::MatrixXd activation;  ///< n x m: activation of each muscle's EMG channel.
 };
 [[nodiscard]] Prediction predict(const StudyData& data,
                                  const TrialData& trial,
@@ -27,21 +26,17 @@ struct Prediction {
 [[nodiscard]] Prediction predict(const StudyData& data, const TrialData& trial, const ModelValues& values, EmgLag lag);
 /// Predicts fitted and other trials by a fit. Every number of a validation comes from these predictions.
 ///
-/// Least squares: the torque is the law with the identified parameters. Its variance is J C J' +
-/// s_T^2 + sum_c v_c D_c^2, with J = dT^/dz, C the covariance of the unknowns, and D_c the torque's
-/// change by a relative error of an envelope of variance v_c.
-///
-/// The posterior: the torque is the expectation of a measured torque, given the torque of the fitted trials,
+/// By the posterior the torque is the expectation of a measured torque, given the torque of the fitted trials,
 ///
 ///   T* = T^(z) + S W x,   x the expectation of the unseen quantities (posterior/unseen.h),
 ///
-/// from the drives behind the envelopes. Its variance is that of z, of x given z, and of the noise.
+/// from the drives behind the envelopes. Its variance is that of z, of x given z, and of the noise. A fit without noise
+/// parameters (exact data) predicts by the law alone, without standard deviations.
 ///
 /// The standard deviation of a force includes that of the parameters only.
 class TrialPredictions {
  public:
-  /// The members of `fit` in use: `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`, `envelope_variance` and
-  /// `noise`. Without a finite covariance there are no standard deviations. References must outlive it.
+  /// The members of `fit` in use: `values`, `lag`, `solution`, `covariance` and `noise`. References must outlive it.
   TrialPredictions(const StudyData& data, const EstimatorOptions& options, const IdentificationResult& fit);
   ~TrialPredictions();
   TrialPredictions(TrialPredictions&&) noexcept;
@@ -50,9 +45,9 @@ class TrialPredictions {
   [[nodiscard]] TrialFit of(const TrialData& trial) const;
 
  private:
-  struct ByLaw;
   struct ByPosterior;
-  std::unique_ptr<ByLaw> by_law_;
+  const StudyData& data_;
+  const IdentificationResult& fit_;
   std::unique_ptr<ByPosterior> by_posterior_;
   double residual_cutoff_hz_ = 0.0;
 };

@@ -9,7 +9,6 @@
 #include "myoid/math/direct_search.h"
 #include "myoid/math/nelder_mead.h"
 #include "myoid/math/simulated_annealing.h"
-#include "myoid/methods/force.h"
 #include "myoid/methods/paper_case.h"
 
 namespace myoid::identification {
@@ -21,7 +20,7 @@ using Search = std::function<math::LocalMinimum(const Eigen::VectorXd& start)>;
 struct Contestants {
   Search gauss_newton, levenberg_marquardt;
   math::DirectSearchProblem cost;  ///< With the bounds of the fit.
-  Eigen::Index plain_samples = 0;  ///< See find_basins.
+  Eigen::Index samples = 0;        ///< See find_basins.
 };
 
 template <typename Found>
@@ -91,7 +90,7 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
   }
   options.progress.tell(static_cast<double>(ends.size()) / total, "searching from many starts");
   result.basins = find_basins([&](const Eigen::VectorXd& x) { return searched(who.levenberg_marquardt, x); }, box,
-                              options.basin_starts, who.plain_samples, stop);
+                              options.basin_starts, who.samples, stop);
 
   Eigen::VectorXd best = box.given;
   result.best_cost = std::numeric_limits<double>::infinity();
@@ -108,32 +107,6 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
 
 }  // namespace
 
-SolverContest compare_solvers(const StudyData& data,
-                              const EstimatorOptions& estimator_options,
-                              const ContestOptions& options) {
-  EstimatorOptions plain = estimator_options;
-  plain.gauss_newton = false;
-  plain.correct_attenuation = false;  // one fixed sum of squares for all
-  plain.progress = {{}, options.progress.stop};
-  const Estimator estimator(data, plain);
-  plain.gauss_newton = true;
-  const Estimator by_full_steps(data, plain);
-  const StartBox box = start_box(estimator);
-  if (box.given.size() == 0) return {};
-  const Weighting weighting = estimator.solve(box.given).weighting;
-  return contest(
-      {.gauss_newton =
-           [&](const Eigen::VectorXd& x) { return end_of(by_full_steps.search(x, weighting, 1e-9, 1e-12, 100)); },
-       .levenberg_marquardt =
-           [&](const Eigen::VectorXd& x) { return end_of(estimator.search(x, weighting, 1e-9, 1e-12, 200)); },
-       .cost = {[&](const Eigen::VectorXd& z) {
-                  return estimator.normal_equations(z, weighting, Derivatives::none).cost;
-                },
-                estimator.lower(), estimator.upper()},
-       .plain_samples = plain.weights ? 0 : estimator.model().sample_count()},
-      box, options);
-}
-
 SolverContest compare_paper_solvers(const StudyData& data,
                                     std::size_t muscle,
                                     bool shortening,
@@ -149,38 +122,23 @@ SolverContest compare_paper_solvers(const StudyData& data,
        .levenberg_marquardt =
            [&](const Eigen::VectorXd& x) { return end_of(math::minimize(problem, x, {.progress = stop})); },
        .cost = math::direct_search_problem(problem),
-       .plain_samples = problem.residual_count},
+       .samples = problem.residual_count},
       box, options);
 }
 
-std::vector<NamedContest> solver_contests(const StudyData& data,
-                                          const std::string& method,
-                                          const EstimatorOptions& estimator,
-                                          const ContestOptions& options) {
-  using Fit = std::function<SolverContest(const ContestOptions&)>;
-  std::vector<std::pair<std::string, Fit>> fits;
-  if (method == "torque")
-    fits.emplace_back("all muscles", [&](const auto& how) { return compare_solvers(data, estimator, how); });
-  for (std::size_t k = 0; method != "torque" && k < data.muscles.size(); ++k) {
-    const std::string& muscle = data.muscles[k].name;
-    if (method == "force") {
-      fits.emplace_back(muscle,
-                        [&, k](const auto& how) { return compare_solvers(force_study(data, k), estimator, how); });
-      continue;
-    }
-    for (const bool shortening : {true, false})
-      fits.emplace_back(muscle + (shortening ? " shortening" : " lengthening"), [&, k, shortening](const auto& how) {
-        return compare_paper_solvers(data, k, shortening, how);
-      });
-  }
+std::vector<NamedContest> solver_contests(const StudyData& data, const ContestOptions& options) {
   std::vector<NamedContest> contests;
-  for (const auto& [name, fit] : fits) {
-    ContestOptions how = options;
-    if (options.progress.report)
-      how.progress.report = [&, done = static_cast<double>(contests.size())](double share, std::string_view what) {
-        options.progress.report((done + share) / static_cast<double>(fits.size()), what);
-      };
-    contests.push_back({name, fit(how)});
+  const auto total = static_cast<double>(2 * data.muscles.size());
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    for (const bool shortening : {true, false}) {
+      ContestOptions how = options;
+      if (options.progress.report)
+        how.progress.report = [&, done = static_cast<double>(contests.size())](double share, std::string_view what) {
+          options.progress.report((done + share) / total, what);
+        };
+      contests.push_back({data.muscles[k].name + (shortening ? " shortening" : " lengthening"),
+                          compare_paper_solvers(data, k, shortening, how)});
+    }
   }
   return contests;
 }

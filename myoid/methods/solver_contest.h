@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "myoid/core/progress.h"
-#include "myoid/identification/estimator.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/methods/basins.h"
 
@@ -36,31 +35,22 @@ struct ContestOptions {
   Progress progress;
 };
 
-/// Compares the four solvers that the source paper weighs, on the same cost, with the same weights (the usual fit's)
-/// and bounds, from the same starts. Gauss-Newton takes full steps; annealing begins with steps as wide as the box of
-/// the starts. The estimator's own progress is not used. Throws Interrupted.
-[[nodiscard]] SolverContest compare_solvers(const StudyData& data,
-                                            const EstimatorOptions& estimator,
-                                            const ContestOptions& options = {});
-
-/// Compares the solvers on the source paper's problem: 1/2 sum (F_t - F_m(x))^2 of one muscle in one branch
-/// (paper_case.h), without weights, priors or bounds. Gauss-Newton is that of `identify_paper`. Costs are in N^2. No
-/// runs if the branch has fewer samples than unknowns, or all numbers are held.
+/// Compares the four solvers that the source paper weighs on its problem: 1/2 sum (F_t - F_m(x))^2 of one muscle in one
+/// branch (paper_case.h), without weights, priors or bounds, from the same starts. Gauss-Newton takes the paper's plain
+/// steps; annealing begins with steps as wide as the box of the starts. Costs are in N^2. No runs if the branch has
+/// fewer samples than unknowns, or all numbers are held. Throws Interrupted.
 [[nodiscard]] SolverContest compare_paper_solvers(const StudyData& data,
                                                   std::size_t muscle,
                                                   bool shortening,
                                                   const ContestOptions& options = {});
 
-/// A contest by the name of its fit: all muscles together, a muscle, a muscle's branch.
+/// A contest by the name of its fit: a muscle's branch.
 struct NamedContest {
   std::string fit;
   SolverContest contest;
 };
 
-/// Runs every solver on the fits of the method: torque, force or paper. Throws Interrupted.
-[[nodiscard]] std::vector<NamedContest> solver_contests(const StudyData& data,
-                                                        const std::string& method,
-                                                        const EstimatorOptions& estimator,
-                                                        const ContestOptions& options);
+/// Runs every solver on all fits of method `paper`. Throws Interrupted.
+[[nodiscard]] std::vector<NamedContest> solver_contests(const StudyData& data, const ContestOptions& options);
 
 }  // namespace myoid::identification

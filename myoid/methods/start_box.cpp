@@ -22,18 +22,6 @@ void bound(StartBox& box, Eigen::Index j, double lower, double upper) {
 
 }  // namespace
 
-StartBox start_box(const Estimator& estimator) {
-  StartBox box = box_about(estimator.model().parameters().start());
-  for (Eigen::Index j = 0; j < box.given.size(); ++j) {
-    const Unknown& f = estimator.free()[static_cast<std::size_t>(j)];
-    box.spread[j] = f.prior.sd > 0.0       ? f.prior.sd
-                    : f.field->logarithmic ? 0.3
-                                           : 0.1 * std::max(std::abs(f.start), f.bounds.upper - f.bounds.lower);
-    bound(box, j, f.bounds.lower, f.bounds.upper);
-  }
-  return box;
-}
-
 StartBox start_box(const PaperCase& samples, const MuscleSetup& setup) {
   StartBox box = box_about(samples.start_vector());
   for (Eigen::Index j = 0; j < box.given.size(); ++j) {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include "myoid/identification/estimator.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/methods/paper_case.h"
 
@@ -13,12 +12,10 @@ namespace myoid::identification {
 /// The box of the searches' starts: two spreads of the priors to either side of the given start.
 struct StartBox {
   Eigen::VectorXd given;
-  Eigen::VectorXd spread;  ///< Spread of the prior; without a prior 0.3 for a logarithm, a tenth of
-                           ///< other values.
+  Eigen::VectorXd spread;  ///< Spread of the prior; without a prior a tenth of the value.
   Eigen::VectorXd lower;   ///< Two spreads below the given start, inside the bounds.
   Eigen::VectorXd upper;
 };
-[[nodiscard]] StartBox start_box(const Estimator& estimator);
 /// Returns the box of the source paper's unknowns, each in its own unit and within its physical bounds.
 [[nodiscard]] StartBox start_box(const PaperCase& samples, const MuscleSetup& setup);
 

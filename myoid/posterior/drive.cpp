@@ -339,8 +339,7 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
 }
 
 EstimatorOptions remembering_drives(EstimatorOptions options) {
-  if (options.estimator == EstimatorKind::posterior && !options.drives)
-    options.drives = std::make_shared<DriveMemory>();
+  if (!options.drives) options.drives = std::make_shared<DriveMemory>();
   return options;
 }
 

@@ -74,7 +74,7 @@ class DriveMemory {
   std::map<Key, std::shared_ptr<const Drive>> drives_;
 };
 
-/// Returns the options with a memory of drives, where the estimator is the posterior.
+/// Returns the options with a memory of drives.
 [[nodiscard]] EstimatorOptions remembering_drives(EstimatorOptions options);
 
 }  // namespace myoid::identification

@@ -189,7 +189,7 @@ Exploration explore(const StudyData& data, const EstimatorOptions& options) {
   Exploration found;
   Density& by_delay = *found.densities.emplace_back(std::make_unique<Density>(data, options));
   std::vector<Eigen::VectorXd> starts{by_delay.start()};
-  const int others = options.multistart > 1 ? options.multistart - 1 : options.marginals ? kOtherStarts : 0;
+  const int others = options.marginals ? kOtherStarts : 0;
   for (int s = 0; s < others; ++s) starts.push_back(moved_start(by_delay, s));
   found.modes = modes_of(by_delay, starts, -1e300, options);
   if (options.choose_lag && options.lag == EmgLag::delay) {

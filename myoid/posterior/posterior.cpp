@@ -5,22 +5,21 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <stdexcept>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/estimate_rows.h"
-#include "myoid/intervals/identifiability.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/posterior/draws.h"
 #include "myoid/posterior/exploration.h"
-#include "myoid/posterior/verdicts.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/posterior/voluntary_torque.h"
 
 namespace myoid::identification {
@@ -122,7 +121,7 @@ struct Reporting {
   const Sample& sample;
   const std::vector<SourceShares>& shares;
   const Given& given;
-  const std::vector<ActiveMotion>& motion;  ///< One per muscle.
+  const std::vector<double>& active_span_m;  ///< Per muscle: range of its active lengths.
   const IdentificationResult& result;
   bool converged = true;
   bool from_mvc = true;      ///< Activation 1 is a maximal effort.
@@ -157,7 +156,7 @@ void judge_row(const Reporting& of,
                int owner,
                const muscle::Range& bounds,
                ParameterEstimate& e,
-               PosteriorFacts facts) {
+               NumberFacts facts) {
   const Unknown& p = of.map.free()[unknown];
   const Eigen::VectorXd& weight = of.sample.weight;
   e.ci_low = weighted_quantile(values, weight, 0.025);
@@ -174,6 +173,7 @@ void judge_row(const Reporting& of,
   facts.high = *e.ci_high;
   const double touches = kVerdictRules.on_bound * (bounds.upper - bounds.lower);
   const bool cut = facts.low - bounds.lower < touches || bounds.upper - facts.high < touches;
+  e.at_bound = cut;
   facts.at_bound = cut && !p.is(Scope::channel, kDelay);  // no delay is a delay
   facts.contraction = e.shrinkage;
   if (e.shrinkage)
@@ -191,15 +191,14 @@ void judge_row(const Reporting& of,
   const bool of_width = p.is(Scope::muscle, kWidth);
   if (of_width || p.is(Scope::muscle, kFiberLength)) {
     const auto k = static_cast<std::size_t>(owner);
-    facts.length_span = of.motion[k].length_span_m / of.data.muscles[k].start.optimal_fiber_length_m;
+    facts.length_span = of.active_span_m[k] / of.data.muscles[k].start.optimal_fiber_length_m;
   }
   if (of_width) {
     const MuscleValues& muscle = of.result.values.muscles[static_cast<std::size_t>(owner)];
-    facts.possible = kVerdictRules.possible(muscle[kWidth] / muscle[kFiberLength]);
+    if (of.converged && !kVerdictRules.possible(muscle[kWidth] / muscle[kFiberLength]))
+      facts.impossible = "no muscle has this ratio of l_sh to l0: the fit describes another thing";
   }
-  const Finding found = finding(facts);
-  e.verdict = verdict_of(found);
-  e.reason = reason_of(found, facts);
+  judge(e, facts);
   if (!of.from_mvc && p.is(Scope::muscle, kMaxForce)) e.reason += without_maximum(of, values, owner);
 }
 
@@ -218,7 +217,7 @@ ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::si
   const auto value = [&](double z) { return target.ratio * p.to_value(z); };
   ParameterEstimate e = row_of(p, target, of.map, of.result.solution[at]);
   if (p.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
-  PosteriorFacts facts;
+  NumberFacts facts;
   const Eigen::VectorXd draws = of.sample.z.row(at).unaryExpr([&](double z) { return value(z); }).transpose();
   facts.given = value(of.given.value[at]);
   facts.low_given = value(of.given.low[at]);
@@ -243,7 +242,7 @@ ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owne
   e.estimate = weighted_quantile(draws, of.sample.weight, 0.5);
   const Unknown& ratio = of.map.free()[unknown];
   if (ratio.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
-  PosteriorFacts facts;
+  NumberFacts facts;
   facts.given = weighted_quantile(given, equal, 0.5);
   facts.low_given = weighted_quantile(given, equal, 0.025);
   facts.high_given = weighted_quantile(given, equal, 0.975);
@@ -271,7 +270,7 @@ void fill_fit(const Candidate& best, const Sample& sample, const StudyData& data
   const NoiseValues noise = density.noise_of(best.mode.x);
   result.method = "torque";
   result.termination = best.mode.converged ? math::Termination::converged : math::Termination::no_descent;
-  result.message = "estimator posterior: " + best.mode.message;
+  result.message = best.mode.message;
   result.iterations = best.mode.iterations;
   result.samples_used = static_cast<int>(density.likelihood().row_count());
   result.effective_samples = 0.0;
@@ -323,7 +322,7 @@ void add_voluntary(const Reporting& of,
                    const Density& density,
                    const EstimatorOptions& options,
                    IdentificationResult& result) {
-  PosteriorFacts fit;
+  NumberFacts fit;
   fit.converged = of.converged;
   fit.approximate = of.sample.approximate;
   fit.r2 = result.r2;
@@ -343,6 +342,12 @@ void add_warnings(const std::vector<Candidate>& candidates,
                   const Sample& sample,
                   double unlikeness,
                   IdentificationResult& result) {
+  if (result.r2 < kVerdictRules.least_r2)
+    result.warnings.push_back(
+        fmt::format("the fit explains little of the fitted samples (R2 {:.2f}, of the joint that is explained least, "
+                    "without the ends of the trials): no number is called identified; look for a wrong sign, unit, "
+                    "offset, clock, order of files or column",
+                    result.r2));
   if (candidates.size() > 1)
     result.warnings.push_back(
         fmt::format("the posterior has {} modes that are nearly as good, the best with {:.0f} % of it: the intervals "
@@ -369,10 +374,7 @@ void add_warnings(const std::vector<Candidate>& candidates,
 
 IdentificationResult identify_by_posterior(const StudyData& data, const EstimatorOptions& options) {
   validate(data);
-  if (!options.priors)
-    throw InvalidInput(
-        "the estimator posterior rests on what is known of people, and the study does without (priors = false): take "
-        "the estimator least_squares");
+  if (!options.priors) throw std::logic_error("the posterior rests on priors");
   const auto begin = std::chrono::steady_clock::now();
   const Exploration explored = explore(data, options);
   const std::vector<Candidate>& candidates = explored.modes;
@@ -385,13 +387,13 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   const Given given =
       options.marginals ? given_geometry(best, drawn, options.progress) : not_asked_for(result.solution);
   const std::vector<SourceShares> shares = source_shares(best);
-  const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
+  const std::vector<double> active_span_m = active_length_spans_m(data, result.delay_s);
   const Reporting of{data,
                      best.density->parameters(),
                      drawn,
                      shares,
                      given,
-                     motion,
+                     active_span_m,
                      result,
                      best.mode.converged,
                      options.from_mvc,

@@ -7,7 +7,6 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/parallel.h"
-#include "myoid/identification/residual_model.h"
 #include "myoid/posterior/drive.h"
 
 namespace myoid::identification {

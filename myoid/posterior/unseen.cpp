@@ -8,7 +8,7 @@
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/core/parallel.h"
 #include "myoid/identification/muscle_law.h"
-#include "myoid/intervals/held_tendon.h"
+#include "myoid/identification/parameter_slots.h"
 
 namespace myoid::identification {
 namespace {

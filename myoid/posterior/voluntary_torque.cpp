@@ -79,7 +79,7 @@ Reading of_peak(const NormalTorque& torque, Eigen::Index first, const Eigen::Vec
 /// Makes the rows and the curve of one owner.
 class Rows {
  public:
-  Rows(const PosteriorFacts& fit,
+  Rows(const NumberFacts& fit,
        VoluntaryCurve curve,
        const OwnTorque& torque,
        const Postures& postures,
@@ -117,7 +117,7 @@ class Rows {
 
   /// Returns a row with both readings and its verdict.
   [[nodiscard]] ParameterEstimate row(
-      const std::string& name, Unit unit, const Reading& person, const Reading& given, PosteriorFacts facts) const {
+      const std::string& name, Unit unit, const Reading& person, const Reading& given, NumberFacts facts) const {
     ParameterEstimate e{.muscle = curve_.owner, .tied_to = {}, .parameter = name + curve_.ending, .unit = unit};
     e.method = "torque";
     e.fit_case = "both";
@@ -128,9 +128,7 @@ class Rows {
     e.given_estimate = facts.given = given.value;
     e.given_ci_low = facts.low_given = given.low;
     e.given_ci_high = facts.high_given = given.high;
-    const Finding found = finding(facts);
-    e.verdict = verdict_of(found);
-    e.reason = reason_of(found, facts);
+    judge(e, facts);
     if (!curve_.from_mvc)
       e.reason +=
           "; no maximal contraction was recorded: this is at the largest recorded EMG, not the greatest possible";
@@ -150,7 +148,7 @@ class Rows {
   }
 
   [[nodiscard]] ParameterEstimate angle_row(const Peaks& person, const Peaks& given) const {
-    PosteriorFacts facts = fit_;
+    NumberFacts facts = fit_;
     facts.is_angle = true;
     facts.at_range_end = person.at_end || person.at_ends > kEndShare;
     ParameterEstimate e = row(std::string(kVoluntaryAngle), Unit::radian, of_draws(person.place, person.places),
@@ -178,7 +176,7 @@ class Rows {
                                        : fmt::format("{:.0f} mm of the muscle's length", 1000.0 * place);
   }
 
-  const PosteriorFacts& fit_;
+  const NumberFacts& fit_;
   VoluntaryCurve curve_;
   const OwnTorque& torque_;
   const Eigen::VectorXd& place_;
@@ -191,7 +189,7 @@ struct OwnerTorques {
   const EstimatorOptions& options;
   const ParameterMap& map;
   const JointParts& parts;
-  const PosteriorFacts& fit;
+  const NumberFacts& fit;
   LinearReading of_person, given;
   Eigen::VectorXd greatest_envelope;
   VoluntaryTorques all = {};
@@ -254,7 +252,7 @@ VoluntaryTorques voluntary_torques(const StudyData& data,
                                    const EstimatorOptions& options,
                                    const VoluntaryReading& of_person,
                                    const VoluntaryReading& given,
-                                   const PosteriorFacts& fit) {
+                                   const NumberFacts& fit) {
   const Likelihood& likelihood = of_person.likelihood;
   OwnerTorques torques{data,
                        options,

@@ -6,7 +6,7 @@
 
 #include "myoid/intervals/result.h"
 #include "myoid/posterior/likelihood.h"
-#include "myoid/posterior/verdicts.h"
+#include "myoid/intervals/verdicts.h"
 
 namespace myoid::identification {
 
@@ -45,7 +45,7 @@ struct VoluntaryTorques {
                                                  const EstimatorOptions& options,
                                                  const VoluntaryReading& of_person,
                                                  const VoluntaryReading& given,
-                                                 const PosteriorFacts& fit);
+                                                 const NumberFacts& fit);
 
 /// Speeds of a joint at which power is reported, as of isokinetic dynamometers [deg/s].
 inline constexpr int kVoluntarySpeeds_degps[] = {60, 120, 180};

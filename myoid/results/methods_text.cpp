@@ -206,33 +206,6 @@ void say_muscles(const StudyResult& result, Writer& out) {
   if (torque != nullptr) out.say("{}", lag_text(result, torque->lag));
 }
 
-/// Describes the loss function; empty for squares.
-std::string_view loss_text(identification::Loss loss) {
-  using identification::Loss;
-  return loss == Loss::huber ? " with Huber's loss" : loss == Loss::cauchy ? " with Cauchy's loss" : "";
-}
-
-void say_least_squares(const StudyResult& result, const IdentificationResult& torque, Writer& out) {
-  const identification::EstimatorOptions& options = result.fit_input.options;
-  out.say(
-      "All parameters were estimated together from {} samples of the torque by weighted nonlinear least "
-      "squares{}{}{}{}.",
-      torque.samples_used, loss_text(options.loss),
-      options.residual_cutoff_hz
-          ? fmt::format(", with measured and modelled torque low-passed at {:g} Hz", *options.residual_cutoff_hz)
-          : "",
-      options.priors && !torque.exact ? ", with prior distributions from the literature" : "",
-      options.weights && options.correct_attenuation && !torque.exact
-          ? ", corrected for the errors of the EMG as a regressor"
-          : "");
-  if (torque.exact) return;
-  std::vector<std::string> routes{
-      fmt::format("a covariance that allows for correlated errors{}", out.cite("newey1987"))};
-  if (options.intervals.profile) routes.push_back(fmt::format("the profile likelihood{}", out.cite("raue2009")));
-  out.say("95 % intervals are the widest by {}{}.", listed(routes),
-          torque.model_error > 0.0 ? ", widened by the systematic error that the residuals showed" : "");
-}
-
 void say_posterior(const IdentifySpec& spec, const IdentificationResult& torque, Writer& out) {
   out.say(
       "All parameters were estimated from {} samples of the torque as the mean of their posterior density about its "
@@ -252,10 +225,7 @@ void say_fit(const StudyResult& result, Writer& out) {
   const IdentifySpec& spec = result.source.study.identify;
   const IdentificationResult* torque = method_of(result.fit, "torque");
   if (torque != nullptr) {
-    if (spec.by_posterior())
-      say_posterior(spec, *torque, out);
-    else
-      say_least_squares(result, *torque, out);
+    say_posterior(spec, *torque, out);
     out.say(
         "Each parameter was classed as identified, weak, dominated by its prior, or not identifiable by this "
         "recording.");

@@ -62,11 +62,7 @@ ordered_json estimate_json(const ParameterEstimate& e) {
   ordered_json object;
   for (const EstimateColumn& column : identification::estimate_columns())
     object[std::string(column.name)] = cell_of(e, column, JsonValue{});
-  object["routes_disagree"] = e.routes_disagree;
   if (!e.tied_to.empty()) object["tied_to"] = e.tied_to;
-  object["intervals"] = array_of(e.routes, [](const identification::RouteInterval& r) -> ordered_json {
-    return {{"route", r.route}, {"ci_low", number_or_null(r.low)}, {"ci_high", number_or_null(r.high)}};
-  });
   if (e.variance_shares) {
     for (std::size_t s = 0; s < identification::kSourceColumns.size(); ++s)
       object["variance_shares"][std::string(identification::kSourceColumns[s])] = (*e.variance_shares)[s];
@@ -74,36 +70,22 @@ ordered_json estimate_json(const ParameterEstimate& e) {
   return object;
 }
 
-/// The routes that have columns, and whether the sources of the variance have columns.
-struct MoreColumns {
-  std::vector<std::string> routes{"sandwich", "cluster", "jackknife", "bootstrap", "profile"};
-  bool shares = false;
-};
-
-MoreColumns more_columns(const std::vector<IdentificationResult>& methods) {
-  MoreColumns more;
-  for (const IdentificationResult& method : methods) {
-    for (const ParameterEstimate& e : method.estimates) more.shares = more.shares || e.variance_shares.has_value();
-  }
-  return more;
+/// Returns true if the sources of the variance have columns.
+bool with_shares(const std::vector<IdentificationResult>& methods) {
+  return std::ranges::any_of(methods, [](const IdentificationResult& method) {
+    return std::ranges::any_of(method.estimates, [](const auto& e) { return e.variance_shares.has_value(); });
+  });
 }
 
 /// Returns a row of parameters.csv without its end of line.
-std::string estimate_row(const ParameterEstimate& e, const MoreColumns& more) {
+std::string estimate_row(const ParameterEstimate& e, bool shares) {
   std::vector<std::string> cells;
   for (const EstimateColumn& column : identification::estimate_columns()) {
     if (column.kind == EstimateColumn::Kind::json) continue;
     const std::string cell = cell_of(e, column, CsvCell{});
     cells.push_back(column.kind == EstimateColumn::Kind::sentence ? csv_quoted(cell) : csv_cell(cell));
   }
-  for (const std::string& route : more.routes) {
-    const auto it = std::ranges::find(e.routes, route, &identification::RouteInterval::route);
-    const bool known = it != e.routes.end();
-    cells.push_back(known ? number_or_empty(it->low) : "");
-    cells.push_back(known ? number_or_empty(it->high) : "");
-  }
-  cells.push_back(CsvCell{}(e.routes_disagree));
-  for (std::size_t s = 0; more.shares && s < identification::kSourceColumns.size(); ++s)
+  for (std::size_t s = 0; shares && s < identification::kSourceColumns.size(); ++s)
     cells.push_back(e.variance_shares ? number_or_empty((*e.variance_shares)[s]) : "");
   return fmt::format("{}", fmt::join(cells, ","));
 }
@@ -159,8 +141,6 @@ ordered_json trial_json(const identification::TrialFit& t, Number number) {
           {"rmse_nm", number(t.score.rmse_nm())},
           {"nrmse_range", number(t.score.nrmse_range())},
           {"r2", number(t.score.r2())},
-          {"smoothed_r2", number(smoothed_score(t).r2())},
-          {"smoothed_below_hz", number(t.smooth_hz)},
           {"band_rmse_nm", number(t.band.rmse_nm())},
           {"band_nrmse_range", number(t.band.nrmse_range())},
           {"band_r2", number(t.band.r2())},
@@ -171,8 +151,6 @@ ordered_json method_json(const IdentificationResult& method) {
   // Method paper has neither noise nor delay, and predicts forces, not torque.
   const bool paper = method.method == "paper";
   const auto unless_paper = [&](double value) { return paper ? ordered_json(nullptr) : number_or_null(value); };
-  std::vector<std::string> warnings = method.interval_warnings;
-  warnings.insert(warnings.end(), method.warnings.begin(), method.warnings.end());
   return {{"method", method.method},
           {"termination", std::string(math::name(method.termination))},
           {"message", method.message},
@@ -184,18 +162,14 @@ ordered_json method_json(const IdentificationResult& method) {
           {"emg_cv", unless_paper(method.emg_cv)},
           {"r2", number_or_null(method.r2)},
           {"model_error", unless_paper(method.model_error)},
-          {"condition", unless_paper(method.condition)},
           {"emg_delay_s", unless_paper(method.delay_s)},
           {"emg_lag", paper ? ordered_json(nullptr) : ordered_json(identification::name(method.lag))},
-          {"shared_lag_gain", number_or_null(method.shared_lag_gain)},
-          {"hardly_told_apart", method.collinear},
           {"estimates", array_of(method.estimates, estimate_json)},
           {"exact_data", method.exact},
           {"left_open_by_the_data", method.undetermined},
           {"diagnoses", method.diagnoses},
-          {"warnings", warnings},
+          {"warnings", method.warnings},
           {"prior_distances", array_of(method.prior_distances, distance_json)},
-          {"bootstrap", {{"converged", method.bootstrap_replicates}, {"failed", method.bootstrap_failed}}},
           {"branch_tests", array_of(method.branch_tests, branch_test_json)},
           {"published_searches", array_of(method.published, published_json)},
           {"searches", array_of(method.basins, basins_json)},
@@ -225,8 +199,6 @@ ordered_json fold_json(const identification::Fold& f) {
   return {{"trial", f.trial},
           {"joint", f.joint},
           {"identified", score_json(f.identified)},
-          {"identified_smoothed", score_json(f.smooth)},
-          {"smoothed_below_hz", number_or_null(f.smooth_hz)},
           {"identified_below_cutoff", score_json(f.band)},
           {"literature_with_gain", score_json(f.literature)},
           {"gain", number_or_null(f.gain)},
@@ -273,18 +245,16 @@ bool any_held_back(const std::vector<IdentificationResult>& methods) {
 }  // namespace
 
 std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
-  const MoreColumns more = more_columns(methods);
-  std::string text;
+  const bool shares = with_shares(methods);
+  std::vector<std::string> names;
   for (const EstimateColumn& column : identification::estimate_columns()) {
-    if (column.kind != EstimateColumn::Kind::json) text += std::string(column.name) + ",";
+    if (column.kind != EstimateColumn::Kind::json) names.emplace_back(column.name);
   }
-  for (const std::string& route : more.routes) text += fmt::format("ci_low_{0},ci_high_{0},", route);
-  text += "routes_disagree";
-  for (std::size_t s = 0; more.shares && s < identification::kSourceColumns.size(); ++s)
-    text += fmt::format(",variance_{}", identification::kSourceColumns[s]);
-  text += "\n";
+  for (std::size_t s = 0; shares && s < identification::kSourceColumns.size(); ++s)
+    names.push_back(fmt::format("variance_{}", identification::kSourceColumns[s]));
+  std::string text = fmt::format("{}\n", fmt::join(names, ","));
   for (const IdentificationResult& method : methods) {
-    for (const ParameterEstimate& e : method.estimates) text += estimate_row(e, more) + "\n";
+    for (const ParameterEstimate& e : method.estimates) text += estimate_row(e, shares) + "\n";
   }
   return text;
 }
@@ -316,11 +286,6 @@ std::string fold_parameters_csv(const std::vector<identification::Fold>& folds) 
   return text;
 }
 
-ordered_json force_loop_json(const identification::ForceLoop& loop) {
-  return {
-      {"end", std::string(identification::name(loop.end))}, {"message", loop.message}, {"rounds", loop.rounds.size()}};
-}
-
 std::string parameters_json(const std::vector<IdentificationResult>& methods,
                             const std::vector<identification::Fold>& folds,
                             const Provenance& provenance,
@@ -331,9 +296,8 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
   for (const TrialPhases& trial : context.phases) {
     for (const Phase& phase : trial.phases) object["segments"].push_back(phase_json(trial.trial, phase));
   }
-  if (context.force_loop != nullptr) object["force_loop"] = force_loop_json(*context.force_loop);
   object["left_out"] = !folds.empty() ? context.left_out : any_held_back(methods) ? "validation" : "none";
-  object["max_rate_hz"] = context.max_rate_hz ? ordered_json(*context.max_rate_hz) : nullptr;
+  object["max_rate_hz"] = identification::EstimatorOptions{}.max_rate_hz;
   if (!context.starting_values.empty()) object["starting_values"] = context.starting_values;
   object["resting_torque"] = array_of(context.resting, resting_json);
   object["leave_one_trial_out"] = array_of(folds, fold_json);
@@ -343,9 +307,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
 ParameterContext parameter_context(const StudyResult& result) {
   return {.phases = result.fit_input.phases,
           .resting = result.resting,
-          .left_out = std::string(choice_name(result.source.study.identify.folds)),
-          .max_rate_hz = result.source.study.identify.max_rate_hz,
-          .force_loop = result.fit.force_loop ? &*result.fit.force_loop : nullptr};
+          .left_out = std::string(choice_name(result.source.study.identify.folds))};
 }
 
 void write_parameter_files(const std::vector<IdentificationResult>& methods,

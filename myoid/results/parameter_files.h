@@ -1,16 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "myoid/core/provenance.h"
 #include "myoid/intervals/result.h"
 #include "myoid/methods/cross_validation.h"
-#include "myoid/methods/force_loop.h"
 #include "myoid/methods/resting_torque.h"
 #include "myoid/phases/phases.h"
 #include "myoid/run/study_result.h"
@@ -33,17 +29,11 @@ namespace myoid {
 struct ParameterContext {
   std::vector<TrialPhases> phases;
   std::vector<identification::RestingJoint> resting;
-  std::string left_out = "trial";     ///< Kind of a fold, if there are folds: trial, condition, block.
-  std::optional<double> max_rate_hz;  ///< Highest rate after thinning; empty: unknown.
-  std::string starting_values;        ///< Starting values from the literature, as a sentence; empty: none.
-  const identification::ForceLoop* force_loop = nullptr;  ///< Null: no loop.
+  std::string left_out = "trial";  ///< Kind of a fold, if there are folds: trial, condition, block.
+  std::string starting_values;     ///< Starting values from the literature, as a sentence; empty: none.
 };
 
-/// Returns how the loop of forces and parameters ended, for the files with results.
-[[nodiscard]] nlohmann::ordered_json force_loop_json(const identification::ForceLoop& loop);
-
-/// Returns all estimates with covariance, diagnostics, folds, phases, resting torques and the end
-/// of the loop of forces and parameters.
+/// Returns all estimates with covariance, diagnostics, folds, phases and resting torques.
 [[nodiscard]] std::string parameters_json(const std::vector<identification::IdentificationResult>& methods,
                                           const std::vector<identification::Fold>& folds,
                                           const Provenance& provenance,

@@ -110,24 +110,6 @@ report::Section informed_section(const StudyResult& result) {
     }
     section.tables.push_back(std::move(table));
   }
-  if (result.fit.force_loop) {
-    const identification::ForceLoop& loop = *result.fit.force_loop;
-    section.paragraphs.push_back(
-        fmt::format("Forces and parameters in a loop: {} ({}).", identification::name(loop.end), loop.message));
-    report::Table table{.id = "force_loop",
-                        .title = "Forces and parameters, round by round",
-                        .caption =
-                            "The largest relative change of a parameter, the change of the forces, and the torque that "
-                            "no muscle carries.",
-                        .columns = {"round", "largest change", "of", "change of forces", "reserve (rms) [N m]"}};
-    for (std::size_t k = 0; k < loop.rounds.size(); ++k) {
-      const identification::ForceLoopRound& round = loop.rounds[k];
-      table.rows.push_back(
-          report::text_row({fmt::format("{}", k + 1), fmt::format("{:.2g}", round.parameter_change), round.parameter,
-                            fmt::format("{:.2g}", round.force_change), fmt::format("{:.3f}", round.reserve_nm)}));
-    }
-    section.tables.push_back(std::move(table));
-  }
   return section;
 }
 

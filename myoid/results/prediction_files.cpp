@@ -44,8 +44,7 @@ std::string band_sentence(const std::vector<identification::TrialFit>& predictio
              ? "Bands are of the person: that of a torque holds the parameters, the errors of moment arms, tendons and "
                "sensors as far as the fitted trials show them, and the noise; that of a force holds the parameters, "
                "given the drive and the lengths."
-             : "Bands are given geometry and sensors, as if moment arms, tendons and sensors were exact: that of a "
-               "torque holds the parameters and the noise, that of a force the parameters.";
+             : "The run fitted data without noise: there are no bands.";
 }
 
 recording::NameIds prediction_folders(const std::vector<identification::TrialFit>& predictions) {

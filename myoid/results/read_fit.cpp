@@ -45,6 +45,8 @@ identification::IdentificationResult fit_of(const json& method) {
   fit.torque_sd_nm = number(method.at("torque_sd_nm"));
   fit.envelope_variance = vector_of(method.at("envelope_variance"));
   fit.noise = vector_of(method.at("noise"));
+  if (!fit.exact && fit.noise.size() == 0)
+    throw InvalidInput("its fit is that of an earlier version, by an estimator that is gone; run the study again");
   const json& covariance = method.at("covariance");
   fit.free_parameters = covariance.at("parameters").get<std::vector<std::string>>();
   fit.solution = vector_of(covariance.at("mean"));

@@ -129,7 +129,6 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
   run["end_s"] = report::number_or_null(result.end_s);
   run["seconds"] = ordered_json::object();
   for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
-  if (result.fit.force_loop) run["force_loop"] = force_loop_json(*result.fit.force_loop);
   const recording::NameIds ids = trial_ids(result.source.study);
   run["trials"] = array_of(result.trials, [&](const TrialResult& trial) { return trial_record(trial, ids); });
   const signals::EmgChain emg = emg_chain(result, nullptr);

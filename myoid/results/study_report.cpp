@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "myoid/design/design_report.h"
-#include "myoid/intervals/estimate_remarks.h"
 #include "myoid/math/statistics.h"
 #include "myoid/report/typeset.h"
 #include "myoid/results/methods_text.h"
@@ -159,10 +158,6 @@ Section parameters_section(const StudyResult& result, const IdentificationResult
                   torque.emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
                                         : fmt::format("{:.0f} %", 100.0 * torque.emg_cv),
                   1000.0 * torque.delay_s));
-  const std::string lag = identification::lag_remark(torque);
-  if (!lag.empty()) section.paragraphs.push_back(lag);
-  if (!torque.collinear.empty())
-    section.paragraphs.push_back(fmt::format("Hardly told apart: {}.", fmt::join(torque.collinear, "; ")));
   section.tables = tables_with_basins(estimate_tables(result, torque), torque);
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m)
     section.figures.push_back(muscle_curves(result, torque, m));
@@ -242,7 +237,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   if (result.next) sections.push_back(next_recording_section(*result.next));
   if (const auto* shown = torque != nullptr ? torque : paper) sections.push_back(forces_section(result, *shown));
   if (auto emg = emg_section(result)) sections.push_back(std::move(*emg));
-  if (!result.fit.informed.empty() || result.fit.force_loop) sections.push_back(informed_section(result));
+  if (!result.fit.informed.empty()) sections.push_back(informed_section(result));
   if (!result.fit_input.phases.empty()) sections.push_back(phases_section(result));
   sections.push_back(trials_section(result));
   sections.push_back(methods_section(methods_text(result, provenance)));

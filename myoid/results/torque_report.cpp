@@ -90,29 +90,21 @@ std::string error_and_r2(const identification::Score& score) {
   return fmt::format("{:.2f} ({:.2f})", score.rmse_nm(), score.r2());
 }
 
-/// Returns "0.912 (below 2.3 Hz)".
-std::string smoothed_text(const identification::Score& score, double cutoff_hz) {
-  return cutoff_hz > 0.0 ? fmt::format("{:.3f} (below {:.2g} Hz)", score.r2(), cutoff_hz)
-                         : fmt::format("{:.3f}", score.r2());
-}
-
 /// Returns "94 %"; "-" if unknown.
 std::string share_text(double share) {
   return std::isfinite(share) ? fmt::format("{:.0f} %", 100.0 * share) : std::string("-");
 }
 
-/// Returns a trial's first cells: its name, RMSE, NRMSE and R2, good above `least_r2`; R2 smoothed; NRMSE and R2 below
+/// Returns a trial's first cells: its name, RMSE, NRMSE and R2, good above `least_r2`; NRMSE and R2 below
 /// 1.5 Hz.
 std::vector<Cell> score_cells(Cell name,
                               const identification::Score& score,
                               double least_r2,
-                              std::string smoothed,
                               const identification::Score& band) {
   return {std::move(name),
           {fmt::format("{:.2f}", score.rmse_nm())},
           {fmt::format("{:.1f} %", 100.0 * score.nrmse_range())},
           {fmt::format("{:.3f}", score.r2()), score.r2() > least_r2 ? Badge::good : Badge::weak},
-          {std::move(smoothed)},
           {fmt::format("{:.1f} %", 100.0 * band.nrmse_range())},
           {fmt::format("{:.3f}", band.r2())}};
 }
@@ -124,12 +116,11 @@ Table folds_table(const StudyResult& result) {
       fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
       fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
           "NRMSE is RMSE over the range. The prediction is that of a fit without this part (fold_parameters.csv); in "
-          "band: share of the samples within the prediction's 95 % band; smoothed, it is low-passed where the noise of "
-          "its EMG does least harm. Below 1.5 Hz both torques are compared without faster changes, which in the "
+          "band: share of the samples within the prediction's 95 % band. Below 1.5 Hz both torques are compared without faster changes, which in the "
           "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. Baselines, RMSE in N m "
           "and R2 in brackets: the literature's parameters with the one gain that fits the others best; torque "
           "regressed on EMG times moment arm; the others' mean torque.",
-      {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz",
+      {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz",
        "VAF", "in band", "lag [ms]", "literature x gain", "regression", "constant"}};
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
   for (const identification::Fold& f : result.folds) {
@@ -139,7 +130,7 @@ Table folds_table(const StudyResult& result) {
     std::vector<Cell> row =
         score_cells(stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"} : Cell{title},
                     f.identified, std::max(identification::kVerdictRules.least_r2, f.literature.r2()),
-                    smoothed_text(f.smooth, f.smooth_hz), f.band);
+                    f.band);
     row.insert(row.end(), {{fmt::format("{:.3f}", f.identified.vaf())},
                            {share_text(f.covered)},
                            {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
@@ -156,12 +147,11 @@ Table held_back_table(const StudyResult& result, const identification::Identific
       "validation_trials",
       "Trials held back for validation",
       "Joint torque predicted with the muscles identified on the calibration trials.",
-      {"trial", "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"}};
+      {"trial", "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"}};
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
     table.rows.push_back(score_cells({title_of(result, t.trial, t.joint)}, t.score,
-                                     identification::kVerdictRules.least_r2,
-                                     smoothed_text(smoothed_score(t), t.smooth_hz), t.band));
+                                     identification::kVerdictRules.least_r2, t.band));
     table.rows.back().push_back(
         {share_text(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))});
   }

@@ -11,7 +11,7 @@ namespace myoid {
 bool from_maximal_effort(const EmgSpec& emg) { return emg.has_mvc || emg.kind == EmgKind::activation; }
 
 bool effort_is_unknown(const Study& study) {
-  return !from_maximal_effort(study.emg) && study.identify.gain && study.identify.by_posterior();
+  return !from_maximal_effort(study.emg) && study.identify.gain;
 }
 
 Prior any_effort() {
@@ -38,13 +38,10 @@ std::string meaning_of_strength(const Study& study, bool maximal) {
         "F_max is the force of a completely active muscle: the maximal contractions are taken to reach {:.0f} +- "
         "{:.0f} % of it.",
         100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd);
-  if (study.identify.by_posterior())
-    return fmt::format(
-        "F_max is the force of a completely active muscle: that of the maximal contractions is taken to differ from it "
-        "by {:.0f} % ([beliefs] effort_sd).",
-        100.0 * unseen_effort(study));
-  return "F_max is the force at the greatest effort that was recorded. Untrained people reach some 80 to 100 % of what "
-         "their muscles could exert; [emg] mvc_effort accounts for that.";
+  return fmt::format(
+      "F_max is the force of a completely active muscle: that of the maximal contractions is taken to differ from it "
+      "by {:.0f} % ([beliefs] effort_sd).",
+      100.0 * unseen_effort(study));
 }
 
 identification::ParameterRule effort_bounds() {

@@ -83,7 +83,7 @@ identification::StudyData estimator_data(const FitSource& source) {
   }
   // EMG that is given as activation is taken at its word.
   const bool scaled = study.emg.kind != EmgKind::activation && study.emg.has_mvc;
-  if (study.identify.priors) data.rules = identification::nuisance_rules(data, scaled);
+  data.rules = identification::nuisance_rules(data, scaled);
   if (unknown_effort) data.rules.push_back(effort_bounds());
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
   identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));
@@ -95,21 +95,15 @@ identification::EstimatorSettings estimator_settings(const Study& study) {
   identification::UnseenSpreads unseen = study.beliefs;
   unseen.effort = unseen_effort(study);
   return {.muscles = spec.muscles,
-          .priors = spec.priors,
-          .estimator = spec.estimator,
           .unseen = unseen,
           .lag = spec.dynamics ? identification::LagChoice::equation_1 : spec.lag,
           .delay_s = study.emg.delay_s,
           .delay_per_channel = spec.delay_per_channel,
-          .max_rate_hz = spec.max_rate_hz,
           .angle_sd_rad = spec.angle_sd_deg * kDegree,
           .angle_rate_sd_radps = spec.angle_rate_sd_degps * kDegree,
-          .loss = spec.loss,
           .eccentric = spec.eccentric,
           .normalised = spec.normalised,
-          .starts = spec.starts,
-          .posterior_draws = spec.posterior_draws,
-          .intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile}};
+          .posterior_draws = spec.posterior_draws};
 }
 
 identification::ActivationSource activation_source(const Study& study,

@@ -11,7 +11,6 @@
 
 #include "myoid/intake/limits.h"
 #include "myoid/intervals/estimate_remarks.h"
-#include "myoid/intervals/identifiability.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/statistics.h"
 
@@ -120,12 +119,6 @@ bool Explained::is_wrong() const {
 std::string Explained::text() const {
   return fmt::format("R2 {:.2f}: {:.2f} N m rms below 1.5 Hz, where the torque is {:.2f} rms and varies by {:.2f}",
                      r2(), rms_nm, torque_rms_nm, spread_nm);
-}
-
-identification::Score smoothed_score(const identification::TrialFit& fit) {
-  const Eigen::VectorXd smooth =
-      fit.smooth_hz > 0.0 ? identification::below(fit.time_s, fit.torque_fit_nm, fit.smooth_hz) : fit.torque_fit_nm;
-  return identification::score(fit.torque_nm, smooth);
 }
 
 Explained explained(const IdentificationResult& fit, bool calibration) {

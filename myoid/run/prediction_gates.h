@@ -31,9 +31,6 @@ struct Explained {
   [[nodiscard]] std::string text() const;
 };
 
-/// Returns the score of a trial's prediction below its `smooth_hz`.
-[[nodiscard]] identification::Score smoothed_score(const identification::TrialFit& fit);
-
 /// Returns the explained share of the fitted trials (`calibration`), or of the held-back trials.
 [[nodiscard]] Explained explained(const identification::IdentificationResult& fit, bool calibration);
 /// Returns the explained share of the trials that are left out in turn.

@@ -30,7 +30,6 @@ std::optional<Use> use_in(const RunRecord& run, const std::string& trial) {
 /// Returns the study of the run: its trials keep their uses, further trials are held back.
 Study study_of_run(const RunRecord& run) {
   Study study = read_study(run.study);
-  if (run.estimator) study.identify.estimator = *run.estimator;
   study.identify.methods = {identification::Method::torque};
   for (const auto& [name, use] : run.uses) {
     const auto is_it = [&recorded = name](const TrialSpec& trial) { return recorded.starts_with(trial.name); };

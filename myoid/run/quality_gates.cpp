@@ -263,7 +263,6 @@ std::vector<Gate> sharing_gates(const Study& study, const std::vector<TrialResul
   std::vector<Gate> list;
   // No result of the recording rests on the forces that method paper alone fits.
   const bool counts =
-      study.identify.force_loop ||
       std::ranges::find(study.identify.methods, identification::Method::force) != study.identify.methods.end();
   list.push_back({std::string(kSharingGate),
                   unsolved == 0 ? GateStatus::pass
@@ -315,15 +314,6 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
   return list;
 }
 
-Gate loop_gate(const identification::ForceLoop& loop) {
-  return {std::string(kLoopGate),
-          loop.end == identification::LoopEnd::converged  ? GateStatus::pass
-          : loop.end == identification::LoopEnd::diverged ? GateStatus::fail
-                                                          : GateStatus::warn,
-          fmt::format("{} after {} rounds: {}", identification::name(loop.end), loop.rounds.size(), loop.message),
-          "converged", "Concerns the loop's own numbers only; method torque does not need it."};
-}
-
 Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
   // A larger difference of the synergists' strengths than usual could explain this, too.
   return {
@@ -363,7 +353,6 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   if (const IdentificationResult* torque = torque_of(result.fit)) add(parameter_gates(*torque));
   add(fold_gates(result.folds, std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) !=
                                    result.level_faults.end()));
-  if (result.fit.force_loop) list.push_back(loop_gate(*result.fit.force_loop));
   if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
   if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   return list;

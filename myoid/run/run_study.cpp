@@ -170,10 +170,8 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   StudyFit fit = stages.run("fit", 0.72, 0.8,
                             [&](const Progress& progress) { return study_fit(study, input, result.emg, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
-  if (study.identify.force_loop)
-    fit.force_loop = stages.run("forces and parameters", 0.8, 0.85, [&](const Progress&) { return force_loop(input); });
   StudyValidation validation;
-  if (study.identify.cross_validate && wants_torque(study))
+  if (study.identify.cross_validate && wants_torque(study) && !torque_of(fit)->exact)
     validation = stages.run("validation", 0.85, 0.95, [&](const Progress& progress) {
       return study_validation(fit_source(result), input, *torque_of(fit), progress);
     });

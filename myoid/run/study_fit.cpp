@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "myoid/beliefs/beliefs.h"
-#include "myoid/methods/basins.h"
 #include "myoid/methods/force.h"
 #include "myoid/methods/paper.h"
 #include "myoid/methods/prediction.h"
@@ -53,13 +52,13 @@ StudyFit study_fit(const Study& study, const FitInput& input, const EmgScale& em
       found.methods.push_back(identification::identify_paper(
           input.data, {.multistart = study.identify.starts, .muscles = study.identify.muscles, .shared_forces = true}));
     } else if (method == identification::Method::force) {
-      identification::EstimatorOptions estimator = input.options;
-      estimator.intervals.profile = false;
       found.methods.push_back(
-          identification::identify_force(input.data, {.estimator = std::move(estimator), .shared_forces = true}));
+          identification::identify_force(input.data, {.estimator = input.options, .shared_forces = true}));
     } else {
-      found.methods.push_back(identification::identify_torque(input.data, input.options));
-      identification::look_around(input.data, input.options, found.methods.back());
+      // EMG that is given as activation may be that of a simulation, without noise.
+      std::optional<IdentificationResult> exact;
+      if (study.emg.kind == EmgKind::activation) exact = identification::identify_exactly(input.data, input.options);
+      found.methods.push_back(exact ? std::move(*exact) : identification::identify_torque(input.data, input.options));
     }
   }
   return found;
@@ -79,15 +78,6 @@ std::vector<identification::InformedForces> informed_forces(const FitInput& inpu
     });
   }
   return found;
-}
-
-identification::ForceLoop force_loop(const FitInput& input) {
-  identification::EstimatorOptions estimator = input.options;
-  estimator.intervals = {};
-  estimator.multistart = 0;
-  return identification::iterate_forces(input.data,
-                                        {.force = {.estimator = std::move(estimator), .shared_forces = true},
-                                         .delay_s = identification::beliefs::kEmgDelay.value});
 }
 
 }  // namespace myoid

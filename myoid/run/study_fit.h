@@ -9,7 +9,7 @@
 #include "myoid/intake/study_activation.h"
 #include "myoid/intervals/result.h"
 #include "myoid/methods/exchanged_electrodes.h"
-#include "myoid/methods/force_loop.h"
+#include "myoid/methods/informed_forces.h"
 #include "myoid/methods/shifted_emg.h"
 #include "myoid/run/fit_input.h"
 
@@ -24,7 +24,6 @@ struct StudyFit {
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
   std::vector<identification::InformedForces> informed;
-  std::optional<identification::ForceLoop> force_loop;  ///< If the study asks for it.
 };
 
 /// Returns the result of the method of this name; nullptr if there is none.
@@ -49,8 +48,5 @@ struct StudyFit {
 /// Returns the forces informed by the EMG, for `StudyFit::informed`.
 [[nodiscard]] std::vector<identification::InformedForces> informed_forces(
     const FitInput& input, const std::vector<identification::IdentificationResult>& methods);
-
-/// Iterates forces and parameters until they agree, for `StudyFit::force_loop`.
-[[nodiscard]] identification::ForceLoop force_loop(const FitInput& input);
 
 }  // namespace myoid

@@ -99,11 +99,8 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
   const identification::StudyData data = worth_a_fit ? plain_data(source, of_study) : of_study;
   identification::IdentificationResult fit;
   if (worth_a_fit) {
-    options.loss = identification::Loss::huber;
-    options.starts = 1;
-    options.multistart = 0;
-    options.passes = 2;
-    options.intervals = {};
+    options.marginals = false;
+    options.posterior_draws = 0;
     options.predictions = false;
     options.choose_lag = false;
     options.progress.report = nullptr;

@@ -31,10 +31,6 @@ RunRecord read_run_record(const fs::path& folder) {
     record.command = run.value("command", "");
     record.start_s = number_of(run, "start_s");
     record.end_s = number_of(run, "end_s");
-    const json options = run.value("options", json::object());
-    if (options.contains("identify"))
-      record.estimator =
-          choice_named<identification::EstimatorKind>(options.at("identify").value("estimator", std::string()));
     for (const json& trial : run.value("trials", json::array()))
       record.uses[trial.at("name").get<std::string>()] = trial.at("use").get<std::string>();
     for (const json& input : run.value("inputs", json::array()))

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "myoid/core/provenance.h"
-#include "myoid/identification/options.h"
 
 namespace myoid {
 
@@ -17,8 +16,7 @@ struct RunRecord {
   std::filesystem::path study;
   std::string command;  ///< Empty: unknown.
   std::optional<double> start_s, end_s;
-  std::optional<identification::EstimatorKind> estimator;  ///< Estimator of the run.
-  std::map<std::string, std::string> uses;                 ///< The use of each trial, by its name.
+  std::map<std::string, std::string> uses;  ///< The use of each trial, by its name.
   std::vector<InputFile> inputs;
 };
 

@@ -176,6 +176,7 @@ bool SettingVisitor::numbers_by_name(std::string_view key, std::map<std::string,
   return met({key, SettingKind::numbers_by_name, about}, value, set_as<std::map<std::string, double>>(value));
 }
 
+void SettingVisitor::retired(std::string_view /*key*/, std::string_view /*why*/, std::vector<std::string>& /*said*/) {}
 void SettingVisitor::must(bool /*holds*/, std::string_view /*key*/, const std::string& /*message*/) {}
 
 }  // namespace myoid

@@ -160,6 +160,10 @@ class SettingVisitor {
     });
   }
 
+  /// A setting of an earlier version: a file may hold it, and `said` then gets a sentence with the reason why it has no
+  /// effect. No other visitor meets it.
+  virtual void retired(std::string_view key, std::string_view why, std::vector<std::string>& said);
+
   /// Refuses a file with contradictory settings: ReadError at the line of `key`.
   virtual void must(bool holds, std::string_view key, const std::string& message);
 

@@ -6,6 +6,10 @@ namespace myoid {
 
 using recording::TomlTable;
 
+void SettingReader::retired(std::string_view key, std::string_view why, std::vector<std::string>& said) {
+  if (table_->asked(key)) said.push_back(fmt::format("the setting {} has no effect: {}", key, why));
+}
+
 void SettingReader::must(bool holds, std::string_view key, const std::string& message) {
   if (!holds) table_->fail(key, message);
 }

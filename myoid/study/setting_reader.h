@@ -15,6 +15,7 @@ class SettingReader : public SettingVisitor {
   SettingReader(recording::TomlTable& table, std::filesystem::path folder)
       : table_(&table), folder_(std::move(folder)) {}
 
+  void retired(std::string_view key, std::string_view why, std::vector<std::string>& said) override;
   void must(bool holds, std::string_view key, const std::string& message) override;
 
  protected:

@@ -235,19 +235,13 @@ struct PhasesSpec {
 
 struct IdentifySpec {
   std::vector<identification::Method> methods{identification::Method::paper, identification::Method::torque};
-  bool force_loop = false;           ///< Iterate forces and parameters until they agree.
   std::vector<std::string> muscles;  ///< Empty: all.
-  bool priors = true;
-  identification::EstimatorKind estimator = identification::EstimatorKind::posterior;
-  int posterior_draws = 0;  ///< For estimator `posterior`; 0: draws from its approximation.
+  int posterior_draws = 0;  ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
   bool gain = true;         ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
   int next_movements = 4;  ///< Movements to suggest for the next recording; 0: none.
   identification::FoldKind folds = identification::FoldKind::trial;
-  int bootstrap = 100;  ///< Bootstrap replicates for the second route to intervals; 0: none.
-  bool profile = true;  ///< Profile likelihood, the third route.
-  int starts = 1;       ///< Above 1: adds Sobol points, and the table of basins.
-  identification::Loss loss = identification::Loss::square;
+  int starts = 1;  ///< Method `paper`: above 1 adds Sobol points, and the table of basins.
   identification::Eccentric eccentric = identification::Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
   identification::LagChoice lag = identification::LagChoice::automatic;
@@ -257,9 +251,7 @@ struct IdentifySpec {
   bool delay_per_channel = false;
   double angle_sd_deg = 0.0;  ///< Errors of the joint angle and of its rate, propagated.
   double angle_rate_sd_degps = 0.0;
-  double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
-  /// Returns true if method `torque` is by the posterior, which rests on priors.
-  [[nodiscard]] bool by_posterior() const { return priors && estimator == identification::EstimatorKind::posterior; }
+  std::vector<std::string> without_effect;  ///< A sentence for each setting of an earlier version.
   bool operator==(const IdentifySpec&) const = default;
 };
 

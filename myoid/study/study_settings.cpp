@@ -1,6 +1,8 @@
 #include "myoid/study/study_settings.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -223,37 +225,35 @@ void visit(PhasesSpec& phases, SettingVisitor& v) {
 
 namespace {
 
+/// Settings of [identify] of earlier versions, which had a second estimator, and the reason why they have no effect.
+constexpr std::pair<std::string_view, std::string_view> kRetired[] = {
+    {"estimator", "the posterior is the only estimator"},
+    {"priors", "the posterior rests on priors; data without noise are fitted without"},
+    {"force_loop", "the muscles of the torque share the forces (EmgInformed_force.sto)"},
+    {"loss", "the posterior has the spread of its errors as unknowns"},
+    {"bootstrap", "the posterior has one route to its intervals"},
+    {"profile", "the posterior has one route to its intervals"},
+    {"max_rate_hz", "the rate of the fitted samples follows from the low-pass of the residuals"}};
+
 /// Visits [identify]: the fit itself.
 void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
   static constexpr std::string_view kMuscleLaws[] = {"paper", "model"};
   static constexpr std::string_view kTendons[] = {"rigid", "elastic"};
   v.choices("method", identify.methods, {.says = "The methods, one or several."});
   v.texts("muscles", identify.muscles, {.says = "The muscles whose parameters are found.", .word = "all"});
-  v.flag("force_loop", identify.force_loop,
-         {.says = "Share the torque with the muscles found, fit them to their forces, share again, until nothing "
-                  "changes. The end is reported: `converged`, `diverged` (a gate fails) or `not_settled`. By the "
-                  "posterior the muscles are those of the torque, and one round shares it among them."});
-  v.flag("priors", identify.priors, {.says = "The [priors](../theory/priors.md) from the literature are used."});
-  v.choice("estimator", identify.estimator,
-           {.says = "Methods `torque` and `force`: `posterior`, whose intervals also hold moment arms, tendons, the "
-                    "scale of the "
-                    "torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); "
-                    "`least_squares`, weighted and corrected for the errors of the EMG, whose intervals hold given "
-                    "geometry and sensors only (always without priors)."});
   v.count("posterior_draws", identify.posterior_draws,
-          {.says = "Estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the intervals, in place of an "
+          {.says = "So many draws by Hamiltonian Monte Carlo make the intervals, in place of an "
                    "approximation; 1000 take some ten times as long. 0: none.",
            .limits = within(0, 100000)});
   v.flag("gain", identify.gain, {.says = "The uncertainty of the EMG's normalization widens the intervals."});
   v.count("starts", identify.starts,
-          {.says = "Above 1: the search begins at the literature's values and at Sobol points over ± 2 standard "
-                   "deviations of the priors, and the lowest minimum counts (`paper`: still that of the first, as "
-                   "published). A table of where they ended goes to the report and parameters.json (`searches`).",
+          {.says = "Method `paper`: above 1, searches from Sobol points over ± 2 standard deviations of the priors, too. "
+                   "The numbers are still those of the first start; a table of where the searches ended goes to the "
+                   "report and parameters.json (`searches`).",
            .limits = within(1, 1000)});
-  v.choice("loss", identify.loss, {.says = "How much a large residual counts."});
   v.choice("eccentric", identify.eccentric,
            {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (of f_v, lengthening "
-                    "over shortening), `smooth` (ratio 1, no kink), `automatic` (the ratio where priors are used)."});
+                    "over shortening), `smooth` (ratio 1, no kink), `automatic` (the ratio where it has a prior)."});
   v.flag("normalised", identify.normalised, {.says = "l_mˢʰ and v_max keep their ratio to l_m⁰."});
   v.either("muscle_law", identify.model_muscles,
            {.says = "`paper`: neither pennation nor passive force; `model`: as the model's muscles have them.",
@@ -291,16 +291,11 @@ void visit_data(IdentifySpec& identify, SettingVisitor& v) {
   v.count("next_movements", identify.next_movements,
           {.says = "Movements to suggest for the [next recording](design.md), from this one's result; 0: none.",
            .limits = within(0, 50)});
-  v.count("bootstrap", identify.bootstrap,
-          {.says = "Replicates, blocks of 2 s within trials: the second route to intervals; 0: none.",
-           .limits = within(0, 100000)});
-  v.flag("profile", identify.profile, {.says = "Profile likelihood of every parameter, the third route."});
   v.number("angle_sd_deg", identify.angle_sd_deg,
            {.says = "Error of the joint angle, propagated into the weights.", .limits = zero_or_more("deg")});
   v.number("angle_rate_sd_degps", identify.angle_rate_sd_degps,
            {.says = "Error of the angle's rate.", .limits = zero_or_more("deg/s")});
-  v.number("max_rate_hz", identify.max_rate_hz,
-           {.says = "Samples are thinned to at most this.", .limits = within(5.0, 2000.0, "Hz")});
+  for (const auto& [key, why] : kRetired) v.retired(key, why, identify.without_effect);
 }
 
 }  // namespace

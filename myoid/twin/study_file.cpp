@@ -115,7 +115,6 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
       "\n[identify]\n"
       "method = [\"paper\", \"torque\"]\n"
       "muscles = \"all\"\n";
-  if (exact) text += "priors = false                   # exact data need no prior knowledge\n";
   text +=
       "\n[truth]\n"
       "file = \"truth.csv\"               # the report shows it beside the estimates\n";

@@ -42,10 +42,8 @@ Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& 
   Study study = parse_study(twin::study_toml(recording), "study.toml");
   study.model.text = recording.model_osim;
   study.identify.methods = options.methods;
-  study.identify.estimator = options.estimator;
   study.identify.cross_validate = false;
   study.identify.next_movements = 0;
-  study.identify.bootstrap = 0;  // it does not change the reported interval
   study.truth.reset();
   return study;
 }
@@ -116,7 +114,7 @@ OnePerson one_person(const twin::Protocol& protocol, std::uint64_t seed, const T
       if (method.method != "torque") continue;
       for (const identification::TrialFit& t : method.trials) {
         if (t.calibration) continue;
-        person.predictions.push_back({seed, t.trial, t.score, smoothed_score(t), t.band});
+        person.predictions.push_back({seed, t.trial, t.score, t.band});
       }
     }
   } catch (const InvalidInput& error) {
@@ -314,11 +312,10 @@ std::string summary_text(const TwinStudyResult& result) {
 
 std::string predictions_text(const TwinStudyResult& result) {
   std::string predictions =
-      "seed,trial,rmse_nm,nrmse_range,r2,smoothed_rmse_nm,smoothed_nrmse_range,smoothed_r2,band_rmse_nm,band_nrmse_"
-      "range,band_r2\n";
+      "seed,trial,rmse_nm,nrmse_range,r2,band_rmse_nm,band_nrmse_range,band_r2\n";
   for (const TwinPrediction& p : result.predictions) {
     predictions += fmt::format("{},{}", p.seed, recording::csv_cell(p.trial));
-    for (const identification::Score* s : {&p.law, &p.smooth, &p.band})
+    for (const identification::Score* s : {&p.law, &p.band})
       predictions += fmt::format(",{},{},{}", cell(s->rmse_nm()), cell(s->nrmse_range()), cell(s->r2()));
     predictions += "\n";
   }

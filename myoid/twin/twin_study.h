@@ -19,7 +19,6 @@ struct TwinStudyOptions {
   int subjects = 200;
   std::uint64_t first_seed = 1;  ///< Subject k has the seed first_seed + k.
   std::vector<identification::Method> methods = {identification::Method::torque};
-  identification::EstimatorKind estimator = identification::EstimatorKind::posterior;
   Progress progress;
 };
 
@@ -39,9 +38,8 @@ struct TwinRow {
 struct TwinPrediction {
   std::uint64_t seed = 0;
   std::string trial;
-  identification::Score law;     ///< Score of the muscles' law with the reported parameters.
-  identification::Score smooth;  ///< Score of the smoothed prediction (smooth_prediction.h).
-  identification::Score band;    ///< Score of both torques below the fit's own cut-off.
+  identification::Score law;   ///< Score of the prediction with the reported parameters.
+  identification::Score band;  ///< Score of both torques below the fit's own cut-off.
 };
 
 struct TwinFailure {
@@ -53,7 +51,7 @@ struct TwinStudyResult {
   std::string protocol;
   std::string level;
   std::vector<WorldSetting> world;  ///< Keys of [truth] beside the level's defaults.
-  std::vector<TwinRow> rows;        ///< By seed, then in the order of the estimators.
+  std::vector<TwinRow> rows;        ///< By seed, then in the order of the methods.
   std::vector<TwinPrediction> predictions;
   std::vector<TwinFailure> failures;
   int subjects = 0;  ///< Number of persons asked for.

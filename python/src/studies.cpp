@@ -82,17 +82,15 @@ py::dict run(py::dict given) {
   Keywords k("run", std::move(given));
   Work work(k);
   commands::RunOptions o;
-  std::string out, estimator, mat;
+  std::string out, mat;
   bool overwrite = false;
   k.take("study", o.study);
-  k.word("estimator", estimator, {"least_squares", "posterior"});
   k.take("out", out);
   k.take("mat", mat);
   k.take("video", o.video.files);
   k.take("video_offset", o.video.offset_s);
   k.take("overwrite", overwrite);
   k.refuse_others();
-  if (!estimator.empty()) o.estimator = choice_named<identification::EstimatorKind>(estimator);
   o.store = std::filesystem::path(out) / commands::kStageFolder;
   o.call = work.call();
   struct Done {
@@ -297,9 +295,6 @@ commands::DesignOptions design_options(Keywords& k) {
   k.take("wire", o.wire);
   k.take("targets", o.design.targets);
   k.take("after", o.after);
-  std::string estimator;
-  k.word("estimator", estimator, {"least_squares", "posterior"});
-  if (!estimator.empty()) o.estimator = choice_named<identification::EstimatorKind>(estimator);
   k.word("criterion", o.criterion, {"D", "A"});
   k.count("movements", o.design.choice.movements, 1, 50);
   k.count("repeat", o.design.choice.most_of_each, 1, 50);

@@ -78,7 +78,6 @@ py::dict twin_study(py::dict given) {
   commands::TwinStudyOptions o;
   std::string out;
   bool overwrite = false;
-  std::vector<identification::EstimatorKind> estimators;
   k.take("protocol", o.protocol);
   k.take("level", o.level);
   k.take("offset", o.offset);
@@ -87,8 +86,6 @@ py::dict twin_study(py::dict given) {
   k.take("truth", o.truth);
   k.count("subjects", o.study.subjects, 1, 1000000);
   take_choices(k, "method", o.study.methods);
-  take_choices(k, "estimator", estimators);
-  if (!estimators.empty()) o.study.estimator = estimators.front();
   k.take("out", out);
   k.take("overwrite", overwrite);
   k.refuse_others();

@@ -15,7 +15,7 @@
 #include "myoid/identification/envelope.h"
 #include "myoid/identification/muscle_law.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/intervals/held_tendon.h"
+#include "myoid/identification/parameter_slots.h"
 #include "myoid/math/random.h"
 #include "myoid/posterior/density.h"
 

@@ -1,4 +1,4 @@
-#include "myoid/posterior/verdicts.h"
+#include "myoid/intervals/verdicts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A strength of 1000 N, half width 10 %, from a prior four times as wide.
-PosteriorFacts good() {
-  PosteriorFacts facts;
+NumberFacts good() {
+  NumberFacts facts;
   facts.value = 1000.0;
   facts.low = 905.0;
   facts.high = 1100.0;
@@ -28,7 +28,7 @@ PosteriorFacts good() {
 }
 
 TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
-  const PosteriorFacts facts = good();
+  const NumberFacts facts = good();
   EXPECT_EQ(finding(facts), Finding::narrow);
   EXPECT_EQ(verdict_of(Finding::narrow), Verdict::identified);
   const std::string reason = reason_of(Finding::narrow, facts);
@@ -39,13 +39,13 @@ TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
 }
 
 TEST(PosteriorVerdict, AWidthBeyondTheValueHasNoPowerOfTen) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.high = 2.234 * facts.value;
   EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("± 123 % of the person"));
 }
 
 TEST(PosteriorVerdict, AnAnglesWidthIsInDegrees) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.contraction.reset();
   facts.is_angle = true;
   facts.value = facts.given = 0.1;
@@ -69,7 +69,7 @@ TEST(PosteriorVerdict, AnAnglesWidthIsInDegrees) {
 }
 
 TEST(PosteriorVerdict, WhereTheModelIsWrongNothingIsIdentified) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.model_error = 0.19;
   EXPECT_EQ(finding(facts), Finding::narrow);
   facts.model_error = 0.33;
@@ -79,7 +79,7 @@ TEST(PosteriorVerdict, WhereTheModelIsWrongNothingIsIdentified) {
 }
 
 TEST(PosteriorVerdict, AnIntervalThatABoundCutsOffIdentifiesNothing) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.at_bound = true;
   EXPECT_EQ(finding(facts), Finding::cut_off);
   EXPECT_EQ(verdict_of(Finding::cut_off), Verdict::not_identifiable);
@@ -87,15 +87,15 @@ TEST(PosteriorVerdict, AnIntervalThatABoundCutsOffIdentifiesNothing) {
 }
 
 /// The same number, as wide with geometry and sensors exact as of the person.
-PosteriorFacts with_equal_readings() {
-  PosteriorFacts facts = good();
+NumberFacts with_equal_readings() {
+  NumberFacts facts = good();
   facts.low_given = 500.0;
   facts.high_given = 1700.0;
   return facts;
 }
 
 TEST(PosteriorVerdict, TheFartherEndCounts) {
-  PosteriorFacts facts = with_equal_readings();
+  NumberFacts facts = with_equal_readings();
   facts.high = 1130.0;
   EXPECT_EQ(finding(facts), Finding::wide);
   facts.high = 1700.0;
@@ -104,7 +104,7 @@ TEST(PosteriorVerdict, TheFartherEndCounts) {
 }
 
 TEST(PosteriorVerdict, WhatIsNarrowOnlyGivenGeometryAndSensorsIsReproducible) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.high = 1400.0;
   EXPECT_EQ(finding(facts), Finding::narrow_if_given);
   EXPECT_EQ(verdict_of(Finding::narrow_if_given), Verdict::reproducible);
@@ -122,7 +122,7 @@ TEST(PosteriorVerdict, WhatIsNarrowOnlyGivenGeometryAndSensorsIsReproducible) {
 }
 
 TEST(PosteriorVerdict, ReadingsThatExcludeEachOtherIdentifyNothing) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.given = 1250.0;
   facts.low_given = 1105.0;
   facts.high_given = 1450.0;
@@ -131,7 +131,7 @@ TEST(PosteriorVerdict, ReadingsThatExcludeEachOtherIdentifyNothing) {
 }
 
 TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
-  PosteriorFacts facts = with_equal_readings();
+  NumberFacts facts = with_equal_readings();
   facts.contraction = 0.45;
   EXPECT_EQ(finding(facts), Finding::half_the_prior);
   facts.contraction = 0.1;
@@ -143,7 +143,7 @@ TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
 }
 
 TEST(PosteriorVerdict, AValueThatIsFarFromItsPriorIsNotIdentified) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.prior_distance = 4.9;
   EXPECT_EQ(finding(facts), Finding::narrow_and_far);
   EXPECT_EQ(verdict_of(Finding::narrow_and_far), Verdict::weak);
@@ -157,7 +157,7 @@ TEST(PosteriorVerdict, AValueThatIsFarFromItsPriorIsNotIdentified) {
 }
 
 TEST(PosteriorVerdict, ASearchWithoutAnEndAndAnImpossibleMuscleComeFirst) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.possible = false;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::non_physical);
   facts.converged = false;
@@ -165,7 +165,7 @@ TEST(PosteriorVerdict, ASearchWithoutAnEndAndAnImpossibleMuscleComeFirst) {
 }
 
 TEST(PosteriorVerdict, AFitThatExplainsLittleIdentifiesNothing) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.r2 = 0.3;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
   EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("explains little of the torque (R2 0.30)"));
@@ -174,7 +174,7 @@ TEST(PosteriorVerdict, AFitThatExplainsLittleIdentifiesNothing) {
 }
 
 TEST(PosteriorVerdict, OneLengthTellsNothingOfTheForceLengthCurveHoweverNarrow) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.length_span = 0.04;
   facts.possible = false;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
@@ -186,7 +186,7 @@ TEST(PosteriorVerdict, OneLengthTellsNothingOfTheForceLengthCurveHoweverNarrow) 
 }
 
 TEST(PosteriorVerdict, DelaysAreJudgedInSeconds) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.is_delay = true;
   facts.value = 0.05;
   facts.low = 0.04;
@@ -199,7 +199,7 @@ TEST(PosteriorVerdict, DelaysAreJudgedInSeconds) {
 }
 
 TEST(PosteriorVerdict, ANumberThatIsZeroByNatureIsJudgedByItsUsualSize) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.value = 0.02;
   facts.low = -0.38;
   facts.high = 0.42;
@@ -217,7 +217,7 @@ TEST(PosteriorVerdict, ANumberThatIsZeroByNatureIsJudgedByItsUsualSize) {
 }
 
 TEST(PosteriorVerdict, SaysWhereTheApproximationWasNotChecked) {
-  PosteriorFacts facts = good();
+  NumberFacts facts = good();
   facts.approximate = true;
   EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("approximate"));
 }

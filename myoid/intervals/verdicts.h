@@ -2,14 +2,23 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "myoid/intervals/result.h"
 
 namespace myoid::identification {
 
-/// The posterior's facts about one number, from which its verdict follows.
-struct PosteriorFacts {
+/// The facts about one number, from which its verdict follows. Method `paper`, a fit of exact data and a planned
+/// recording have one reading: `given` and its interval are the person's.
+struct NumberFacts {
   bool converged = true;
+  std::string failure;                        ///< Reason why the search did not end at a minimum.
+  bool determined = true;                     ///< False: it lies in a direction that the data leave open.
+  std::string no_effect;                      ///< Reason why nothing in the data depends on the number.
+  std::string bad_company;                    ///< Another number of the same fit that no muscle can have.
+  bool shared_force = false;                  ///< An optimizer shared the force that was fitted; nobody measured it.
+  bool given_strength = false;                ///< F_max is held at the user's value.
+  bool one_reading = false;
   bool approximate = false;                   ///< The interval comes from the normal approximation.
   bool nuisance_gain = false;                 ///< The gain of an EMG channel: a scale that F_max shares.
   double value = 0.0, low = 0.0, high = 0.0;  ///< The person's value and 95 % interval.
@@ -23,7 +32,7 @@ struct PosteriorFacts {
   /// The size of which widths are shares. A number that is 0 by nature has 1.96 standard deviations of its prior here;
   /// empty: widths are shares of the value.
   std::optional<double> usual_size;
-  bool possible = true;  ///< A muscle can have this value.
+  std::string impossible;  ///< Reason why no muscle can have this value.
   bool is_delay = false;
   bool is_angle = false;      ///< Its width is absolute, as a delay's.
   bool at_range_end = false;  ///< A place of a maximum, or its interval, ends where the recording ends.
@@ -37,12 +46,17 @@ struct PosteriorFacts {
 };
 
 /// The answer to these questions: did the search converge; did the muscle act at more than one length; is the number
-/// possible and does the fit explain the torque; is the interval narrow with geometry and sensors exact; how much
-/// narrower than the prior is the person's; is it narrow enough to use; does the model hold; do both readings agree.
+/// possible, does the fit determine it and explain the torque; is the interval narrow with geometry and sensors exact;
+/// how much narrower than the prior is the person's; is it narrow enough to use; does the model hold; do both readings
+/// agree.
 enum class Finding {
   not_converged,
   one_length,  ///< VerdictRules::least_length_span: the interval is that of F_max's prior.
   impossible,
+  bad_company,
+  no_effect,
+  undetermined,
+  shared_force,
   unexplained,      ///< R2 of the fit below VerdictRules::least_r2.
   narrow_if_given,  ///< Narrow with geometry and sensors exact, and not for the person.
   readings_apart,   ///< Narrow, but the person's interval and the one with exact geometry exclude each other.
@@ -54,14 +68,21 @@ enum class Finding {
   narrow_and_far,   ///< Narrow enough, but farther than VerdictRules::prior_conflict.
   cut_off,          ///< Narrow enough, but by a bound.
   range_ends,       ///< Narrow enough, but the recorded range ends there: the maximum may lie beyond.
+  given_strength,   ///< Narrow enough, if F_max is right.
   half_the_prior,   ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
   narrow
 };
 
 /// Returns the first finding that holds.
-[[nodiscard]] Finding finding(const PosteriorFacts& facts);
+[[nodiscard]] Finding finding(const NumberFacts& facts);
 [[nodiscard]] Verdict verdict_of(Finding finding);
 /// Returns a sentence with the finding, its numbers, and the sources that contribute a tenth or more of the variance.
-[[nodiscard]] std::string reason_of(Finding finding, const PosteriorFacts& facts);
+[[nodiscard]] std::string reason_of(Finding finding, const NumberFacts& facts);
+
+/// Fills verdict and reason of an estimate.
+void judge(ParameterEstimate& estimate, const NumberFacts& facts);
+
+/// Returns the end of the reason of F_max where no maximal contraction was recorded, else nothing.
+[[nodiscard]] std::string beside_the_maximum(std::string_view parameter, bool from_mvc);
 
 }  // namespace myoid::identification

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/identification/options.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/intervals/result.h"
+
+namespace myoid::identification {
+
+/// Rate up to which data without noise are fitted. Files hold few digits, so that more samples carry more information.
+inline constexpr double kNoiseFreeRate_hz = 200.0;
+
+/// Selects about `count` samples of the calibration trials, or all if there are fewer; at least
+/// about 10 of each trial. The steps between them are irregular, so that no period of a movement is
+/// a multiple of them. Other trials stay unchanged.
+[[nodiscard]] StudyData few_samples(const StudyData& data, Eigen::Index count);
+
+/// Plain least squares of data without noise: the z within the bounds that minimize
+///
+///   C(z) = 1/2 sum_i (T^_i(z) - T_i)^2
+///
+/// over the samples of the calibration trials, up to kNoiseFreeRate_hz, without weights, priors, gains and low-pass; the
+/// envelopes are the drives. Levenberg-Marquardt runs from 12 starts, the given one and points near it at several EMG
+/// delays, on 500 samples or 10 for each unknown, then once on all samples from a point that meets these few. Returns
+/// the result if the sum of squared residuals is at most 1e-12 of the data's, else nothing: then the data have noise, or
+/// do not follow the model. Both readings of a number are equal. The covariance is s^2 (J'J)^-1 (math/covariance.h).
+/// Throws InvalidInput for data that do not fit together.
+[[nodiscard]] std::optional<IdentificationResult> fit_exactly(const StudyData& data, const EstimatorOptions& options);
+
+/// Returns the first exact fit of the data without nuisances (nuisances.h); with the v_max of the muscles in
+/// `speed_may_be_free` as unknowns; with the EMG's exponents. Empty if none is exact.
+[[nodiscard]] std::optional<IdentificationResult> exact_fit(const StudyData& data,
+                                                            const EstimatorOptions& options,
+                                                            const std::vector<std::string>& speed_may_be_free = {});
+
+}  // namespace myoid::identification
