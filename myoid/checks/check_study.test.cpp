@@ -57,18 +57,18 @@ struct WrittenStudy {
 
 TEST(CheckStudy, FindsNoErrorWhereThereIsNone) { EXPECT_EQ(WrittenStudy().error(), "(no error)"); }
 
-TEST(CheckStudy, BeliefsBesideLeastSquaresAreSaidToBeUnused) {
+TEST(CheckStudy, ASettingOfAnEarlierVersionIsSaidToHaveNoEffect) {
   const auto said = [](const std::string& more) {
     WrittenStudy study;
     study.text += more;
     const std::vector<Remark> all = study.findings();
     return std::any_of(all.begin(), all.end(), [](const Remark& r) {
-      return r.severity == Severity::note && r.says.find("[beliefs]") != std::string::npos;
+      return r.severity == Severity::warning && r.says.find("has no effect") != std::string::npos;
     });
   };
-  EXPECT_TRUE(said("[beliefs]\nmoment_arm_sd = 0.05\n[identify]\nestimator = \"least_squares\"\n"));
-  EXPECT_TRUE(said("[beliefs]\nmoment_arm_sd = 0.05\n[identify]\npriors = false\n"));
-  EXPECT_FALSE(said("[beliefs]\nmoment_arm_sd = 0.05\n"));
+  for (const char* setting : {"estimator = \"least_squares\"", "priors = false", "force_loop = true", "loss = \"huber\"",
+                              "bootstrap = 0", "profile = false", "max_rate_hz = 50"})
+    EXPECT_TRUE(said(std::string("[identify]\n") + setting + "\n")) << setting;
   EXPECT_FALSE(said(""));
 }
 

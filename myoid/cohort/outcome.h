@@ -36,8 +36,8 @@ struct Outcome {
 void write_outcome(const Outcome& outcome, const std::filesystem::path& folder);
 void remove_outcome(const std::filesystem::path& folder);
 
-/// Returns true if the person need not be computed again: the same program with the same settings
-/// read the same bytes, the study among them, and computed results.
+/// Returns true if the person need not be computed again: the same program read
+/// the same bytes, the study among them, and computed results.
 [[nodiscard]] bool is_current(const Outcome& outcome, const std::filesystem::path& study);
 
 /// The outcomes of some persons, in the order of the persons.

@@ -28,11 +28,11 @@ std::string text_of(const Workflow& workflow, const std::string& name) {
 
 TEST(Workflow, EveryEngineCallsOneScriptAPerson) {
   for (const Engine engine : {Engine::snakemake, Engine::slurm, Engine::parallel}) {
-    const Workflow w = workflow(engine, kManifest, "/out/c", "--estimator posterior");
+    const Workflow w = workflow(engine, kManifest, "/out/c", "--study /s.toml");
     EXPECT_EQ(text_of(w, "persons.txt"), "A\nB\n");
-    EXPECT_THAT(text_of(w, "person.sh"), HasSubstr("cohort '/data/my lab/m.csv' --out '/out/c' --estimator posterior "
+    EXPECT_THAT(text_of(w, "person.sh"), HasSubstr("cohort '/data/my lab/m.csv' --out '/out/c' --study /s.toml "
                                                    "--person \"$1\""));
-    EXPECT_THAT(text_of(w, "group.sh"), HasSubstr("--estimator posterior --group"));
+    EXPECT_THAT(text_of(w, "group.sh"), HasSubstr("--study /s.toml --group"));
     EXPECT_THAT(w.start, HasSubstr("/out/c/workflow/"));
   }
 }

@@ -27,24 +27,19 @@ TEST(IdentifyOptions, WhatTheMethodDoesNotUseIsSaid) {
   o.method = "force";
   o.files.torques = {"t.sto"};
   EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--torques has no effect")));
-  o.bootstrap = 10;
-  o.profile = true;
-  o.loss = "huber";
-  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--bootstrap"), HasSubstr("--profile"), HasSubstr("--loss"),
-                                             HasSubstr("--torques")));
-  o.bootstrap = 0;
-  o.profile = false;
-  o.loss = "square";
+  o.compare_solvers = true;
+  o.starts = 4;
+  EXPECT_THAT(without_effect(o),
+              ElementsAre(HasSubstr("--compare-solvers"), HasSubstr("--starts"), HasSubstr("--torques")));
   o.method = "paper";
-  o.no_priors = true;
   o.posterior_draws = 400;
   EXPECT_THAT(without_effect(o),
-              ElementsAre(HasSubstr("--posterior-draws"), HasSubstr("--no-priors"), HasSubstr("--torques")));
+              ElementsAre(HasSubstr("--posterior-draws"), HasSubstr("--torques")));
   o.posterior_draws = 0;
   o.beliefs = "study.toml";
-  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--beliefs"), HasSubstr("--no-priors"), HasSubstr("--torques")));
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--beliefs"), HasSubstr("--torques")));
   o.beliefs.reset();
-  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--no-priors"), HasSubstr("--torques")));
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--torques")));
 }
 
 TEST(IdentifyOptions, WhatTheMethodOrTheFilesCannotGiveIsRefused) {
@@ -62,8 +57,6 @@ TEST(IdentifyOptions, WhatTheMethodOrTheFilesCannotGiveIsRefused) {
   o.delay_s = 0.05;
   EXPECT_THROW(refuse_impossible(o, table), InvalidInput);
   o = {};
-  o.residual_hz = 0.45 * o.max_rate_hz;
-  EXPECT_THROW(refuse_impossible(o, table), InvalidInput);
   o.method = "papers";
   EXPECT_THROW(check_values(o), InvalidInput);
   o = {};

@@ -86,8 +86,7 @@ TEST(DesignKnowledge, AnIntervalOfARunNarrowsOnItsOwnScale) {
   ASSERT_EQ(found_by(run, free[0]), &run->estimates[0]);
   EXPECT_EQ(found_by(run, free[1]), nullptr);
   const identification::ParameterEstimate half = expected_estimate(
-      free[0], {.mean = std::log(1000.0), .sd = 0.1, .prior_sd = 0.25, .found = found_by(run, free[0]), .ratio = 0.5},
-      {});
+      free[0], {.mean = std::log(1000.0), .sd = 0.1, .prior_sd = 0.25, .found = found_by(run, free[0]), .ratio = 0.5});
   // Half of a factor of two to either side is a factor of the square root of two.
   EXPECT_NEAR(*half.ci_low, 1000.0 / std::sqrt(2.0), 1e-6);
   EXPECT_NEAR(*half.ci_high, 1000.0 * std::sqrt(2.0), 1e-6);

@@ -102,67 +102,6 @@ std::vector<identification::TrialData> performed(const Study& study,
   return trials;
 }
 
-TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
-  // The plan for one person, the mean of what is known, is carried out by that person ten times
-  // with the noise that the plan assumed; the errors of all estimates, in expected standard
-  // deviations, must have a root mean square of about one. The prior takes part in the estimate
-  // but not in this person (it is exactly the prior's mean), which shrinks the errors: below 1.
-  const Study study = planned_study();
-  DesignStudyOptions options;
-  options.persons = 1;
-  options.choice.movements = 5;
-  const DesignStudyResult design = design_study(study, options);
-  ASSERT_EQ(design.plan.size(), 5U);
-  identification::StudyData data;
-  data.muscles = muscle_setups(study, load_model(study));
-  identification::free_speeds(data, identification::unstated_speeds(data));
-  // The plan is about muscles whose tendons are known.
-  for (identification::MuscleSetup& muscle : data.muscles) muscle.fixed.emplace_back("tendon_slack_length");
-  const MovementPerson person = typical(data.muscles);
-  constexpr double kRate_hz = 50.0;
-  const double above_2_hz = std::sqrt(2.0 * 2.0 / kRate_hz);  // of white noise stays below
-  const auto envelope_filter = math::design_butterworth(
-      math::FilterBand::low_pass, 2, math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 3.0, kRate_hz), kRate_hz);
-  double square = 0.0;
-  double expected_square = 0.0;
-  int count = 0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    math::Random random(seed);
-    data.trials.clear();
-    for (identification::TrialData& trial : performed(study, design, data.muscles, person)) {
-      trial.torque_nm += options.torque_sd_nm / above_2_hz * random.normals(trial.torque_nm.size());
-      // The envelope's noise reaches up to 3 Hz, as after a filter.
-      Eigen::MatrixXd noisy = trial.activation.values();
-      for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
-        const Eigen::VectorXd noise = math::zero_phase(envelope_filter, random.normals(noisy.rows()));
-        noisy.col(c).array() *= 1.0 + options.emg_cv / above_2_hz * noise.array();
-      }
-      trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), noisy);
-      data.trials.push_back(std::move(trial));
-    }
-    const auto found = identification::identify_torque(
-        data, {.gain_prior_sd = {{"BIC", 0.05}, {"BRA", 0.05}, {"BRD", 0.05}, {"TRI", 0.05}},
-               .max_rate_hz = 25.0,
-               .model_error = false,  // the plan speaks of noise; this person is as the model
-               .starts = 1});
-    for (const auto& e : found.estimates) {
-      for (const auto& expected : design.plan.back().expected) {
-        if (e.muscle != expected.muscle || e.parameter != expected.parameter) continue;
-        const double sd = *expected.std_error;
-        square += std::pow((e.estimate - expected.estimate) / sd, 2);
-        expected_square += std::pow(*e.std_error / sd, 2);
-        ++count;
-      }
-    }
-  }
-  ASSERT_EQ(count, 250);
-  const double rms = std::sqrt(square / count);
-  EXPECT_GT(rms, 0.3);
-  EXPECT_LT(rms, 1.1);
-  // The standard error that identification states must agree with what the plan promised.
-  EXPECT_NEAR(std::sqrt(expected_square / count), 1.0, 0.25);
-}
-
 /// The trial with a torque error of this size that another takes the place of after 0.3 s, and the
 /// noise of EMG of 150 Hz behind a low-pass of 6 Hz.
 identification::TrialData recorded(identification::TrialData trial, double torque_sd_nm, math::Random& random) {
@@ -188,7 +127,6 @@ identification::TrialData recorded(identification::TrialData trial, double torqu
 
 TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsHave) {
   Study study = planned_study();
-  study.identify.estimator = identification::EstimatorKind::posterior;
   study.beliefs.model_error = 0.03;  // the person is as the model
   DesignStudyOptions options;
   options.persons = 1;
@@ -212,7 +150,6 @@ TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsH
         data, {.gain_prior_sd = {{"BIC", 0.05}, {"BRA", 0.05}, {"BRD", 0.05}, {"TRI", 0.05}},
                .max_rate_hz = 25.0,
                .predictions = false,
-               .estimator = identification::EstimatorKind::posterior,
                .unseen = study.beliefs});
     for (const auto& e : found.estimates) {
       for (const auto& expected : design.plan.back().expected) {
@@ -240,7 +177,6 @@ TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsH
 
 TEST(DesignStudy, AfterARunByThePosteriorTheGeometrysPartOfAnIntervalStays) {
   Study study = planned_study();
-  study.identify.estimator = identification::EstimatorKind::posterior;
   DesignStudyOptions options;
   options.persons = 1;
   options.choice.movements = 2;
@@ -297,7 +233,6 @@ TEST(DesignStudy, WhatARunLeftUndeterminedIsAsUnknownAsBefore) {
   options.choice.movements = 1;
   options.targets = {"max_isometric_force"};
   Study study = planned_study();
-  study.identify.estimator = identification::EstimatorKind::least_squares;
   const DesignStudyResult unknown = design_study(study, options);
   // A covariance over the determined directions alone: F_max of BIC and BRA only by their ratio.
   EarlierRun earlier;
@@ -312,26 +247,6 @@ TEST(DesignStudy, WhatARunLeftUndeterminedIsAsUnknownAsBefore) {
     EXPECT_GT(*known.beforehand[t].std_error / known.beforehand[t].estimate,
               0.6 * *unknown.beforehand[t].std_error / unknown.beforehand[t].estimate);
   }
-}
-
-TEST(DesignStudy, MusclesOfOneElectrodeAreNotPromisedToBeIdentified) {
-  Study study = planned_study();
-  study.identify.estimator = identification::EstimatorKind::least_squares;
-  study.muscles[1].emg = study.muscles[0].emg;
-  DesignStudyOptions options;
-  options.persons = 2;
-  options.choice.movements = 12;
-  options.choice.most_of_each = 12;
-  options.targets = {"optimal_fiber_length"};
-  const DesignStudyResult result = design_study(study, options);
-  ASSERT_FALSE(result.plan.empty());
-  bool other = false;
-  for (const auto& e : result.plan.back().expected) {
-    const bool shared = e.muscle == study.muscles[0].name || e.muscle == study.muscles[1].name;
-    EXPECT_FALSE(shared && e.verdict == identification::Verdict::identified) << e.muscle;
-    other = other || (!shared && e.verdict == identification::Verdict::identified);
-  }
-  EXPECT_TRUE(other);
 }
 
 TEST(DesignStudy, RefusesATargetThatIsNoneAndNamesThoseThereAre) {

@@ -14,17 +14,10 @@ TEST(EstimatorSettings, DefaultsAreThoseOfTheEstimatorButForTheLagThatTheDataCho
   EXPECT_EQ(made.delay_prior_sd_s, plain.delay_prior_sd_s);
   EXPECT_EQ(made.max_rate_hz, plain.max_rate_hz);
   EXPECT_EQ(made.residual_cutoff_hz, plain.residual_cutoff_hz);
-  EXPECT_EQ(made.weights, plain.weights);
   EXPECT_EQ(made.from_mvc, plain.from_mvc);
   EXPECT_EQ(made.envelope_cutoff_hz, plain.envelope_cutoff_hz);
   EXPECT_TRUE(made.gain_prior_sd.empty());
   EXPECT_TRUE(made.emg_bandwidth_hz.empty());
-}
-
-TEST(EstimatorSettings, WithoutPriorsSquaresArePlain) {
-  const EstimatorOptions made = estimator_options({.priors = false}, {}, {});
-  EXPECT_FALSE(made.priors);
-  EXPECT_FALSE(made.weights);
 }
 
 TEST(EstimatorSettings, WithTheLagsOfEquation1TheDelayIsTheTimeLeftBesideThem) {

@@ -1,12 +1,13 @@
 #include "myoid/identification/parameters.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/identification/estimator.h"
+#include "myoid/methods/plain_fit.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 
@@ -37,7 +38,7 @@ TEST(ParameterMap, AnUnknownBeginsAtItsPriorsMeanUnlessARuleSaysWhere) {
 }
 
 TEST(Rules, TieFixBoundAndFreeWhatTheyName) {
-  ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0});
+  ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .with_priors = true});
   ParameterRule tie;
   tie.parameter = "max_isometric_force";
   tie.owners = {"BIC", "BRA"};
@@ -50,7 +51,7 @@ TEST(Rules, TieFixBoundAndFreeWhatTheyName) {
   study.data.rules = {tie, fix, freed("max_shortening_speed", {"BRD"})};
   study.data.rules.back().upper = 3.0;
   const IdentificationResult r =
-      identify_torque(study.data, {.priors = false, .delay_s = 0.05, .weights = false, .starts = 1});
+      identify_torque(study.data, {.delay_s = 0.05, .predictions = false, .marginals = false});
   const auto& start = study.data.muscles;
   EXPECT_NEAR(r.muscles[0].max_isometric_force_n / start[0].start.max_isometric_force_n,
               r.muscles[1].max_isometric_force_n / start[1].start.max_isometric_force_n, 1e-12);
@@ -86,9 +87,9 @@ TEST(Rules, WhatThePapersLawLeavesOutIsFoundWhereItIsInTheData) {
   for (MuscleSetup& setup : study.data.muscles) setup.extras = {.passive_force = 0.6, .length_activation = 0.10};
   study.data.rules = {freed("passive_force"), freed("length_activation"), freed("emg_shape"),
                       freed("emg_exponent"),  freed("joint_viscosity"),   freed("joint_torque_offset")};
-  const IdentificationResult r =
-      identify_torque(study.data, {.priors = false, .residual_cutoff_hz = {}, .weights = false});
-  ASSERT_EQ(r.termination, math::Termination::converged) << r.message;
+  const std::optional<IdentificationResult> exact = fit_exactly(study.data, {});
+  ASSERT_TRUE(exact);
+  const IdentificationResult& r = *exact;
   for (std::size_t k = 0; k < 4; ++k) {
     for (const MuscleField f : {kMaxForce, kFiberLength, kLengthActivation, kPassiveForce}) {
       const double value = truth.muscles[k][static_cast<std::size_t>(f)];

@@ -53,20 +53,19 @@ double worst_error(const ElbowStudy& study, const IdentificationResult& result) 
 }
 
 TEST(ExcludedIntervals, DoNotTouchTheEstimates) {
-  const TorqueOptions exact{.priors = false, .residual_cutoff_hz = std::nullopt, .weights = false, .starts = 1};
-  const ElbowStudy spoiled = spoiled_study(false);
-  EXPECT_GT(worst_error(spoiled, identify_torque(spoiled.data, exact)), 0.02);
+  EXPECT_FALSE(identify_exactly(spoiled_study(false).data));
   const ElbowStudy excluded = spoiled_study(true);
-  const IdentificationResult result = identify_torque(excluded.data, exact);
-  EXPECT_LT(worst_error(excluded, result), 1e-6);
+  const std::optional<IdentificationResult> result = identify_exactly(excluded.data);
+  ASSERT_TRUE(result);
+  EXPECT_LT(worst_error(excluded, *result), 1e-6);
   // Scored without it too: the prediction is right wherever it counts.
-  for (const TrialFit& fit : result.trials) EXPECT_LT(fit.score.rmse_nm(), 1e-5);
+  for (const TrialFit& fit : result->trials) EXPECT_LT(fit.score.rmse_nm(), 1e-5);
 }
 
 TEST(ExcludedIntervals, AreNeitherScoredInFoldsNorSampledByThePaper) {
   const ElbowStudy excluded = spoiled_study(true);
-  const TorqueOptions exact{.priors = false, .residual_cutoff_hz = std::nullopt, .weights = false, .starts = 1};
-  for (const Fold& fold : cross_validate(excluded.data, exact, {})) {
+  const auto exactly = [](StudyData& split, EstimatorOptions& options) { return *identify_exactly(split, options); };
+  for (const Fold& fold : cross_validate(excluded.data, exactly, {}, {})) {
     EXPECT_EQ(fold.time_s.size(), 1001 - 151);
     EXPECT_LT(fold.identified.rmse_nm(), 0.01);
   }

@@ -30,8 +30,8 @@ double span_but_for(double time_s, LengthsInTime lengths) {
   return std::max(0.0, end_of(lengths.rbegin(), lengths.rend()) - end_of(lengths.begin(), lengths.end()));
 }
 
-/// Returns the |N(0, 1)| that is as improbable as a sum of `count` squares of at least this size
-/// (chi-square): several deviations as one number of standard deviations.
+}  // namespace
+
 double equivalent_deviations(double sum_of_squares, int count) {
   if (count < 1 || !(sum_of_squares > 0.0)) return 0.0;
   if (count == 1) return std::sqrt(sum_of_squares);
@@ -39,8 +39,6 @@ double equivalent_deviations(double sum_of_squares, int count) {
   // The tail underflows: one deviation of the same square is close enough.
   return beyond > 0.0 ? -math::normal_quantile(0.5 * beyond) : std::sqrt(sum_of_squares);
 }
-
-}  // namespace
 
 std::vector<double> active_length_spans_m(const StudyData& data, double delay_s) {
   std::vector<LengthsInTime> lengths(data.muscles.size());

@@ -19,6 +19,10 @@ namespace myoid::identification {
 /// Returns |z - prior mean| / prior sd, in the solver's scale.
 [[nodiscard]] double distance_from_prior(const Unknown& parameter, double z);
 
+/// Returns the |N(0, 1)| that is as improbable as a sum of `count` squares of at least this size
+/// (chi-square): several deviations as one number of standard deviations.
+[[nodiscard]] double equivalent_deviations(double sum_of_squares, int count);
+
 /// Returns one distance for each muscle that has free parameters with priors, at the numbers `z`.
 [[nodiscard]] std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
                                                          const Eigen::VectorXd& z,

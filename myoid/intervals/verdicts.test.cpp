@@ -1,5 +1,10 @@
 #include "myoid/intervals/verdicts.h"
 
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +32,7 @@ NumberFacts good() {
   return facts;
 }
 
-TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
+TEST(Verdicts, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
   const NumberFacts facts = good();
   EXPECT_EQ(finding(facts), Finding::narrow);
   EXPECT_EQ(verdict_of(Finding::narrow), Verdict::identified);
@@ -38,13 +43,13 @@ TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
   EXPECT_THAT(reason, Not(HasSubstr("prior belief")));
 }
 
-TEST(PosteriorVerdict, AWidthBeyondTheValueHasNoPowerOfTen) {
+TEST(Verdicts, AWidthBeyondTheValueHasNoPowerOfTen) {
   NumberFacts facts = good();
   facts.high = 2.234 * facts.value;
   EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("± 123 % of the person"));
 }
 
-TEST(PosteriorVerdict, AnAnglesWidthIsInDegrees) {
+TEST(Verdicts, AnAnglesWidthIsInDegrees) {
   NumberFacts facts = good();
   facts.contraction.reset();
   facts.is_angle = true;
@@ -68,7 +73,7 @@ TEST(PosteriorVerdict, AnAnglesWidthIsInDegrees) {
   EXPECT_EQ(finding(facts), Finding::too_wide);
 }
 
-TEST(PosteriorVerdict, WhereTheModelIsWrongNothingIsIdentified) {
+TEST(Verdicts, WhereTheModelIsWrongNothingIsIdentified) {
   NumberFacts facts = good();
   facts.model_error = 0.19;
   EXPECT_EQ(finding(facts), Finding::narrow);
@@ -78,7 +83,7 @@ TEST(PosteriorVerdict, WhereTheModelIsWrongNothingIsIdentified) {
   EXPECT_THAT(reason_of(Finding::wrong_model, facts), HasSubstr("the model errs by 33 %"));
 }
 
-TEST(PosteriorVerdict, AnIntervalThatABoundCutsOffIdentifiesNothing) {
+TEST(Verdicts, AnIntervalThatABoundCutsOffIdentifiesNothing) {
   NumberFacts facts = good();
   facts.at_bound = true;
   EXPECT_EQ(finding(facts), Finding::cut_off);
@@ -94,7 +99,7 @@ NumberFacts with_equal_readings() {
   return facts;
 }
 
-TEST(PosteriorVerdict, TheFartherEndCounts) {
+TEST(Verdicts, TheFartherEndCounts) {
   NumberFacts facts = with_equal_readings();
   facts.high = 1130.0;
   EXPECT_EQ(finding(facts), Finding::wide);
@@ -103,7 +108,7 @@ TEST(PosteriorVerdict, TheFartherEndCounts) {
   EXPECT_EQ(verdict_of(Finding::too_wide), Verdict::not_identifiable);
 }
 
-TEST(PosteriorVerdict, WhatIsNarrowOnlyGivenGeometryAndSensorsIsReproducible) {
+TEST(Verdicts, WhatIsNarrowOnlyGivenGeometryAndSensorsIsReproducible) {
   NumberFacts facts = good();
   facts.high = 1400.0;
   EXPECT_EQ(finding(facts), Finding::narrow_if_given);
@@ -121,7 +126,7 @@ TEST(PosteriorVerdict, WhatIsNarrowOnlyGivenGeometryAndSensorsIsReproducible) {
   EXPECT_EQ(finding(facts), Finding::wide);
 }
 
-TEST(PosteriorVerdict, ReadingsThatExcludeEachOtherIdentifyNothing) {
+TEST(Verdicts, ReadingsThatExcludeEachOtherIdentifyNothing) {
   NumberFacts facts = good();
   facts.given = 1250.0;
   facts.low_given = 1105.0;
@@ -130,7 +135,7 @@ TEST(PosteriorVerdict, ReadingsThatExcludeEachOtherIdentifyNothing) {
   EXPECT_EQ(verdict_of(Finding::readings_apart), Verdict::weak);
 }
 
-TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
+TEST(Verdicts, WhatThePriorSaysIsNotIdentified) {
   NumberFacts facts = with_equal_readings();
   facts.contraction = 0.45;
   EXPECT_EQ(finding(facts), Finding::half_the_prior);
@@ -142,7 +147,7 @@ TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
 }
 
-TEST(PosteriorVerdict, AValueThatIsFarFromItsPriorIsNotIdentified) {
+TEST(Verdicts, AValueThatIsFarFromItsPriorIsNotIdentified) {
   NumberFacts facts = good();
   facts.prior_distance = 4.9;
   EXPECT_EQ(finding(facts), Finding::narrow_and_far);
@@ -156,36 +161,41 @@ TEST(PosteriorVerdict, AValueThatIsFarFromItsPriorIsNotIdentified) {
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
 }
 
-TEST(PosteriorVerdict, ASearchWithoutAnEndAndAnImpossibleMuscleComeFirst) {
+TEST(Verdicts, ASearchWithoutAnEndAndAnImpossibleMuscleComeFirst) {
   NumberFacts facts = good();
-  facts.possible = false;
+  facts.impossible = "no muscle has this";
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::non_physical);
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("no muscle has this; "));
   facts.converged = false;
+  facts.failure = "it ran away";
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::non_physical);
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("it ran away; it stopped where no muscle can be"));
+  facts.impossible.clear();
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
 }
 
-TEST(PosteriorVerdict, AFitThatExplainsLittleIdentifiesNothing) {
+TEST(Verdicts, AFitThatExplainsLittleIdentifiesNothing) {
   NumberFacts facts = good();
   facts.r2 = 0.3;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
   EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("explains little of the torque (R2 0.30)"));
-  facts.possible = false;
+  facts.impossible = "no muscle has this";
   EXPECT_EQ(finding(facts), Finding::impossible);
 }
 
-TEST(PosteriorVerdict, OneLengthTellsNothingOfTheForceLengthCurveHoweverNarrow) {
+TEST(Verdicts, OneLengthTellsNothingOfTheForceLengthCurveHoweverNarrow) {
   NumberFacts facts = good();
   facts.length_span = 0.04;
-  facts.possible = false;
+  facts.impossible = "no muscle has this";
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
   EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("changed by 4.0 % of the optimal one"));
   EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("record other joint angles"));
-  facts.possible = true;
+  facts.impossible.clear();
   facts.length_span = 0.06;
   EXPECT_EQ(finding(facts), Finding::narrow);
 }
 
-TEST(PosteriorVerdict, DelaysAreJudgedInSeconds) {
+TEST(Verdicts, DelaysAreJudgedInSeconds) {
   NumberFacts facts = good();
   facts.is_delay = true;
   facts.value = 0.05;
@@ -198,7 +208,7 @@ TEST(PosteriorVerdict, DelaysAreJudgedInSeconds) {
   EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("± 10 ms"));
 }
 
-TEST(PosteriorVerdict, ANumberThatIsZeroByNatureIsJudgedByItsUsualSize) {
+TEST(Verdicts, ANumberThatIsZeroByNatureIsJudgedByItsUsualSize) {
   NumberFacts facts = good();
   facts.value = 0.02;
   facts.low = -0.38;
@@ -216,10 +226,39 @@ TEST(PosteriorVerdict, ANumberThatIsZeroByNatureIsJudgedByItsUsualSize) {
   EXPECT_EQ(finding(facts), Finding::narrow);
 }
 
-TEST(PosteriorVerdict, SaysWhereTheApproximationWasNotChecked) {
+TEST(Verdicts, SaysWhereTheApproximationWasNotChecked) {
   NumberFacts facts = good();
   facts.approximate = true;
   EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("approximate"));
+}
+
+TEST(Verdicts, OneReadingNamesNoOther) {
+  NumberFacts facts = good();
+  facts.one_reading = true;
+  EXPECT_EQ(finding(facts), Finding::narrow);
+  EXPECT_THAT(reason_of(finding(facts), facts), Not(HasSubstr("given geometry")));
+  facts.given_strength = true;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::weak);
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("if F_max is the value at which it was held"));
+}
+
+TEST(Verdicts, ANumberWithoutEffectOrBesideAnImpossibleOneIsNotIdentifiable) {
+  for (const auto& [set, words] :
+       std::vector<std::pair<std::function<void(NumberFacts&)>, std::string>>{
+           {[](NumberFacts& f) { f.determined = false; }, "cannot tell them apart"},
+           {[](NumberFacts& f) { f.no_effect = "V_ml is 1"; }, "V_ml is 1"},
+           {[](NumberFacts& f) { f.bad_company = "l_sh"; }, "the same fit puts l_sh where no muscle can be"}}) {
+    NumberFacts facts = good();
+    set(facts);
+    EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
+    EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr(words));
+  }
+}
+
+TEST(Verdicts, AForceThatAnOptimizerSharedIsNoMeasurement) {
+  NumberFacts facts = good();
+  facts.shared_force = true;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
 }
 
 }  // namespace

@@ -34,9 +34,20 @@ TEST(IdentifyForce, GivesBothBranchesBackAtOnce) {
   EXPECT_EQ(seen, 24);
 }
 
+TEST(IdentifyForce, ForcesThatAnOptimizerAssignedIdentifyNothing) {
+  const StudyData data =
+      elbow_study({.trials = 2, .seconds = 8.0, .rate_hz = 50.0, .delay_s = 0.0, .with_priors = true}).data;
+  const IdentificationResult found = identify_force(data, {.shared_forces = true});
+  ASSERT_FALSE(found.estimates.empty());
+  for (const ParameterEstimate& e : found.estimates) {
+    EXPECT_GE(severity(e.verdict), severity(Verdict::prior_dominated)) << e.muscle << " " << e.parameter;
+    EXPECT_FALSE(e.ci_low || e.ci_high || e.given_ci_low || e.given_ci_high);
+  }
+}
+
 TEST(IdentifyForce, FollowsTheEmgAsItIsTold) {
   // Forces behind lags: each muscle alone would choose lags, the result says what all were told.
-  ElbowStudy study = elbow_study({.trials = 1, .delay_s = 0.08});
+  ElbowStudy study = elbow_study({.trials = 1, .delay_s = 0.08, .with_priors = true});
   test::StudyNoise noise(1);
   for (TrialData& trial : study.data.trials) {
     trial.force_n = predict(study.data, trial, study.truth, study.delay_s, EmgLag::shared).force_n;
@@ -58,7 +69,6 @@ TEST(IdentifyForce, FollowsTheEmgAsItIsTold) {
 TEST(IdentifyForce, ByThePosteriorEachNumberHasTwoReadingsThatHoldThePerson) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .emg_cv = 0.1, .with_priors = true});
   ForceOptions options;
-  options.estimator.estimator = EstimatorKind::posterior;
   options.detect_exact = true;
   for (MuscleSetup& muscle : study.data.muscles) {
     muscle.fixed = {"tendon_slack_length"};

@@ -1,4 +1,4 @@
-#include "myoid/methods/force_loop.h"
+#include "myoid/methods/informed_forces.h"
 
 #include <cmath>
 
@@ -74,73 +74,22 @@ TEST(InformedForces, WithoutTheEmgAntagonistsNeverActTogether) {
   EXPECT_GT(seeing.activation.col(3).minCoeff(), 0.01);
 }
 
-TEST(IterateForces, StaysAtTheTruthWhereItBegins) {
-  ElbowStudy study = short_study();
-  for (std::size_t m = 0; m < study.truth.size(); ++m) study.data.muscles[m].start = study.truth[m];
-  for (MuscleSetup& setup : study.data.muscles) setup.priors = literature_priors(setup.start);
-  ForceLoopOptions options;
-  options.sharing.emg_weight = 1e6;
-  options.force.estimator.delay_s = 0.0;
-  const ForceLoop loop = iterate_forces(study.data, options);
-  EXPECT_EQ(loop.end, LoopEnd::converged) << loop.message;
-  for (std::size_t m = 0; m < study.truth.size(); ++m) {
-    EXPECT_NEAR(loop.fit.muscles[m].optimal_fiber_length_m / study.truth[m].optimal_fiber_length_m, 1.0, 0.01);
-    EXPECT_NEAR(loop.fit.muscles[m].max_isometric_force_n / study.truth[m].max_isometric_force_n, 1.0, 0.01);
-  }
-}
-
-TEST(IterateForces, ByThePosteriorTheForcesAreSharedWithTheMusclesOfTheTorque) {
-  // Two joints: the law, its noise and its muscles are known.
+TEST(InformedForces, TheMusclesOfTheTorqueShareForcesNearTheTrueOnes) {
   const ElbowStudy study = test::leg_study({.emg_cv = 0.06, .torque_sd_nm = 1.0});
-  ForceLoopOptions options;
-  options.force.estimator.estimator = EstimatorKind::posterior;
-  options.force.shared_forces = true;
-  const ForceLoop loop = iterate_forces(study.data, options);
-  EXPECT_EQ(loop.end, LoopEnd::converged) << loop.message;
-  ASSERT_EQ(loop.rounds.size(), 1U);
-  const IdentificationResult alone = identify_torque(study.data, options.force.estimator);
-  EXPECT_EQ(loop.fit.solution, alone.solution);
-  ASSERT_EQ(loop.forces.size(), study.data.trials.size());
-  double off = 0.0, size = 0.0;
-  for (std::size_t t = 0; t < loop.forces.size(); ++t) {
-    EXPECT_EQ(loop.forces[t].frames_not_solved, 0);
-    off += (loop.forces[t].force_n - study.data.trials[t].force_n).squaredNorm();
-    size += study.data.trials[t].force_n.squaredNorm();
+  const IdentificationResult fit = identify_torque(study.data, {.predictions = false});
+  double off = 0.0, size = 0.0, reserve = 0.0, samples = 0.0;
+  for (const TrialData& trial : study.data.trials) {
+    const InformedForces found =
+        informed_forces(trial, muscle_activation(study.data, trial, trial.time_s, fit.delay_s), fit.values.muscles);
+    EXPECT_EQ(found.frames_not_solved, 0);
+    off += (found.force_n - trial.force_n).squaredNorm();
+    size += trial.force_n.squaredNorm();
+    reserve += found.reserve_nm.squaredNorm();
+    samples += static_cast<double>(found.reserve_nm.size());
   }
   // The start is 20 % off in F_max, and the envelopes err by 6 %.
   EXPECT_LT(std::sqrt(off / size), 0.15);
-  EXPECT_LT(loop.rounds[0].reserve_nm, 0.1);
-}
-
-TEST(IdentifyForce, ForcesThatAnOptimizerAssignedIdentifyNothing) {
-  const StudyData data = short_study().data;
-  for (const EstimatorKind kind : {EstimatorKind::least_squares, EstimatorKind::posterior}) {
-    ForceOptions options{.shared_forces = true};
-    options.estimator.estimator = kind;
-    const IdentificationResult found = identify_force(data, options);
-    ASSERT_FALSE(found.estimates.empty());
-    for (const ParameterEstimate& e : found.estimates) {
-      EXPECT_NE(e.verdict, Verdict::identified) << e.muscle << " " << e.parameter;
-      EXPECT_NE(e.verdict, Verdict::reproducible) << e.muscle << " " << e.parameter;
-    }
-  }
-}
-
-TEST(IterateForces, EndsWithASentenceAndForcesThatBalance) {
-  ForceLoopOptions options;
-  options.force.estimator.delay_s = 0.0;
-  options.max_rounds = 8;
-  const ElbowStudy study = short_study();
-  const ForceLoop loop = iterate_forces(study.data, options);
-  EXPECT_FALSE(loop.message.empty());
-  ASSERT_EQ(loop.forces.size(), study.data.trials.size());
-  ASSERT_FALSE(loop.rounds.empty());
-  EXPECT_LE(loop.rounds.size(), 8u);
-  // It settles: what a round changes becomes less.
-  EXPECT_LT(loop.rounds.back().parameter_change, loop.rounds.front().parameter_change);
-  for (const InformedForces& forces : loop.forces) EXPECT_EQ(forces.frames_not_solved, 0);
-  options.max_rounds = 1;
-  EXPECT_EQ(iterate_forces(study.data, options).end, LoopEnd::not_settled);
+  EXPECT_LT(std::sqrt(reserve / samples), 0.1);
 }
 
 }  // namespace

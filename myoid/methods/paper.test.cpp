@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/intervals/identifiability.h"
 
 #include "tests/support/elbow_study.h"
 

@@ -1,11 +1,9 @@
-#include "myoid/methods/noise_free.h"
+#include "myoid/methods/plain_fit.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
-
-#include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"
 
@@ -55,10 +53,11 @@ TEST(FewSamples, SeeEveryPhaseOfAMovementWhoseStridesAreTheStepBetweenThem) {
   }
 }
 
-TEST(NoiseFree, LongTrialsGiveTheTruthBack) {
+TEST(PlainFit, LongTrialsGiveTheTruthBack) {
   const ElbowStudy study = elbow_study({.trials = 2, .seconds = 60.0, .with_priors = true});
-  const IdentificationResult result = identify_torque_or_exact(study.data);
-  ASSERT_TRUE(result.exact);
+  const std::optional<IdentificationResult> found = exact_fit(study.data, {});
+  ASSERT_TRUE(found);
+  const IdentificationResult& result = *found;
   EXPECT_GT(result.samples_used, 10000) << "the answer is of all samples";
   for (std::size_t k = 0; k < 4; ++k) {
     for (std::size_t f = 0; f < 6; ++f) {
@@ -69,21 +68,21 @@ TEST(NoiseFree, LongTrialsGiveTheTruthBack) {
   }
 }
 
-TEST(NoiseFree, ASpoiledSampleAmongTheManyIsSeen) {
+TEST(PlainFit, ASpoiledSampleAmongTheManyIsSeen) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 60.0, .with_priors = true});
-  ASSERT_TRUE(identify_torque_or_exact(study.data, {.predictions = false}).exact);
+  ASSERT_TRUE(exact_fit(study.data, {}));
   // One torque in 12 002, which the few samples need not hold.
   const Eigen::VectorXd held = few_samples(study.data, 500).trials[0].time_s;
   TrialData& trial = study.data.trials[0];
   Eigen::Index row = 3000;
   while (std::find(held.begin(), held.end(), trial.time_s[row]) != held.end()) ++row;
   trial.torque_nm[row] += 1.0;
-  EXPECT_FALSE(identify_torque_or_exact(study.data, {.starts = 1, .predictions = false}).exact);
+  EXPECT_FALSE(exact_fit(study.data, {}));
 }
 
-TEST(NoiseFree, NoiseOfAThousandthIsNoise) {
+TEST(PlainFit, NoiseOfAThousandthIsNoise) {
   const ElbowStudy study = elbow_study({.trials = 1, .seconds = 30.0, .torque_sd_nm = 0.02, .with_priors = true});
-  EXPECT_FALSE(identify_torque_or_exact(study.data, {.starts = 1, .predictions = false}).exact);
+  EXPECT_FALSE(exact_fit(study.data, {}));
 }
 
 }  // namespace

@@ -16,32 +16,6 @@ namespace {
 using test::elbow_study;
 using test::ElbowStudy;
 
-ElbowStudy study_of_three_unknowns() {
-  ElbowStudy study = elbow_study({.trials = 1, .seconds = 8.0, .torque_sd_nm = 0.3, .with_priors = true});
-  for (MuscleSetup& setup : study.data.muscles)
-    setup.fixed = {"concentric_curvature", "eccentric_curvature_product", "eccentric_plateau"};
-  return study;
-}
-
-TEST(SolverContest, TheDescentsAgreeAndTheRivalsDoNotGoLower) {
-  const SolverContest c = compare_solvers(study_of_three_unknowns().data, {.muscles = {"TRI"}},
-                                          {.starts = 2, .direct_evaluations = 3000, .basin_starts = 7});
-  ASSERT_EQ(c.runs.size(), 8U);
-  for (const SolverRun& run : c.runs) {
-    EXPECT_GE(run.cost, c.best_cost * (1.0 - 1e-9)) << run.solver;
-    if (run.solver == "levenberg_marquardt" || run.solver == "gauss_newton") {
-      EXPECT_LT(run.distance, 1e-3) << run.solver;
-      EXPECT_LT(run.evaluations, 200);
-    } else {
-      // Far less than the 2 in -2 log likelihood (1 in the cost) that one unknown is worth.
-      EXPECT_LT(run.cost, c.best_cost + 0.05) << run.solver;
-    }
-  }
-  EXPECT_EQ(c.basins.starts, 7);
-  ASSERT_EQ(c.basins.basins.size(), 1U);
-  EXPECT_EQ(c.basins.basins[0].starts, 7);
-}
-
 /// The method holds F_max: a study in which it starts at the truth, with forces that carry noise.
 ElbowStudy noisy_forces() {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .delay_s = 0.0});
@@ -54,7 +28,7 @@ ElbowStudy noisy_forces() {
   return study;
 }
 
-TEST(SolverContest, GaussNewtonOfThePublishedMethodIsTheEstimatorItself) {
+TEST(SolverContest, GaussNewtonOfThePublishedMethodIsTheMethodItself) {
   const ElbowStudy study = noisy_forces();
   const IdentificationResult paper = identify_paper(study.data, {.muscles = {"BIC"}});
   const SolverContest c = compare_paper_solvers(study.data, 0, true, {.starts = 1, .direct_evaluations = 3000});
@@ -94,11 +68,9 @@ TEST(SolverContest, ABranchInWhichAllIsHeldHasNothingToCompare) {
   EXPECT_TRUE(compare_paper_solvers(study.data, 0, true).runs.empty());
 }
 
-TEST(SolverContest, EitherTellsItsProgressAndStopsWhenAsked) {
-  const ElbowStudy torque = study_of_three_unknowns();
+TEST(SolverContest, TellsItsProgressAndStopsWhenAsked) {
   const ElbowStudy forces = noisy_forces();
-  for (const bool paper : {false, true}) {
-    SCOPED_TRACE(paper);
+  {
     std::stop_source source;
     double last = -1.0;
     int told = 0;
@@ -115,8 +87,7 @@ TEST(SolverContest, EitherTellsItsProgressAndStopsWhenAsked) {
       }
     };
     const auto run = [&] {
-      return paper ? compare_paper_solvers(forces.data, 0, true, options)
-                   : compare_solvers(torque.data, {.muscles = {"TRI"}}, options);
+      return compare_paper_solvers(forces.data, 0, true, options);
     };
     EXPECT_THROW((void)run(), Interrupted);
     EXPECT_EQ(told, 7);

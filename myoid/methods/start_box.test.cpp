@@ -9,25 +9,6 @@ namespace {
 
 test::ElbowStudy small_study() { return test::elbow_study({.trials = 1, .seconds = 4.0, .with_priors = true}); }
 
-TEST(StartBox, IsTwoSpreadsOfThePriorWideOnEitherSideInsideTheBounds) {
-  test::ElbowStudy study = small_study();
-  const double l0 = study.data.muscles[3].start.optimal_fiber_length_m;
-  study.data.rules.push_back({.parameter = "optimal_fiber_length", .owners = {"TRI"}, .upper = 1.01 * l0});
-  const Estimator estimator(study.data, {.muscles = {"TRI"}});
-  const StartBox box = start_box(estimator);
-  bool clipped = false;
-  for (Eigen::Index j = 0; j < box.given.size(); ++j) {
-    const Unknown& f = estimator.free()[static_cast<std::size_t>(j)];
-    SCOPED_TRACE(f.label);
-    ASSERT_GT(f.prior.sd, 0.0);
-    EXPECT_EQ(box.spread[j], f.prior.sd);
-    EXPECT_DOUBLE_EQ(box.lower[j], std::max(f.bounds.lower, f.start - 2.0 * f.prior.sd));
-    EXPECT_DOUBLE_EQ(box.upper[j], std::min(f.bounds.upper, f.start + 2.0 * f.prior.sd));
-    clipped = clipped || box.upper[j] == f.bounds.upper;
-  }
-  EXPECT_TRUE(clipped);
-}
-
 TEST(StartBox, OfThePublishedMethodTurnsAPriorOfALogarithmIntoItsOwnUnit) {
   test::ElbowStudy study = small_study();
   study.data.muscles[0].priors["optimal_fiber_length"] = {0.1, 0.05, true};

@@ -26,7 +26,9 @@ using TorqueOptions = EstimatorOptions;
 
 /// Returns the exact fit of data without noise (exact_fit) with its predictions; empty if there is none.
 [[nodiscard]] std::optional<IdentificationResult> identify_exactly(
-    const StudyData& data, const TorqueOptions& options, const std::vector<std::string>& speed_may_be_free = {});
+    const StudyData& data,
+    const TorqueOptions& options = {},
+    const std::vector<std::string>& speed_may_be_free = {});
 
 /// Identifies from data that may be free of noise: `identify_exactly` if it finds a fit, else `identify_torque`
 /// with the v_max of the muscles in `speed_may_be_free` as unknowns, and without the nuisances (nuisances.h) where the

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -204,7 +205,7 @@ TEST(IdentifyByPosterior, ASearchThatBeginsAtTheAnswerStaysThere) {
 TEST(IdentifyByPosterior, NeedsPriors) {
   EstimatorOptions options;
   options.priors = false;
-  EXPECT_THROW((void)identify_by_posterior(person(5).data, options), InvalidInput);
+  EXPECT_THROW((void)identify_by_posterior(person(5).data, options), std::logic_error);
 }
 
 }  // namespace

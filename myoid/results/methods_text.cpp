@@ -207,6 +207,13 @@ void say_muscles(const StudyResult& result, Writer& out) {
 }
 
 void say_posterior(const IdentifySpec& spec, const IdentificationResult& torque, Writer& out) {
+  if (torque.exact) {
+    out.say(
+        "The data were free of noise: all parameters were estimated from {} samples of the torque by plain least "
+        "squares, without prior distributions.",
+        torque.samples_used);
+    return;
+  }
   out.say(
       "All parameters were estimated from {} samples of the torque as the mean of their posterior density about its "
       "mode, with prior distributions from the literature, integrated over errors of moment arms, tendons, the scale "

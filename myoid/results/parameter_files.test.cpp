@@ -26,7 +26,6 @@ identification::IdentificationResult one_estimate() {
   e.estimate = 0.1 + 0.2;
   e.std_error = std::numeric_limits<double>::infinity();
   e.ci_low = 0.25;
-  e.routes = {{"bootstrap", 0.24, std::nullopt}};
   e.reason = "known to \"12 %\", about";
   identification::IdentificationResult result;
   result.method = "torque";
@@ -46,10 +45,6 @@ TEST(ParametersCsv, ANumberReadsBackTheSameAndWhatIsAbsentOrInfiniteIsAnEmptyCel
   EXPECT_EQ(cell("std_error"), "");
   EXPECT_EQ(cell("ci_low"), "0.25");
   EXPECT_EQ(cell("ci_high"), "");
-  EXPECT_EQ(cell("ci_low_bootstrap"), "0.24");
-  EXPECT_EQ(cell("ci_high_bootstrap"), "");
-  EXPECT_EQ(cell("ci_low_profile"), "");
-  EXPECT_EQ(cell("routes_disagree"), "false");
   EXPECT_EQ(cell("reason"), "known to \"12 %\", about");
 }
 

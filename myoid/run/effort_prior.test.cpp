@@ -33,13 +33,9 @@ TEST(ExpectAnyEffort, HasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratu
   EXPECT_TRUE(muscles[1].priors.empty());
 }
 
-TEST(MeaningOfStrength, FollowsTheEstimatorAndTheRecordedEfforts) {
+TEST(MeaningOfStrength, FollowsTheRecordedEfforts) {
   using testing::HasSubstr;
   Study study;
-  study.identify.estimator = identification::EstimatorKind::least_squares;
-  EXPECT_THAT(meaning_of_strength(study, true), HasSubstr("greatest effort that was recorded"));
-  EXPECT_THAT(meaning_of_strength(study, false), HasSubstr("not the muscle's maximum"));
-  study.identify.estimator = identification::EstimatorKind::posterior;
   study.beliefs.effort = 0.04;
   EXPECT_THAT(meaning_of_strength(study, true), HasSubstr("by 4 %"));
   study.emg.mvc_effort = 0.9;

@@ -43,19 +43,13 @@ TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   const identification::EstimatorOptions known = options_of(result);
   EXPECT_NEAR(known.gain_prior_mean.at("BIC"), 0.8, 1e-12);
   EXPECT_NEAR(known.gain_prior_sd.at("BIC"), 0.05, 1e-12);  // 3 % and 4 %, independent
-  // Without MVC the greatest effort of the study is no known share of anything, by least squares.
-  result.source.study.identify.estimator = identification::EstimatorKind::least_squares;
   result.source.study.emg.has_mvc = false;
-  const identification::EstimatorOptions unknown = options_of(result);
-  EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), 1.0, 1e-12);
-  EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), 0.03, 1e-12);
-  EXPECT_FALSE(unknown.from_mvc);
+  EXPECT_FALSE(options_of(result).from_mvc);
 }
 
 TEST(TorqueOptions, ThePosteriorKnowsNothingOfTheEffortOfARecordingWithoutMaximum) {
   StudyResult result = with_one_channel();
   Study& study = result.source.study;
-  study.identify.estimator = identification::EstimatorKind::posterior;
   const auto strength_sd = [&] { return data_of(result).muscles.front().priors.at("max_isometric_force").sd; };
   const auto bounded = [&] {
     const identification::StudyData data = data_of(result);
@@ -106,12 +100,12 @@ TEST(TorqueOptions, WhatTheDelayIsFollowsTheStudyAndElseTheRecording) {
 // `identify` makes its options from its own settings by the same function: equal settings, the same
 // numbers from the same data.
 TEST(TorqueOptions, TheStudyAndTheCommandLineFindTheSameNumbersInTheSameData) {
-  Study study = arm_study("[identify]\nbootstrap = 0\nprofile = false\nmax_rate_hz = 10.0\n");
+  Study study = arm_study("");
   study.emg.lowpass_hz = identification::ActivationSource{}.envelope_cutoff_hz;
   study.emg.has_mvc = true;
   const identification::EstimatorOptions of_run = torque_options(study, {}, {});
-  const identification::EstimatorOptions of_identify = identification::estimator_options({.max_rate_hz = 10.0}, {}, {});
-  const test::ElbowStudy elbow = test::elbow_study({.trials = 2, .seconds = 10.0, .delay_s = 0.05});
+  const identification::EstimatorOptions of_identify = identification::estimator_options({}, {}, {});
+  const test::ElbowStudy elbow = test::elbow_study({.trials = 2, .seconds = 10.0, .delay_s = 0.05, .with_priors = true});
   const auto run = identification::identify_torque(elbow.data, of_run);
   const auto identify = identification::identify_torque(elbow.data, of_identify);
   ASSERT_EQ(run.estimates.size(), identify.estimates.size());
@@ -142,7 +136,7 @@ TEST(EstimatorData, AVmaxThatTheStudyDoesNotStateIsFree) {
 TEST(EstimatorData, WithoutAMaximalContractionFMaxMayBeThatOfAnySmallerEffort) {
   StudyResult result = with_one_channel();
   const auto prior = [&] { return data_of(result).muscles[0].priors.at("max_isometric_force"); };
-  result.source.study.identify.estimator = identification::EstimatorKind::least_squares;
+  result.source.study.identify.gain = false;  // else the share of the maximum is an unknown
   result.source.study.emg = {.kind = EmgKind::raw, .has_mvc = true};
   const Prior literature = prior();
   result.source.study.emg.has_mvc = false;

@@ -26,8 +26,6 @@ namespace myoid {
 /// is at most as good as the motion it is computed from.
 [[nodiscard]] bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials);
 
-/// Names of gates that concern one method: the loop's own numbers, and the reference forces of method paper.
-inline constexpr std::string_view kLoopGate = "Forces and parameters agree in their loop";
 inline constexpr std::string_view kSharingGate = "Force sharing certified optimal";
 
 }  // namespace myoid

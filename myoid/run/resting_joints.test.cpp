@@ -47,7 +47,6 @@ Recorded recorded() {
   r.study.identify.methods = {identification::Method::torque};
   r.study.identify.cross_validate = false;
   r.study.identify.next_movements = 0;
-  r.study.identify.bootstrap = 0;
   r.study.truth.reset();
   for (const twin::VirtualTrial& t : r.recording.trials) {
     TrialInput input;

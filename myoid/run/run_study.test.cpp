@@ -106,18 +106,7 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
                                          "shrinkage",
                                          "at_bound",
                                          "verdict",
-                                         "reason",
-                                         "ci_low_sandwich",
-                                         "ci_high_sandwich",
-                                         "ci_low_cluster",
-                                         "ci_high_cluster",
-                                         "ci_low_jackknife",
-                                         "ci_high_jackknife",
-                                         "ci_low_bootstrap",
-                                         "ci_high_bootstrap",
-                                         "ci_low_profile",
-                                         "ci_high_profile",
-                                         "routes_disagree"};
+                                         "reason"};
   EXPECT_EQ(table.names, columns);
   EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
   EXPECT_TRUE(std::filesystem::exists(out / "parameters.json"));
@@ -226,23 +215,6 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
   }
   const double ratio = muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
   EXPECT_NEAR(number(all, "KshapeActive"), ratio * ratio, 1e-12);
-}
-
-TEST(WriteResults, ALoopThatDivergedFailsAGateAndStandsInTheJson) {
-  StudyResult result = ExactRun::get().result;
-  result.fit.force_loop = identification::ForceLoop{
-      .end = identification::LoopEnd::diverged, .message = "the changes grow: do not use it", .rounds = {{}, {}}};
-  bool failed = false;
-  for (const report::Gate& gate : quality_gates(result)) {
-    if (gate.name == "Forces and parameters agree in their loop")
-      failed = gate.status == report::GateStatus::fail &&
-               gate.value == "diverged after 2 rounds: the changes grow: do not use it";
-  }
-  EXPECT_TRUE(failed);
-  const std::vector<identification::Fold> one_fold(1);
-  const std::string json = parameters_json({}, one_fold, {}, parameter_context(result));
-  EXPECT_NE(json.find("the changes grow: do not use it"), std::string::npos);
-  EXPECT_NE(json.find("\"left_out\": \"trial\""), std::string::npos);
 }
 
 }  // namespace

@@ -108,10 +108,7 @@ kind = "activation"
 delay_s = 0.0
 [identify]
 method = "torque"
-priors = false
 gain = false
-bootstrap = 0
-profile = false
 [[muscle]]
 name = "HAM"
 emg = "HAM"

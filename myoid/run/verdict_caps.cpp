@@ -90,7 +90,7 @@ void add_contacts(const StudyResult& result, std::vector<VerdictCap>& caps) {
 
 void add_gates(const std::vector<report::Gate>& gates, std::vector<VerdictCap>& caps) {
   for (const report::Gate& gate : gates) {
-    if (gate.status != report::GateStatus::fail || gate.name == kLoopGate) continue;
+    if (gate.status != report::GateStatus::fail) continue;
     caps.push_back(of_all(fmt::format("The gate \"{}\" failed: mend that first.", gate.name)));
     if (gate.name == kSharingGate) caps.back().methods = {"force"};
   }

@@ -11,7 +11,7 @@ namespace myoid {
 namespace {
 
 constexpr const char* kRun = R"({"command": "myoid run s.toml", "study": "/there/s.toml",
-  "start_s": 0.5, "end_s": null, "options": {"identify": {"estimator": "posterior"}},
+  "start_s": 0.5, "end_s": null, "options": {},
   "inputs": [{"path": "walk.c3d", "sha256": "ab"}, {"path": "s.toml", "sha256": "cd"}],
   "trials": [{"name": "walk", "use": "calibration"}, {"name": "mvc", "use": "mvc"}]})";
 
@@ -22,7 +22,6 @@ TEST(RunRecord, HoldsWhatARunIsComputedAgainBy) {
   EXPECT_EQ(run.study, "/there/s.toml");
   EXPECT_EQ(run.start_s, 0.5);
   EXPECT_FALSE(run.end_s);
-  EXPECT_EQ(run.estimator, identification::EstimatorKind::posterior);
   EXPECT_EQ(run.uses.at("mvc"), "mvc");
   // Found by its name, wherever it lies now; the study itself may grow.
   EXPECT_NO_THROW(refuse_changed({{"/elsewhere/walk.c3d", "ab"}}, run));

@@ -26,8 +26,8 @@ TEST(SettingTables, ARowSaysRangeUnitAndDefault) {
   const SettingRow rate = row_of("[motion]", "rate_hz");
   EXPECT_EQ(rate.allowed, "10 to 2000 Hz");
   EXPECT_EQ(rate.usual, "100");
-  EXPECT_EQ(row_of("[identify]", "loss").allowed, "`square`, `huber`, `cauchy`");
-  EXPECT_EQ(row_of("[identify]", "loss").usual, "`\"square\"`");
+  EXPECT_EQ(row_of("[identify]", "folds").allowed, "`trial`, `condition`, `block`");
+  EXPECT_EQ(row_of("[identify]", "folds").usual, "`\"trial\"`");
   EXPECT_EQ(row_of("[emg]", "delay_s").allowed, "0 to 0.3 s, or `\"estimate\"`");
   EXPECT_EQ(row_of("[model]", "held_mass.at_m").allowed, "3 numbers [m]");
   EXPECT_EQ(row_of("[[muscle]]", "name").usual, "required");

@@ -68,7 +68,7 @@ TEST(StudySettings, AJointNamedTwiceIsRefused) {
 }
 
 TEST(StudySettings, AMisspeltWordIsRefusedWithTheNearestKnownOne) {
-  EXPECT_NE(settings_message("[identify]\nloss = \"hubr\"\n").find("did you mean 'huber'"), std::string::npos);
+  EXPECT_NE(settings_message("[identify]\nfolds = \"trail\"\n").find("did you mean 'trial'"), std::string::npos);
   EXPECT_NE(settings_message("[phases]\nexclude = [\"regular\"]\n").find("found \"regular\""), std::string::npos);
 }
 

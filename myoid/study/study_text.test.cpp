@@ -118,16 +118,11 @@ exclude = ["rest", "changed"]
 [identify]
 method = ["force", "torque"]
 muscles = ["BIC"]
-force_loop = true
-priors = false
 gain = false
 cross_validate = false
 folds = "block"
 next_movements = 7
-bootstrap = 200
-profile = false
 starts = 5
-loss = "huber"
 eccentric = "smooth"
 normalised = true
 lag = "shared"
@@ -136,7 +131,6 @@ tendon = "elastic"
 delay_per_channel = true
 angle_sd_deg = 0.1
 angle_rate_sd_degps = 0.7
-max_rate_hz = 50
 [beliefs]
 moment_arm_sd = 0.02
 moment_arm_slope_sd = 0.03

@@ -47,7 +47,6 @@ Report = Union[Progress, bool, None]
 
 
 def run(study: File, *, out: File | None = None, mat: File | None = None, method: Texts | None = None,
-        estimator: str | None = None, video: Texts | None = None, video_offset: float | None = None,
         threads: int | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
         progress: Report = None) -> Result:  # fmt: skip
     """The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.
@@ -57,7 +56,6 @@ def run(study: File, *, out: File | None = None, mat: File | None = None, method
         out: Folder of the results; None: a temporary folder that lives as long as the result (`Result.save` copies it).
         mat: Parameters, series, remarks and draws also as one MATLAB file, which ends in .mat.
         method: "torque", "force", "paper"; several, in place of the study's.
-        estimator: "least_squares" or "posterior", in place of the study's.
         video: Films that the report shows beside the model, each "TRIAL=FILE".
         video_offset: When these films begin, in seconds of the motion.
     """
@@ -73,11 +71,9 @@ def run(study: File, *, out: File | None = None, mat: File | None = None, method
 def identify(*, muscles: File, activations: Files, lengths: Files, velocities: Files | None = None,
              forces: Files | None = None, moment_arms: Files | None = None, torques: Files | None = None,
              coordinate: Texts | None = None, motion: Files | None = None, lowpass: float | None = None,
-             method: str | None = None, delay: float | None = None, lag: str | None = None, no_priors: bool = False,
-             free: Texts | None = None, hold: Texts | None = None, residual_cutoff: float | None = None,
-             max_rate: float | None = None, estimator: str | None = None, beliefs: File | None = None,
-             posterior_draws: int | None = None, loss: str | None = None, bootstrap: int | None = None,
-             profile: bool = False, compare_solvers: bool = False, starts: int | None = None,
+             method: str | None = None, delay: float | None = None, lag: str | None = None,
+             free: Texts | None = None, hold: Texts | None = None, beliefs: File | None = None,
+             posterior_draws: int | None = None, compare_solvers: bool = False, starts: int | None = None,
              folds: str | None = None, scales: str | None = None, validate: Texts | None = None,
              out: File | None = None, mat: File | None = None, threads: int | None = None,
              seed: int | None = None, start: float | None = None, end: float | None = None,
@@ -98,19 +94,12 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         method: "torque" (default), "force" or "paper".
         delay: The EMG delay is held at this [s].
         lag: "automatic", "delay" or "shared".
-        no_priors: The data alone.
         free: Further parameters to identify, beside those of every fit.
         hold: Parameters that are known, such as "emg_exponent" and "emg_gain" for activations without error.
-        residual_cutoff: Low-pass of both sides of the residual [Hz] (default 1.5).
-        max_rate: Samples are thinned to at most this [Hz] (default 20).
-        estimator: "posterior" (default) or "least_squares".
         beliefs: File with a table [beliefs], such as a study.toml; None: the usual beliefs.
         posterior_draws: Draws by Hamiltonian Monte Carlo, in place of an approximation; 0: none.
-        loss: By least squares: "square", "huber" or "cauchy".
-        bootstrap: By least squares: bootstrap replicates.
-        profile: By least squares: profile likelihood of every parameter.
         compare_solvers: Also writes solvers.csv.
-        starts: Starts of the search.
+        starts: Method "paper": starts of the search.
         folds: The part that is left out and predicted: "trial", "block" or "none".
         scales: "electrode": muscles that share an electrode share one scale of every parameter; "muscle": each its own.
         validate: Trials that are not fitted but predicted, each by its number or its file of lengths.
@@ -224,7 +213,7 @@ class DesignResult:
 
 
 def design(study: File | None = None, *, model: str | None = None, wire: bool = False, targets: Texts | None = None,
-           after: File | None = None, estimator: str | None = None, criterion: str | None = None,
+           after: File | None = None, criterion: str | None = None,
            movements: int | None = None, repeat: int | None = None, budget: float | None = None,
            fatigue: float | None = None, masses: Sequence[float] | float | None = None,
            no_dynamometer: bool = False, persons: int | None = None, torque_noise: float | None = None,
@@ -238,7 +227,6 @@ def design(study: File | None = None, *, model: str | None = None, wire: bool = 
         wire: With arm4: the brachialis has a wire electrode of its own.
         targets: "all", parameters, muscles or MUSCLE.PARAMETER.
         after: Folder of a finished run, whose result is known beforehand.
-        estimator: "least_squares" or "posterior", in place of the study's.
         criterion: "D" (volume of the confidence ellipsoid) or "A" (sum of relative variances).
         movements: How many to choose.
         repeat: The same movement at most so often.
@@ -643,7 +631,7 @@ def twin(*, protocol: File, out: File, model: str | None = None, level: str | No
 
 def twin_study(*, protocol: File, level: str | None = None, offset: float | None = None,
                truth: Mapping[str, Any] | Texts | None = None, subjects: int | None = None,
-               method: Texts | None = None, estimator: str | None = None, out: File | None = None,
+               method: Texts | None = None, out: File | None = None,
                threads: int | None = None, seed: int | None = None, overwrite: bool = False,
                progress: Report = None) -> TwinStudyResult:  # fmt: skip
     """How good is the method? Many virtual persons, the whole chain, compared with the truth.
@@ -655,7 +643,6 @@ def twin_study(*, protocol: File, level: str | None = None, offset: float | None
         truth: Keys of [truth] in place of the protocol's.
         subjects: Virtual persons (default 200).
         method: "torque" (default), "force", "paper"; several.
-        estimator: "least_squares" or "posterior".
         out: Folder of the tables; None: a temporary folder.
     """
     options = locals()

@@ -34,7 +34,7 @@ def _numbers(row: list[str], count: int, path: str | Path, line: int) -> list[fl
 
 
 class Draws:
-    """Joint draws of all unknowns of a fit with the estimator "posterior". A row is one draw, in SI units.
+    """Joint draws of all unknowns of a fit. A row is one draw, in SI units.
 
     `draws["BIC.max_isometric_force"]` has the draws of one unknown. A function of the unknowns has the distribution of
     its values, each with its weight.

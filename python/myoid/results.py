@@ -180,14 +180,14 @@ class Result:
 
     @cached_property
     def draws(self) -> Draws:
-        """Draws from the posterior (posterior.csv), which the estimator "posterior" writes.
+        """Draws from the posterior (posterior.csv) of a fit that is not exact.
 
         Raises:
             InvalidInput: The run has no draws.
         """
         file = self.path / "posterior.csv"
         if not file.is_file():
-            raise InvalidInput(f'{self.path} holds no posterior.csv; run the study with estimator="posterior"')
+            raise InvalidInput(f'{self.path} holds no posterior.csv: its fit is of data without noise, or of method paper alone')
         return Draws.read(file, dict(zip(self.parameters["parameter"], self.parameters["unit"])))
 
     def to_inference_data(self) -> Any:

@@ -26,22 +26,16 @@ const StudyData& arm_study() {
   return data;
 }
 
-/// The first muscle: l0, l_sh, V_sh, V_sh V_shl and V_ml unknown. range(0): samples per second.
+/// The first muscle: l0, l_sh, V_sh, V_sh V_shl and V_ml unknown.
 void identify_one_muscle(benchmark::State& state) {
   StudyData data = identification::force_study(arm_study(), 0);
   data.muscles[0].fixed.push_back("max_isometric_force");
   identification::EstimatorOptions options;
   options.delay_s = 0.05;
-  options.max_rate_hz = static_cast<double>(state.range(0));
   options.predictions = false;
   for (auto _ : state) benchmark::DoNotOptimize(identification::identify_torque(data, options));
 }
-BENCHMARK(identify_one_muscle)
-    ->Arg(20)
-    ->Arg(200)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+BENCHMARK(identify_one_muscle)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 /// Nine trials of 15 s, four muscles; range(0): tendons that stretch by 3.3 % at F_max, or rigid ones.
 void identify_tendons(benchmark::State& state) {
@@ -55,21 +49,13 @@ void identify_tendons(benchmark::State& state) {
 }
 BENCHMARK(identify_tendons)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
-/// All four, with the delay: 25 unknowns. range(0): samples per second; range(1): bootstrap replicates.
+/// All four, with the delay: 25 unknowns.
 void identify_arm(benchmark::State& state) {
   identification::EstimatorOptions options;
   options.choose_lag = true;  // as `run` does
-  options.max_rate_hz = static_cast<double>(state.range(0));
-  options.intervals.bootstrap = static_cast<int>(state.range(1));
   options.predictions = false;
   for (auto _ : state) benchmark::DoNotOptimize(identification::identify_torque(arm_study(), options));
 }
-BENCHMARK(identify_arm)
-    ->Args({20, 0})
-    ->Args({200, 0})
-    ->Args({20, 1000})
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+BENCHMARK(identify_arm)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace

@@ -50,7 +50,7 @@ rm "$work/data/$last/motion/${last}_task-lift_tracksys-omc_motion.tsv"  # one pe
 
 begin=$(seconds)
 code=0
-"$MYOID" cohort "$work/data" --estimator least_squares --out "$work/out" --jobs 1 --threads 1 --quiet >/dev/null || code=$?
+"$MYOID" cohort "$work/data" --out "$work/out" --jobs 1 --threads 1 --quiet >/dev/null || code=$?
 alone=$(took "$begin" "$(seconds)")
 [ "$code" -eq 5 ] || { say "FAILED: exit code $code, expected 5: one person fails"; exit 1; }
 grep -q "^$last,.*failed" "$work/out/persons.csv" || { say "FAILED: $last is not named"; exit 1; }
@@ -84,7 +84,7 @@ compare() {  # compare ENGINE BEGIN
   rm -rf "$work/out"
 }
 
-write_workflow() { "$MYOID" cohort "$work/data" --estimator least_squares --out "$work/out" --workflow "$1" >/dev/null; }
+write_workflow() { "$MYOID" cohort "$work/data" --out "$work/out" --workflow "$1" >/dev/null; }
 
 run_parallel() {
   command -v parallel >/dev/null || { say "parallel: skipped, not installed"; return; }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Torque that took no part in the fit, on two public recordings: a line of figures each, by either estimator.
+"""Torque that took no part in the fit, on two public recordings: a line of figures each.
 
-usage: left_out.py MYOID [DATA] [--estimator posterior|least_squares]
+usage: left_out.py MYOID [DATA]
 
 MYOID: the program. DATA: the folder with tecchio-ankle/ and ceinms-rt-leg/; by default MYOID_DATA, or shared/data beside
 the checkout. Without them the script says so and exits with 77.
@@ -53,8 +53,8 @@ def write(path, columns, rows):
 class Fit:
     """Files of one recording, and the fit that leaves out each trial in turn."""
 
-    def __init__(self, program, folder, estimator):
-        self.program, self.folder, self.estimator, self.files = program, folder, estimator, []
+    def __init__(self, program, folder):
+        self.program, self.folder, self.files = program, folder, []
 
     def run(self, *arguments):
         done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
@@ -74,7 +74,7 @@ class Fit:
     def left_out(self, muscles, coordinate, *more):
         """R2 of each trial, by the fit of the others."""
         files = [x for option in self.files[0] for x in (option, *(trial[option] for trial in self.files))]
-        self.run("identify", "--estimator", self.estimator, "--muscles", muscles, "--coordinate", coordinate,
+        self.run("identify", "--muscles", muscles, "--coordinate", coordinate,
                  "--out", self.folder / "out", "--overwrite", *more, *files)
         found = json.loads((self.folder / "out/parameters.json").read_text())
         return [fold["identified"]["r2"] for fold in found["leave_one_trial_out"]]
@@ -121,7 +121,6 @@ def main():
     parser.add_argument("program")
     beside = pathlib.Path(__file__).resolve().parents[3] / "shared/data"
     parser.add_argument("data", type=pathlib.Path, nargs="?", default=os.environ.get("MYOID_DATA", beside))
-    parser.add_argument("--estimator", choices=["posterior", "least_squares"], default="posterior")
     options = parser.parse_args()
     data = pathlib.Path(options.data)
     if not all((data / part).is_dir() for part in ("tecchio-ankle", "ceinms-rt-leg")):
@@ -129,7 +128,7 @@ def main():
         sys.exit(77)
     for name, judged in (("tecchio-ankle", stretches), ("ceinms-rt-leg", walks)):
         with tempfile.TemporaryDirectory() as folder:
-            found = judged(Fit(options.program, pathlib.Path(folder), options.estimator), data)
+            found = judged(Fit(options.program, pathlib.Path(folder)), data)
         for part, r2 in found.items():
             values = ", ".join(f"{x:.3f}" for x in np.atleast_1d(r2))
             print(f"{name}, {part}: left out, R2 {values}", flush=True)

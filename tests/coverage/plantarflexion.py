@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Maximal plantarflexion of one person at six ankle angles: does the fit of three angles predict the other three?
 
-usage: plantarflexion.py MYOID [DATA] [--estimator posterior|least_squares] [--quick]
+usage: plantarflexion.py MYOID [DATA] [--quick]
 
 MYOID: the program. DATA: the folder with plantarflexor-mvc/ and ceinms-rt-leg/, public recordings; by default MYOID_DATA,
 or shared/data beside the checkout. Without them the script says so and exits with 77. Gastrocnemius and soleus of gait2392 are fully active, the net torque is that of the
@@ -82,13 +82,13 @@ class Contractions:
         if done.returncode not in (0, 4):
             sys.exit(done.stderr)
 
-    def predicted(self, fitted, estimator):
+    def predicted(self, fitted):
         """{angle that was not fitted: [(error [N m], whether the 95 % band holds the torque) of each contraction]}."""
         out = self.folder / "out"
         options = [("--activations", "a"), ("--lengths", "l"), ("--velocities", "v"), ("--moment-arms", "r"),
                    ("--torques", "t")]
         held = [f"{name}_l" for name, angle in self.angle.items() if angle not in fitted]
-        self.run("identify", "--estimator", estimator, "--muscles", self.folder / "muscles.csv", "--coordinate",
+        self.run("identify", "--muscles", self.folder / "muscles.csv", "--coordinate",
                  "ankle", "--folds", "none", "--delay", "0", "--out", out, "--overwrite", "--validate", *held,
                  *(x for option, kind in options
                    for x in (option, *(self.folder / f"{name}_{kind}.csv" for name in self.angle))))
@@ -120,13 +120,13 @@ def quick(make):
     return good and error < 330.0
 
 
-def table(make, estimator):
+def table(make):
     contractions = make(False)
     inside, outside = [], []
     print("| fitted [deg] | " + " | ".join(f"{a}: error [N m]" for a in ANGLES) + " |")
     print("| --- |" + " --- |" * len(ANGLES))
     for fitted in itertools.combinations(ANGLES, 3):
-        errors = contractions.predicted(fitted, estimator)
+        errors = contractions.predicted(fitted)
         for angle, of in errors.items():
             (inside if min(fitted) < angle < max(fitted) else outside).extend(of)
         cells = (" and ".join(f"{e:.0f}" for e, _ in errors[a]) if a in errors else "" for a in ANGLES)
@@ -141,7 +141,6 @@ def main():
     parser.add_argument("program")
     beside = pathlib.Path(__file__).resolve().parents[3] / "shared/data"
     parser.add_argument("data", type=pathlib.Path, nargs="?", default=os.environ.get("MYOID_DATA", beside))
-    parser.add_argument("--estimator", choices=["posterior", "least_squares"], default="posterior")
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
     if not all((options.data / part).is_dir() for part in ("plantarflexor-mvc", "ceinms-rt-leg")):
@@ -154,7 +153,7 @@ def main():
 
         if options.quick:
             sys.exit(0 if quick(make) else 1)
-        table(make, options.estimator)
+        table(make)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Studies of virtual persons in worlds that are other than the identification believes, as one table
 # in Markdown.
-#   tests/coverage/worlds.sh MYOID OUT [PERSONS] [--estimator least_squares|posterior] ...
+#   tests/coverage/worlds.sh MYOID OUT [PERSONS] ...
 # MYOID: the program. OUT: a folder; each world has a folder of its own there, and a world whose
 # summary.csv exists is not run again. PERSONS: 40 by default. Further options go to `twin-study`.
 set -euo pipefail

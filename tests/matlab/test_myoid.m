@@ -142,7 +142,7 @@ function has_the_same_in_one_file(study, work)
   out = fullfile(work, 'with mat');
   file = fullfile(work, 'results.mat');
   try
-    r = myoid.run(study, out, 'mat', file, 'estimator', 'posterior');
+    r = myoid.run(study, out, 'mat', file);
   catch problem
     assert(~isempty(strfind(problem.message, 'libmatio')), problem.message);
     disp('skipped: there is no libmatio');

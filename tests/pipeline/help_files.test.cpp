@@ -105,9 +105,9 @@ TEST_F(HelpFiles, BashCompletesCommandsOptionsAndWords) {
     return said(folder, "bash " + (folder / "ask.bash").string());
   };
   EXPECT_EQ(completed("myoid upd", 1), "update-file\n");
-  EXPECT_EQ(completed("myoid run --est", 2), "--estimator\n");
-  EXPECT_EQ(completed("myoid run --estimator p", 3), "posterior\n");
-  EXPECT_EQ(completed("myoid run --estimator ''", 3), "least_squares\nposterior\n");
+  EXPECT_EQ(completed("myoid run --met", 2), "--method\n");
+  EXPECT_EQ(completed("myoid run --method p", 3), "paper\n");
+  EXPECT_EQ(completed("myoid run --method ''", 3), "force\npaper\ntorque\n");
   EXPECT_EQ(completed("myoid run study", 2), "\n") << "names of files are bash's own";
 }
 
@@ -118,8 +118,8 @@ TEST_F(HelpFiles, OtherShellsReadTheirCompletions) {
   if (!installed("fish")) GTEST_SKIP() << "there is no fish (zsh was asked if it is there)";
   EXPECT_THAT(
       said(folder, "cd / && XDG_CONFIG_HOME=" + folder.path().string() + " fish -c 'source " +
-                       (folder / "help/fish/myoid.fish").string() + "; complete -C \"myoid run --estimator p\"'"),
-      HasSubstr("posterior"));
+                       (folder / "help/fish/myoid.fish").string() + "; complete -C \"myoid run --method p\"'"),
+      HasSubstr("paper"));
 }
 
 }  // namespace

@@ -54,12 +54,10 @@ nlohmann::json validated(const fs::path& results) {
   return {};
 }
 
-class Predict : public testing::TestWithParam<const char*> {};
-
-TEST_P(Predict, MakesTheNumbersOfTheRunsValidationFromItsFiles) {
+TEST(Predict, MakesTheNumbersOfTheRunsValidationFromItsFiles) {
   const TemporaryFolder folder;
   const fs::path recording = recording_in(folder, "rec", 3);
-  const Finished run = myoid({"run", recording / "study.toml", "--estimator", GetParam(), "--out", folder / "results"});
+  const Finished run = myoid({"run", recording / "study.toml", "--out", folder / "results"});
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
   const Finished predict = myoid({"predict", folder / "results", "--out", folder / "predicted"});
   ASSERT_EQ(predict.exit_code, 0) << predict.err;
@@ -90,8 +88,6 @@ TEST_P(Predict, MakesTheNumbersOfTheRunsValidationFromItsFiles) {
   EXPECT_NEAR(1.0 - sse / sst, std::stod(rows[0].at("r2")), 1e-6);
   EXPECT_TRUE(fs::exists(folder / "predicted/fast/predicted_forces.sto"));
 }
-
-INSTANTIATE_TEST_SUITE_P(Estimators, Predict, testing::Values("least_squares", "posterior"));
 
 TEST(PredictCommand, TakesTheTrialsOfAnotherStudyOfThePersonAndRefusesWhatIsNotThere) {
   const TemporaryFolder folder;

@@ -42,8 +42,7 @@ class WorkbenchPage : public testing::Test {
     myoid::recording::write_file(
         *folder_ / "rec/study.toml",
         study + "\n[[norm]]\nname = \"adults, N = 24\"\nfile = \"norm.csv\"\ntrials = [\"ramp\"]\n");
-    const auto run =
-        myoid({"run", *folder_ / "rec/study.toml", "--estimator", "least_squares", "--out", *folder_ / "result"});
+    const auto run = myoid({"run", *folder_ / "rec/study.toml", "--out", *folder_ / "result"});
     ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
     const std::string text = ::myoid::test::read_text(*folder_ / "result/report.html");
     if (text.find("id=\"workbench-data\"") == std::string::npos) return;  // built without three.js

@@ -17,7 +17,7 @@ FORCE, LENGTH = "BIC.max_isometric_force", "BIC.optimal_fiber_length"
 def drawn(recording, tmp_path_factory):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", myoid.MyoidWarning)
-        return myoid.run(recording, estimator="posterior", out=tmp_path_factory.mktemp("posterior") / "r")
+        return myoid.run(recording, out=tmp_path_factory.mktemp("posterior") / "r")
 
 
 def test_draws_are_the_numbers_of_the_file_to_the_bit(drawn):
@@ -93,7 +93,7 @@ def test_without_arviz_the_error_has_the_remedy(drawn, monkeypatch):
 def test_a_run_without_draws_says_so(result, tmp_path):
     for file in ("parameters.csv", "parameters.json", "run.json"):
         shutil.copy(result.path / file, tmp_path)
-    with pytest.raises(myoid.InvalidInput, match='estimator="posterior"'):
+    with pytest.raises(myoid.InvalidInput, match="holds no posterior.csv"):
         myoid.Result(tmp_path).draws  # noqa: B018
 
 
