@@ -155,7 +155,7 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
       {.says =
            "How muscles follow their EMG (`force`, `torque`). `delay`: the activation is the envelope of `emg_delay` "
            "ago; `shared`: the mean delay is split into a pure delay and the lags of excitation and activation, which "
-           "damp fast changes; `automatic`: both, by their evidence ([how](../theory/posterior.md)).",
+           "damp fast changes; `automatic`: both, by their evidence ([how](../theory/identification.md)).",
        .otherwise = "`automatic` for `torque`, else `delay`",
        .words = kLags});
   v.flag("no-priors", o.no_priors, {.says = "The data alone, plain least squares (`force`, `torque`)."});
@@ -186,7 +186,7 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
       "estimator", o.estimator,
       {.says =
            "Of methods `torque` and `force`: `posterior`, whose intervals also hold moment arms, tendons, the scale of "
-           "the torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); "
+           "the torque, cross-talk and drift, which residuals do not show ([how](../theory/identification.md)); "
            "`least_squares`, whose intervals hold given geometry and sensors only (always without priors).",
        .words = choice_names(identification::EstimatorKind{})});
   v.path("beliefs", o.beliefs,

@@ -237,7 +237,7 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
   v.choice("estimator", identify.estimator,
            {.says = "Methods `torque` and `force`: `posterior`, whose intervals also hold moment arms, tendons, the "
                     "scale of the "
-                    "torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); "
+                    "torque, cross-talk and drift, which residuals do not show ([how](../theory/identification.md)); "
                     "`least_squares`, weighted and corrected for the errors of the EMG, whose intervals hold given "
                     "geometry and sensors only (always without priors)."});
   v.count("posterior_draws", identify.posterior_draws,
