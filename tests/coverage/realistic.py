@@ -47,13 +47,17 @@ def make(program, out, seed):
         return [row for row in csv.DictReader(file) if row["method"] == "torque" and row["truth"] and row["ci_low"]]
 
 
+def is_angle(row):
+    return "_angle" in row["parameter"]
+
+
 def percent(share):
     return f"{100 * share:.1f}"
 
 
 def reading(rows, prefix):
     """Share held, median error, bias and median half width; of an angle in degrees, else as shares."""
-    angle = rows[0]["parameter"].endswith("_angle")
+    angle = is_angle(rows[0])
     value = "given_estimate" if prefix else "estimate"
     held, error, half = [], [], []
     for row in rows:
@@ -74,7 +78,7 @@ def right(rows):
     called = [row for row in rows if row["verdict"] == "identified" and float(row["truth"])]
     near = [row for row in called
             if abs(float(row["estimate"]) - float(row["truth"])) <=
-            (math.radians(10) if row["parameter"].endswith("_angle") else 0.15 * abs(float(row["truth"])))]
+            (math.radians(10) if is_angle(row) else 0.15 * abs(float(row["truth"])))]
     return f"{len(near)} of {len(called)}"
 
 
@@ -85,10 +89,11 @@ def main():
     parser.add_argument("persons", type=int, nargs="?", default=16)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    by_parameter = {}
+    by_parameter, all_rows = {}, []
     for seed in range(1, options.persons + 1):
         for row in make(options.program, options.out, seed):
             by_parameter.setdefault(row["parameter"], []).append(row)
+            all_rows.append(row)
     print("| parameter | n | held [%] | error [%] | bias [%] | half width [%] | given: held | error | bias | half width "
           "| identified, right |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
@@ -96,6 +101,7 @@ def main():
         given = [row for row in rows if row.get("given_ci_low")]
         print("|", " | ".join([name, str(len(rows)), *reading(rows, ""),
                                *(reading(given, "given_") if given else ["–"] * 4), right(rows)]), "|")
+    print(f"identified, right: {right(all_rows)}")
 
 
 if __name__ == "__main__":
