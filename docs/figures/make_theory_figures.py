@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """usage: docs/figures/make_theory_figures.py [RESULT RECORDING]
 
-Draws the figures of docs/theory/identification.md and evidence.md as SVG, beside this script: coverage_by_world.svg from
+Draws the figures of docs/theory/identification.md and evidence.md as SVG, beside the pages: coverage_by_world.svg from
 tests/coverage/worlds.csv, and from the demo (RESULT of `myoid run`, RECORDING of `myoid twin`, as run-demo makes them)
 belief_and_readings.svg, two_readings.svg and voluntary_torque.svg. Python's own library is enough.
 """
@@ -12,8 +12,8 @@ import sys
 from pathlib import Path
 from statistics import NormalDist
 
-FIGURES = Path(__file__).resolve().parent
-WORLDS = FIGURES.parents[1] / "tests/coverage/worlds.csv"
+SOURCE = Path(__file__).resolve().parents[2]
+THEORY, WORLDS = SOURCE / "docs/theory", SOURCE / "tests/coverage/worlds.csv"
 
 PERSON, GIVEN, BELIEF, TRUTH = "#2a6496", "#c0562b", "#8a8a8a", "#111111"
 MUSCLES = {"BIC": "biceps", "BRA": "brachialis", "BRD": "brachioradialis", "TRI": "triceps"}
@@ -52,7 +52,7 @@ class Svg:
     def write(self, name):
         head = (f"<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {self.width} {self.height}' "
                 f"font-family='sans-serif' font-size='12'>\n<rect width='100%' height='100%' fill='white'/>\n")
-        (FIGURES / name).write_text(head + "\n".join(self.parts) + "\n</svg>\n")
+        (THEORY / name).write_text(head + "\n".join(self.parts) + "\n</svg>\n")
 
 
 class Scale:
