@@ -7,7 +7,8 @@ MYOID: the program. DATA: the folder with elderly-isometric/, tecchio-ankle/ and
 or shared/data beside the checkout. Without them the script says so and exits with 77.
 
   elderly-isometric  Held efforts of knee and ankle in both directions, one muscle each, constant lengths and moment
-                     arms. One angle may tell no optimal fiber length; the torque of each effort is asked to 10 N m.
+                     arms, a lever of 0.3 m (not recorded). One angle may tell no optimal fiber length; the torque of
+                     each effort is asked to 10 N m.
   tecchio-ankle      The tibialis anterior with a tendon of 0.223 m (gait2392) and of 0.247 m, both generic: the
                      intervals of l_m0 must overlap and hold the 75 mm of ultrasound.
 """
