@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The posterior of docs/theory/posterior.md by another hand, sampled by emcee.
+"""The posterior of docs/theory/identification.md by another hand, sampled by emcee.
 
 usage: emcee_posterior.py POSTERIOR_DUMP [--persons 2] [--first 1] [--steps 3000] [--walkers 64] [--draws 1000]
 
