@@ -51,7 +51,7 @@ set(MYOID_LAYER_twin core math files muscle tables c3d arm intervals study run
 set(MYOID_LAYER_cohort core math files tables recording report study results)
 set(MYOID_LAYER_realtime core files identification kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
-set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
+set(MYOID_LAYER_commands core beliefs files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
     results draft contents identify_files opensim_tools virtual_person twin cohort)
 set(MYOID_LAYER_cli core math files intervals methods report study results contents cohort mat commands)

@@ -1,8 +1,9 @@
 /* Torques and muscle forces while a person moves, by the C interface.
  *
- *   realtime RESULTS STEP <samples     a line of numbers for each line of numbers, STEP seconds apart
- *   realtime RESULTS --time N          how long an evaluation takes
+ *   realtime [--given] RESULTS STEP <samples   a line of numbers for each line of numbers, STEP seconds apart
+ *   realtime [--given] RESULTS --time N        how long an evaluation takes
  *
+ * --given takes the reading given geometry and sensors in place of the person's.
  * A sample is the envelope of each channel, then angle [rad] and speed [rad/s] of each joint. The answer is
  * torque, lower and upper end of the 95 % band of each joint [N m], then the same of each muscle's force [N].
  */
@@ -32,9 +33,11 @@ int main(int argc, char** argv) {
   double envelope[MOST] = {0}, acting[MOST] = {0}, angle[MOST] = {0}, speed[MOST] = {0};
   double torque[3][MOST], force[3][MOST];
   const myoid_output output = {sizeof output, torque[0], torque[1], torque[2], force[0], force[1], force[2]};
+  const int given = argc > 1 && strcmp(argv[1], "--given") == 0;
+  if (given) --argc, ++argv;
   if (argc < 3) return fprintf(stderr, "usage: realtime RESULTS STEP, or realtime RESULTS --time N\n"), 2;
 
-  myoid_model* model = myoid_open(argv[1], NULL, error, sizeof error);
+  myoid_model* model = (given ? myoid_open_given : myoid_open)(argv[1], NULL, error, sizeof error);
   if (model == NULL) return fprintf(stderr, "error: %s\n", error), 3;
   myoid_workspace* workspace = myoid_workspace_new(model);
   const int channels = myoid_channel_count(model), joints = myoid_joint_count(model);

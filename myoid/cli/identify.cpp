@@ -61,10 +61,9 @@ void print_samples(const identification::IdentificationResult& result,
   Eigen::Index all = 0;
   for (const TrialData& trial : data.trials) all += trial.time_s.size();
   all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size() : joint_count(data.trials.front()));
-  if (o.method == "torque" && o.estimator == "posterior" && !o.no_priors && !result.exact) {
-    say("{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as {:.0f} independent "
-        "ones.\n",
-        result.samples_used, all, result.effective_samples);
+  if (commands::by_posterior(o) && !result.exact) {
+    say("{} rows of the low-passed {}, one per 0.22 s, stand for {} samples and count as {:.0f} independent ones.\n",
+        result.samples_used, o.method, all, result.effective_samples);
     return;
   }
   const double rate_hz = result.exact ? std::max(o.max_rate_hz, identification::kNoiseFreeRate_hz) : o.max_rate_hz;
@@ -193,7 +192,7 @@ void add_identify(CLI::App& app, Context& context) {
   commands::IdentifyOptions defaults;
   OptionDeclarer declarer(command);
   visit(defaults, declarer);
-  command.get_option("--free")->delimiter(',');
+  for (const char* option : {"--free", "--hold"}) command.get_option(option)->delimiter(',');
   const auto out = std::make_shared<std::string>();
   command.add_option("--out", *out, "Folder for parameters.csv, parameters.json")->required();
   const MatOption mat(command);

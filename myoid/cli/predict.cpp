@@ -5,6 +5,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/say.h"
 #include "myoid/methods/prediction.h"
+#include "myoid/results/prediction_files.h"
 
 namespace myoid::cli {
 namespace {
@@ -17,6 +18,7 @@ void print_predict(const commands::PredictResult& result) {
     say("{:<20} {:<16} {:>10.2f} {:>8.3f} {:>13.3f} {:>14.0f} %{}\n", in_column(t.trial), in_column(t.joint),
         t.score.rmse_nm(), t.score.r2(), t.band.r2(), 100.0 * covered, t.calibration ? "  (took part in the fit)" : "");
   }
+  say("{}\n", band_sentence(result.trials));
 }
 
 }  // namespace
@@ -25,6 +27,7 @@ void add_predict(CLI::App& app, Context& context) {
   CLI::App& command =
       *app.add_subcommand("predict",
                           "Torque and muscle forces, with 95 % bands, of trials that took no part in a run's fit.\n"
+                          "By the posterior the bands are of the person, by least squares given geometry and sensors.\n"
                           "Example: myoid predict results --trials fast_lift --out predicted");
   const auto out = std::make_shared<std::string>();
   const auto o = std::make_shared<commands::PredictOptions>();

@@ -115,7 +115,7 @@ void add_twin_study(CLI::App& app, Context& context) {
       ->default_str("torque");
   command.add_option("--estimator", options->study.estimator, "Of method torque: least_squares or posterior")
       ->transform(one_of<identification::EstimatorKind>())
-      ->default_str("least_squares");
+      ->default_str("posterior");
   command.add_flag("--each-muscle", *each_muscle, "A line for each muscle too");
   command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")->required();
   add_common_options(command, context, {.range = false});

@@ -1,5 +1,7 @@
 #include "myoid/cohort/group.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -63,16 +65,28 @@ report::Table persons_table(const Manifest& manifest, const std::vector<PersonOu
   return table;
 }
 
-/// Adds the rows of parameters.csv behind the person's own columns.
+/// Adds the rows of parameters.csv behind the person's own columns. A column that only some persons' files have stays
+/// empty for the others.
 void add_parameters(report::Table& table, const Person& person, const CsvTable& parameters) {
   if (table.columns.empty()) {
     table.columns.emplace_back("person");
     for (const auto& [name, text] : person.facts) table.columns.push_back(name);
-    table.columns.insert(table.columns.end(), parameters.names.begin(), parameters.names.end());
+  }
+  const std::size_t own = 1 + person.facts.size();
+  std::vector<std::size_t> place;
+  for (const std::string& name : parameters.names) {
+    const auto behind_own = table.columns.begin() + static_cast<std::ptrdiff_t>(own);
+    auto found = std::find(behind_own, table.columns.end(), name);
+    if (found == table.columns.end()) {
+      found = table.columns.insert(table.columns.end(), name);
+      for (std::vector<Cell>& row : table.rows) row.emplace_back();
+    }
+    place.push_back(static_cast<std::size_t>(found - table.columns.begin()));
   }
   for (const auto& row : parameters.rows) {
     std::vector<std::string> texts = own_cells(person);
-    texts.insert(texts.end(), row.begin(), row.end());
+    texts.resize(table.columns.size());
+    for (std::size_t i = 0; i < row.size(); ++i) texts[place[i]] = row[i];
     table.rows.push_back(report::text_row(std::move(texts)));
   }
 }

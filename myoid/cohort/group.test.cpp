@@ -1,5 +1,7 @@
 #include "myoid/cohort/group.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +47,25 @@ TEST(Group, TheTableHasEveryNumberOfEveryPersonBehindThePersonsOwnColumns) {
   EXPECT_EQ(group.parameters.columns[2], "muscle");
   EXPECT_EQ(group.parameters.rows[3][0].text, "B");
   EXPECT_EQ(group.parameters.rows[3][7].text, "140");
+}
+
+TEST(Group, AColumnThatOnlySomePersonsHaveStandsUnderItsName) {
+  const test::TemporaryFolder folder;
+  const Manifest manifest = three(folder.path());
+  recording::write_file(person_folder(folder.path(), manifest.persons[1]) / "parameters.csv",
+                        "muscle,parameter,unit,method,case,estimate,given_estimate,ci_low,ci_high,verdict,reason\n"
+                        "BIC,max_isometric_force,N,torque,both,140,135,120,160,weak,why\n");
+  const Group group = read_group(manifest, folder.path());
+  const auto cell = [&](std::size_t row, const char* name) {
+    const auto& names = group.parameters.columns;
+    return group.parameters.rows[row].at(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())).text;
+  };
+  EXPECT_EQ(cell(0, "given_estimate"), "");
+  EXPECT_EQ(cell(0, "reason"), "a, b");
+  EXPECT_EQ(cell(3, "given_estimate"), "135");
+  EXPECT_EQ(cell(3, "ci_low"), "120");
+  EXPECT_EQ(cell(3, "reason"), "why");
+  EXPECT_EQ(group.page.sections[0].grids.at(0).rows[1].cells[0].given_value, 135.0);
 }
 
 TEST(Group, ThePageHasMeanSpreadAndWidthOfTheNumbersThatAreTold) {

@@ -47,6 +47,9 @@ StripCell cell_of(const Quality& quality) {
   return {.value = quality.value,
           .lower = {},
           .upper = {},
+          .given_value = {},
+          .given_lower = {},
+          .given_upper = {},
           .truth = {},
           .verdict = quality.verdict,
           .badge = quality_badge(quality.verdict)};
@@ -56,6 +59,9 @@ StripCell cell_of(const GroupNumber& number) {
   return {.value = number.estimate,
           .lower = number.low,
           .upper = number.high,
+          .given_value = number.given,
+          .given_lower = number.given_low,
+          .given_upper = number.given_high,
           .truth = number.truth,
           .verdict = number.verdict,
           .badge = report::verdict_badge(number.verdict)};
@@ -140,7 +146,10 @@ std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons, std
       if (grid == grids.end())
         grid = grids.insert(grids.end(), empty_grid(persons, id, report::spelled(number.parameter)));
       grid->caption =
-          "A row is a person: mark and 95 % interval. Behind them median and robust standard deviation of the numbers "
+          "A row is a person: mark and 95 % interval of the person; the thick bar is the interval if moment arms, "
+          "tendons "
+          "and sensors were exact, by which sessions of one person are compared. Behind them median and robust "
+          "standard deviation of the numbers "
           "that the recordings tell; pale: a number that the recording does not tell.";
       const std::size_t column = column_of(*grid, number.muscle, number.unit);
       grid->rows[i].cells[column] = cell_of(number);
@@ -153,36 +162,71 @@ std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons, std
   return grids;
 }
 
-/// Returns a number of a grid over the persons; empty if no recording determines it.
-std::optional<std::vector<Cell>> summary_row(const StripGrid& grid, std::size_t column) {
-  std::vector<double> estimates, widths;
+/// Values and intervals of one reading of a number, over the persons.
+struct OverPersons {
+  std::vector<double> values, half_widths;
+
+  void add(const std::optional<double>& value, const std::optional<double>& low, const std::optional<double>& high) {
+    if (value) values.push_back(*value);
+    if (value && low && high) half_widths.push_back(0.5 * (*high - *low));
+  }
+
+  /// Returns mean, standard deviation between persons and median half width; "-" where there is none.
+  [[nodiscard]] std::vector<std::string> texts() const {
+    std::vector<std::string> found{"-", "-", "-"};
+    if (values.empty()) return found;
+    const auto count = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+    double squares = 0.0;
+    for (const double x : values) squares += (x - mean) * (x - mean);
+    found[0] = report::format_value(mean);
+    if (values.size() > 1) found[1] = report::format_value(std::sqrt(squares / (count - 1.0)));
+    if (!half_widths.empty()) found[2] = report::format_value(math::median(half_widths));
+    return found;
+  }
+};
+
+/// Returns a number of a grid over the persons, with `readings` by both; empty if no recording determines it.
+std::optional<std::vector<Cell>> summary_row(const StripGrid& grid, std::size_t column, bool readings) {
+  OverPersons person, given;
   for (const report::StripRow& row : grid.rows) {
     const StripCell& cell = row.cells[column];
     if (!counts(cell)) continue;
-    estimates.push_back(*cell.value);
-    if (cell.lower && cell.upper) widths.push_back(0.5 * (*cell.upper - *cell.lower));
+    person.add(cell.value, cell.lower, cell.upper);
+    given.add(cell.given_value, cell.given_lower, cell.given_upper);
   }
-  if (estimates.empty()) return std::nullopt;
-  const auto count = static_cast<double>(estimates.size());
-  const double mean = std::accumulate(estimates.begin(), estimates.end(), 0.0) / count;
-  double squares = 0.0;
-  for (const double x : estimates) squares += (x - mean) * (x - mean);
-  return report::text_row({grid.title, grid.columns[column].name, grid.columns[column].unit,
-                           fmt::format("{} of {}", estimates.size(), grid.rows.size()), report::format_value(mean),
-                           estimates.size() < 2 ? "-" : report::format_value(std::sqrt(squares / (count - 1.0))),
-                           widths.empty() ? "-" : report::format_value(math::median(std::move(widths)))});
+  if (person.values.empty()) return std::nullopt;
+  std::vector<std::string> texts{grid.title, grid.columns[column].name, grid.columns[column].unit,
+                                 fmt::format("{} of {}", person.values.size(), grid.rows.size())};
+  for (const std::string& text : person.texts()) texts.push_back(text);
+  if (readings)
+    for (const std::string& text : given.texts()) texts.push_back(text);
+  return report::text_row(std::move(texts));
 }
 
 report::Table summary_table(const std::vector<StripGrid>& grids) {
+  const bool readings = std::ranges::any_of(grids, [](const StripGrid& grid) {
+    return std::ranges::any_of(grid.rows, [](const report::StripRow& row) {
+      return std::ranges::any_of(row.cells, [](const StripCell& cell) { return cell.given_value.has_value(); });
+    });
+  });
   report::Table table{.id = "summary",
                       .title = "Numbers that the recordings tell",
-                      .caption = "Verdict identified or weak. Every person counts once.",
+                      .caption = "Verdict identified, reproducible or weak. Every person counts once.",
                       .columns = {"parameter", "muscle", "unit", "persons", "mean", "SD between persons",
                                   "median half width of the 95 % intervals"},
                       .rows = {}};
+  if (readings) {
+    table.caption +=
+        " The last columns are the same given geometry and sensors: whoever's moment arms, tendons and sensors err "
+        "alike may be compared by them.";
+    for (const char* name : {"mean, given geometry and sensors", "SD, given geometry and sensors",
+                             "median half width, given geometry and sensors"})
+      table.columns.emplace_back(name);
+  }
   for (const StripGrid& grid : grids) {
     for (std::size_t c = 0; c < grid.columns.size(); ++c) {
-      if (std::optional<std::vector<Cell>> row = summary_row(grid, c)) table.rows.push_back(std::move(*row));
+      if (std::optional<std::vector<Cell>> row = summary_row(grid, c, readings)) table.rows.push_back(std::move(*row));
     }
   }
   return table;

@@ -25,7 +25,7 @@ inline constexpr std::size_t kFewestForOutliers = 5;
 
 /// The persons side by side: quality first, then each parameter with a column per muscle, then the
 /// outliers, then mean and spread. Numbers that a recording does not determine (verdict other than
-/// identified or weak) are drawn pale and not counted.
+/// identified, reproducible or weak) are drawn pale and not counted.
 struct GroupPage {
   report::Section persons;  ///< Strip plots and summary, with ids.
   std::vector<Outlier> outliers;

@@ -53,6 +53,30 @@ TEST(GroupPage, NamesThePersonWhoIsFarFromTheOthers) {
   EXPECT_EQ(page.persons.tables.at(0).id, "outliers");
 }
 
+TEST(GroupPage, ShowsBothReadingsOfEachPersonAndOfTheGroup) {
+  std::vector<GroupPerson> persons{person(0, 600.0, "reproducible"), person(1, 640.0), person(2, 620.0, "weak")};
+  EXPECT_EQ(group_page(persons).persons.tables.at(0).columns.size(), 7U);
+  for (const int i : {0, 1}) {
+    GroupNumber& number = persons[static_cast<std::size_t>(i)].numbers[0];
+    number.given = 500.0 + 20.0 * i;
+    number.given_low = *number.given - 2.0;
+    number.given_high = *number.given + 4.0;
+  }
+  const GroupPage page = group_page(persons);
+  const report::StripCell& cell = page.persons.grids[1].rows[1].cells[0];
+  EXPECT_EQ(cell.value, 640.0);
+  EXPECT_EQ(cell.given_value, 520.0);
+  EXPECT_EQ(cell.given_lower, 518.0);
+  EXPECT_EQ(cell.given_upper, 524.0);
+  const report::Table& summary = page.persons.tables.at(0);
+  ASSERT_EQ(summary.columns.size(), 10U);
+  EXPECT_EQ(summary.rows[0][3].text, "3 of 3");
+  EXPECT_EQ(summary.rows[0][4].text, "620");
+  EXPECT_EQ(summary.rows[0][7].text, "510");   // of the two that have the reading
+  EXPECT_EQ(summary.rows[0][8].text, "14.1");  // 20 / sqrt(2)
+  EXPECT_EQ(summary.rows[0][9].text, "3");
+}
+
 TEST(GroupPage, ANumberThatIsNotToldIsDrawnAndCountsNowhere) {
   std::vector<GroupPerson> persons;
   for (int i = 0; i < 6; ++i) persons.push_back(person(i, 600.0 + 10.0 * i));

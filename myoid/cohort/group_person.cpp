@@ -48,6 +48,9 @@ std::optional<GroupNumber> number_of(const CsvTable& table, const std::vector<st
                      .estimate = *estimate,
                      .low = value("ci_low"),
                      .high = value("ci_high"),
+                     .given = value("given_estimate"),
+                     .given_low = value("given_ci_low"),
+                     .given_high = value("given_ci_high"),
                      .truth = value("truth")};
 }
 
@@ -55,7 +58,7 @@ json read_json(const fs::path& file) {
   try {
     return parse_json(recording::read_text_file(file));
   } catch (const json::exception& error) {
-    throw ReadError(file, 0, fmt::format("is damaged: {}; run the study again", error.what()));
+    throw ReadError(file, 0, fmt::format("is damaged: {}; run the study again", json_error_text(error)));
   }
 }
 
@@ -185,8 +188,9 @@ std::vector<Quality> run_quality(const fs::path& folder) {
     if (fs::exists(report)) add_questions(read_json(report), quality);
     if (fs::exists(parameters)) add_fit(read_json(parameters), quality);
   } catch (const json::exception& error) {
-    throw ReadError(folder, 0,
-                    fmt::format("is not the result of a run: {}; run the study again (myoid run)", error.what()));
+    throw ReadError(
+        folder, 0,
+        fmt::format("is not the result of a run: {}; run the study again (myoid run)", json_error_text(error)));
   }
   add_markers(folder, quality);
   return quality;

@@ -17,8 +17,9 @@ struct GroupNumber {
   std::string unit;       ///< Empty: dimensionless.
   std::string verdict;
   double estimate = 0.0;
-  std::optional<double> low, high;  ///< 95 % interval.
-  std::optional<double> truth;      ///< In a virtual recording.
+  std::optional<double> low, high;                     ///< 95 % interval of the person.
+  std::optional<double> given, given_low, given_high;  ///< The same given geometry and sensors; empty by least squares.
+  std::optional<double> truth;                         ///< In a virtual recording.
 };
 
 /// A number that says how good a recording and its fit are.

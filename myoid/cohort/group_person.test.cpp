@@ -36,6 +36,22 @@ TEST(GroupPerson, HasTheNumbersOfTorqueOrElseOfTheFirstMethod) {
   EXPECT_EQ(found[0].page, "");  // the run has no report
 }
 
+TEST(GroupPerson, HasBothReadingsOfANumber) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "run/parameters.csv",
+                        "muscle,parameter,unit,method,case,estimate,ci_low,ci_high,given_estimate,given_ci_low,"
+                        "given_ci_high,verdict\n"
+                        "BIC,max_isometric_force,N,torque,both,700,500,900,690,670,710,reproducible\n"
+                        "TRI,max_isometric_force,N,torque,both,800,500,900,,,,weak\n");
+  const std::vector<GroupPerson> found = read_group_persons({folder / "run"}, folder.path());
+  const std::vector<GroupNumber>& numbers = found.at(0).numbers;
+  ASSERT_EQ(numbers.size(), 2U);
+  EXPECT_EQ(numbers[0].given, 690.0);
+  EXPECT_EQ(numbers[0].given_low, 670.0);
+  EXPECT_EQ(numbers[0].given_high, 710.0);
+  EXPECT_FALSE(numbers[1].given || numbers[1].given_low || numbers[1].given_high);
+}
+
 TEST(GroupPerson, TheNameIsThePartOfThePathInWhichRunsDiffer) {
   const test::TemporaryFolder folder;
   const fs::path one = run_with(folder / "sub-01/monday/out", "");

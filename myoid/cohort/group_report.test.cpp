@@ -102,6 +102,25 @@ TEST(GroupReport, OfTwoSessionsHasTheChangeAndTheSmallestThatShows) {
   EXPECT_EQ(page.headline.find("P30: "), std::string::npos) << page.headline;
 }
 
+TEST(GroupReport, TwoSessionsAreComparedGivenGeometryAndSensors) {
+  const test::TemporaryFolder folder;
+  const auto session = [&](const char* name, double given) {
+    const fs::path place = run(folder / name, 600);  // the person's number stays, with 40 N to either side
+    std::string json = recording::read_text_file(place / "parameters.json");
+    json.insert(json.find("\"verdict\""),
+                fmt::format(R"("given_estimate": {}, "given_ci_low": {}, "given_ci_high": {}, )", given, given - 10,
+                            given + 10));
+    recording::write_file(place / "parameters.json", json);
+    return place;
+  };
+  const report::Report page =
+      group_report({.persons = {session("before", 600)}, .after = {session("after", 640)}, .folder = folder / "group"});
+  const report::StripCell& cell = page.sections[0].grids.at(0).rows[0].cells[0];
+  EXPECT_NEAR(*cell.value, 40.0, 0.1);
+  EXPECT_NEAR(*cell.value - *cell.lower, 10.0 * std::sqrt(2.0), 0.01);
+  EXPECT_EQ(cell.verdict, "differs");
+}
+
 /// Adds what a run of this coordinate and recording says of itself.
 void add_provenance(const fs::path& folder, const std::string& coordinate, const std::string& sha256) {
   std::string json = recording::read_text_file(folder / "parameters.json");

@@ -1,10 +1,12 @@
 #include "myoid/commands/identify.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
+#include "myoid/identification/nuisances.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identify_files/electrode_ties.h"
 #include "myoid/intervals/verdict_cap.h"
@@ -34,31 +36,54 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
   files.resting_torque_is_free = std::ranges::any_of(
       o.free_more, [](const std::string& name) { return name == "joint_torque_offset" || name == "joint_stiffness"; });
   StudyData data = read_identify_data(files, table, [&](const std::string& text) { remarks.warn(text); });
+  // First, so that rules of the user's own win.
+  if (by_posterior(o)) {
+    const std::vector<identification::ParameterRule> nuisances = identification::nuisance_rules(data, true);
+    data.rules.insert(data.rules.begin(), nuisances.begin(), nuisances.end());
+  }
   if (files.torque && o.scales == "electrode") {
     ElectrodeTies ties = electrode_ties(data.muscles);
-    // First, so that rules of the user's own win.
     data.rules.insert(data.rules.begin(), ties.rules.begin(), ties.rules.end());
     if (!ties.says.empty()) remarks.note(ties.says);
   }
-  for (const std::string& name : o.free_more) {
+  const auto add = [&](const std::string& name, std::vector<std::string> owners, bool free) {
     (void)identification::parameter_field(name);
     identification::ParameterRule rule;
     rule.parameter = name;
-    rule.free = true;
-    data.rules.push_back(rule);
-  }
+    rule.owners = std::move(owners);
+    rule.free = free;
+    data.rules.push_back(std::move(rule));
+  };
+  for (const identification::MuscleSetup& muscle : data.muscles)
+    if (identification::contains(muscle.fixed, "length_activation")) add("length_activation", {muscle.name}, false);
+  for (const std::string& name : o.free_more) add(name, {}, true);
+  for (const std::string& name : o.hold) add(name, {}, false);
   return data;
 }
 
-/// Returns the fit, and frees in its data the v_max that it freed.
+/// Returns the data with the nuisances that a fit of data with noise frees.
+StudyData as_fitted(StudyData data, const MuscleTable& table, const EstimatorOptions& options) {
+  StudyData freed = data;
+  identification::free_speeds(freed, table.speed_may_be_free);
+  if (!identification::tells_nuisances(freed, options)) identification::hold_nuisances(data);
+  return data;
+}
+
+/// Returns the fit, and makes the rules of its data those of the fit: frees the v_max that the fit freed, and without
+/// noise holds the nuisances.
 IdentificationResult with_freed(IdentificationResult fit, const MuscleTable& t, StudyData& data) {
-  if (std::ranges::any_of(fit.estimates, [](const auto& e) { return e.parameter == "max_shortening_speed"; }))
-    identification::free_speeds(data, t.speed_may_be_free);
+  const auto has = [&](std::string_view parameter) {
+    return std::ranges::any_of(fit.estimates, [&](const auto& e) { return e.parameter == parameter; });
+  };
+  if (fit.exact) identification::hold_nuisances(data, has("emg_exponent") ? "emg_exponent" : "");
+  if (has("max_shortening_speed")) identification::free_speeds(data, t.speed_may_be_free);
   return fit;
 }
 
 IdentificationResult fit_torque(const MuscleTable& t, const EstimatorOptions& o, StudyData& data) {
-  return with_freed(identification::identify_torque_or_exact(data, o, t.speed_may_be_free), t, data);
+  IdentificationResult fit = identification::identify_torque_or_exact(data, o, t.speed_may_be_free);
+  if (!fit.exact) data = as_fitted(std::move(data), t, o);
+  return with_freed(std::move(fit), t, data);
 }
 
 identification::ForceOptions force_options(const MuscleTable& t, const EstimatorOptions& o) {
@@ -88,14 +113,22 @@ std::vector<identification::Fold> held_out(const IdentifyOptions& o,
       .kind = o.folds == "block" ? identification::FoldKind::block : identification::FoldKind::trial,
       .setting = "--folds"};
   (void)identification::splits(data, how, &why_not);
-  const auto fit_fold = [&](StudyData& fold, const EstimatorOptions& once) { return fit_torque(table, once, fold); };
-  if (o.method == "torque") return identification::cross_validate(data, fit_fold, options, how);
+  // The whole data have noise, and so has a part of them.
+  const auto fit_fold = [&](StudyData& fold, const EstimatorOptions& once) {
+    identification::free_speeds(fold, table.speed_may_be_free);
+    return identification::identify_torque(fold, once);
+  };
+  if (o.method == "torque")
+    return identification::cross_validate(as_fitted(data, table, options), fit_fold, options, how);
   const auto fit_force = [&](StudyData& fold, const EstimatorOptions& once) {
-    return with_freed(identification::identify_muscle_force(fold, force_options(table, once)), table, fold);
+    identification::free_speeds(fold, table.speed_may_be_free);
+    return identification::identify_muscle_force(fold, {.estimator = once});
   };
   std::vector<identification::Fold> folds;
+  const EstimatorOptions of_one = identification::of_one_force(options);
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    const auto more = identification::cross_validate(identification::force_study(data, k), fit_force, options, how);
+    const StudyData one = as_fitted(identification::force_study(data, k), table, of_one);
+    const auto more = identification::cross_validate(one, fit_force, of_one, how);
     folds.insert(folds.end(), more.begin(), more.end());
   }
   return folds;
@@ -108,6 +141,7 @@ Provenance provenance_of(const IdentifyOptions& o) {
     provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
   };
   add(o.muscles.string());
+  if (o.beliefs && by_posterior(o)) add(o.beliefs->string());
   for (const auto* list : {&o.files.activations, &o.files.lengths, &o.files.velocities, &o.files.forces,
                            &o.files.moment_arms, &o.files.torques, &o.files.motions}) {
     for (const std::string& path : *list) add(path);
@@ -145,6 +179,12 @@ IdentifyResult identify(const IdentifyOptions& o) {
   result.fit = fit_data(o, table, as_asked, result.data);
   if (o.method == "torque" && identification::exchanged_electrodes(as_read, EstimatorOptions{}.delay_prior_mean_s))
     identification::apply({{.reason = std::string(identification::kExchangedCap)}}, result.fit);
+  if (o.method == "torque" && !result.fit.exact && result.data.rules != as_read.rules && by_posterior(o) &&
+      !identification::tells_nuisances(result.data, as_asked))
+    remarks.note(
+        "the trials hold few independent rows of torque for the unknowns of the muscles: exponents of the EMG, the "
+        "joint's own torque and the shift of the optimal length with activation stay at their expected values; more "
+        "trials would tell them, --free frees them");
   if (o.method != "paper" && o.folds != "none" && !result.fit.exact)
     result.folds = held_out(o, as_read, beginning_at(result.fit, as_asked), table, result.why_no_folds);
   if (const std::string text = identification::generalises_badly(result.folds); !text.empty())

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/error.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/identification/parameters.h"
+#include "myoid/study/read_study.h"
 
 namespace myoid::commands {
 namespace {
@@ -68,9 +71,20 @@ identification::EstimatorSettings settings_of(const IdentifyOptions& o) {
   if (o.residual_hz > 0.0) settings.residual_cutoff_hz = o.residual_hz;
   settings.loss = *choice_named<identification::Loss>(o.loss);
   settings.posterior_draws = o.posterior_draws;
+  if (o.beliefs && by_posterior(o)) settings.unseen = read_beliefs(*o.beliefs);
   settings.starts = o.starts.value_or(1);
   settings.intervals = {.bootstrap = o.bootstrap, .profile = o.profile, .seed = o.call.seed};
   return settings;
+}
+
+/// Describes activations of another program: 1 is a maximal effort, by a normalization of unknown exactness.
+identification::ActivationSource activation_source(const StudyData& data) {
+  identification::ActivationSource source;
+  std::set<std::string> channels;
+  for (const identification::MuscleSetup& muscle : data.muscles) channels.insert(muscle.emg_channel);
+  for (const std::string& channel : channels)
+    source.channels.push_back({.channel = channel, .gain_sd = identification::beliefs::kEmgGain.sd});
+  return source;
 }
 
 /// Throws InvalidInput for a value that its setting does not allow.
@@ -116,8 +130,8 @@ void visit_files(IdentifyOptions& o, SettingVisitor& v) {
            .otherwise = "the only column"});
   v.texts("motion", o.files.motions,
           {.says = "Joint angles (`.mot`, `.sto`; columns as `--coordinate`, or the only one), differentiated by the "
-                   "quintic spline through them: for `--free joint_viscosity`, `joint_inertia`, `joint_stiffness`.",
-           .otherwise = "none"});
+                   "quintic spline through them: for the stiffness and viscosity of the joint itself.",
+           .otherwise = "none: the joint's own torque is a constant"});
   v.number("lowpass", o.files.motion_cutoff_hz,
            {.says = "The angles of `--motion` are smoothed, −3 dB at this frequency.",
             .limits = above_zero("Hz"),
@@ -141,13 +155,16 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
       {.says =
            "How muscles follow their EMG (`force`, `torque`). `delay`: the activation is the envelope of `emg_delay` "
            "ago; `shared`: the mean delay is split into a pure delay and the lags of excitation and activation, which "
-           "damp fast changes; `automatic`: the one that the data prefer ([how](../theory/identification.md)).",
+           "damp fast changes; `automatic`: both, by their evidence ([how](../theory/posterior.md)).",
        .otherwise = "`automatic` for `torque`, else `delay`",
        .words = kLags});
   v.flag("no-priors", o.no_priors, {.says = "The data alone, plain least squares (`force`, `torque`)."});
   v.texts("free", o.free_more,
           {.says = "Further parameters to identify, of all muscles, channels or the joint, by comma: "
-                   "`emg_shape,length_activation`.",
+                   "`emg_shape,joint_inertia`, beside [those of every fit](#what-is-identified).",
+           .otherwise = "none"});
+  v.texts("hold", o.hold,
+          {.says = "Parameters that are known, by comma: `emg_exponent,emg_gain` for activations without error.",
            .otherwise = "none"});
 }
 
@@ -168,26 +185,33 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
   v.text(
       "estimator", o.estimator,
       {.says =
-           "Of method `torque`: `posterior`, whose intervals also hold moment arms, tendons, the scale of the torque, "
-           "cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); `least_squares`, whose "
-           "intervals hold given geometry and sensors only (always without priors).",
+           "Of methods `torque` and `force`: `posterior`, whose intervals also hold moment arms, tendons, the scale of "
+           "the torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); "
+           "`least_squares`, whose intervals hold given geometry and sensors only (always without priors).",
        .words = choice_names(identification::EstimatorKind{})});
+  v.path("beliefs", o.beliefs,
+         {.says = "Of estimator `posterior`: file with a table [`[beliefs]`](study.md#beliefs), such as a study.toml: "
+                  "what is believed about errors that residuals hardly show.",
+          .otherwise = "the [usual beliefs](../theory/priors.md)"});
   v.count("posterior-draws", o.posterior_draws,
           {.says = "Of estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the intervals, in place of "
                    "an approximation; 1000 take some ten times as long. 0: none.",
            .limits = within(0, 100000)});
-  v.text("loss", o.loss, {.says = "How much a large residual counts.", .words = choice_names(identification::Loss{})});
+  v.text(
+      "loss", o.loss,
+      {.says = "Of `least_squares`: how much a large residual counts.", .words = choice_names(identification::Loss{})});
   v.count("bootstrap", o.bootstrap,
-          {.says = "Bootstrap replicates, a second route to the intervals; 0: none.", .limits = within(0, 100000)});
-  v.flag("profile", o.profile, {.says = "Profile likelihood of every parameter, a third route to the intervals."});
+          {.says = "Of `least_squares`: bootstrap replicates, a second route to the intervals; 0: none.",
+           .limits = within(0, 100000)});
+  v.flag("profile", o.profile,
+         {.says = "Of `least_squares`: profile likelihood of every parameter, a third route to the intervals."});
   v.flag("compare-solvers", o.compare_solvers,
          {.says = "Gauss–Newton, Levenberg–Marquardt, simplex and simulated annealing from the same starts: [which "
                   "solver](#which-solver). Also writes `solvers.csv`."});
   v.count("starts", o.starts,
-          {.says = "Starts of the search: the given one and [Sobol points about it](#starts-of-the-search), with a "
-                   "table of the minima they reach.",
+          {.says = "[Starts of the search](#starts-of-the-search): the given one and points about it.",
            .limits = within(1, 1000),
-           .otherwise = "1; of `--compare-solvers` 3"});
+           .otherwise = "4 by the posterior, else 1; of `--compare-solvers` 3"});
   v.text("folds", o.folds,
          {.says = "The part that is left out of the fit and predicted (`force`, `torque`): a `trial`; a `block`, a "
                   "fifth of every trial of 3.3 s or more with half a second on either side; or `none`.",
@@ -238,15 +262,21 @@ void refuse_impossible(const IdentifyOptions& o, const MuscleTable& table) {
   refuse_free_without_motion(o);
 }
 
+bool by_posterior(const IdentifyOptions& o) {
+  return o.method != "paper" && o.estimator == "posterior" && !o.no_priors;
+}
+
 std::vector<std::string> without_effect(const IdentifyOptions& o) {
   std::vector<std::string> found;
   const auto tell = [&](bool given, std::string_view option, std::string_view why) {
     if (given) found.push_back(fmt::format("{} has no effect: {}", option, why));
   };
   const bool paper = o.method == "paper", torque = o.method == "torque";
-  const bool posterior = torque && o.estimator == "posterior" && !o.no_priors;
-  tell(o.posterior_draws > 0 && !posterior, "--posterior-draws",
-       "only method torque with priors, by the posterior, has draws");
+  const bool posterior = by_posterior(o);
+  constexpr std::string_view kOfPosterior =
+      "it is of the estimator posterior, which methods torque and force have with priors";
+  tell(o.posterior_draws > 0 && !posterior, "--posterior-draws", kOfPosterior);
+  tell(o.beliefs.has_value() && !posterior, "--beliefs", kOfPosterior);
   constexpr std::string_view kOfLeastSquares = "it is of the estimator least_squares (--estimator least_squares)";
   tell(posterior && o.bootstrap > 0, "--bootstrap", kOfLeastSquares);
   tell(posterior && o.profile, "--profile", kOfLeastSquares);
@@ -268,7 +298,8 @@ identification::EstimatorOptions estimator_options(const IdentifyOptions& o, con
   identification::EstimatorSettings settings = settings_of(o);
   if (!o.files.motions.empty() && !is_free(data, is_about_motion))
     remarks.warn(
-        "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be identified (--free)");
+        "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be identified (--free, or "
+        "the estimator posterior)");
   if (is_free(data, is_about_lags)) {
     if (!o.lag.empty()) {
       throw InvalidInput(
@@ -281,7 +312,8 @@ identification::EstimatorOptions estimator_options(const IdentifyOptions& o, con
         "the lags of equation (1) are to be identified: the activations given are taken for excitations that pass "
         "them, and the delay is the time that is left beside them");
   }
-  return identification::estimator_options(settings, {}, o.call.progress);
+  return identification::estimator_options(
+      settings, by_posterior(o) ? activation_source(data) : identification::ActivationSource(), o.call.progress);
 }
 
 }  // namespace myoid::commands

@@ -24,10 +24,11 @@ struct IdentifyOptions {
   std::optional<double> delay_s;
   std::string lag;  ///< Empty: the method's own.
   bool no_priors = false;
-  std::vector<std::string> free_more;
+  std::vector<std::string> free_more, hold;
   double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
   double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
-  std::string estimator = "least_squares";
+  std::string estimator = "posterior";
+  std::optional<std::filesystem::path> beliefs;  ///< Table [beliefs] of a study file.
   int posterior_draws = 0;
   std::string loss = "square";
   int bootstrap = 0;
@@ -47,6 +48,9 @@ void check_values(const IdentifyOptions& options);
 
 /// Throws InvalidInput if the options ask for a result that the method or the files cannot give.
 void refuse_impossible(const IdentifyOptions& options, const MuscleTable& table);
+
+/// Returns true for a fit by the posterior.
+[[nodiscard]] bool by_posterior(const IdentifyOptions& options);
 
 /// Returns a sentence for each given option that has no effect.
 [[nodiscard]] std::vector<std::string> without_effect(const IdentifyOptions& options);

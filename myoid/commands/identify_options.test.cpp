@@ -27,12 +27,23 @@ TEST(IdentifyOptions, WhatTheMethodDoesNotUseIsSaid) {
   o.method = "force";
   o.files.torques = {"t.sto"};
   EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--torques has no effect")));
+  o.bootstrap = 10;
+  o.profile = true;
+  o.loss = "huber";
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--bootstrap"), HasSubstr("--profile"), HasSubstr("--loss"),
+                                             HasSubstr("--torques")));
+  o.bootstrap = 0;
+  o.profile = false;
+  o.loss = "square";
   o.method = "paper";
   o.no_priors = true;
   o.posterior_draws = 400;
   EXPECT_THAT(without_effect(o),
               ElementsAre(HasSubstr("--posterior-draws"), HasSubstr("--no-priors"), HasSubstr("--torques")));
   o.posterior_draws = 0;
+  o.beliefs = "study.toml";
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--beliefs"), HasSubstr("--no-priors"), HasSubstr("--torques")));
+  o.beliefs.reset();
   EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--no-priors"), HasSubstr("--torques")));
 }
 

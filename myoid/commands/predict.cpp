@@ -41,6 +41,7 @@ PredictResult predict(const PredictOptions& o) {
 std::string predict_json(const PredictResult& result) {
   nlohmann::ordered_json object;
   object["provenance"] = report::provenance_json(result.provenance);
+  object["bands"] = band_sentence(result.trials);
   object["trials"] = nlohmann::ordered_json::array();
   const recording::NameIds folders = prediction_folders(result.trials);
   for (const identification::TrialFit& t : result.trials) {

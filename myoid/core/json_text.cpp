@@ -31,4 +31,25 @@ nlohmann::ordered_json parse_ordered_json(std::string_view text) {
   return nlohmann::ordered_json::parse(text);
 }
 
+std::string json_error_text(const std::exception& error) {
+  using nlohmann::json;
+  const std::string_view what = error.what();
+  if (const auto* parse = dynamic_cast<const json::parse_error*>(&error)) {
+    const std::string at = " at byte " + std::to_string(parse->byte);
+    // Only a broken limit of documents has its message behind the byte.
+    const std::string head = at + ": ";
+    if (const std::size_t own = what.find(head); own != std::string_view::npos)
+      return std::string(what.substr(own + head.size())) + at;
+    return "the text breaks off or is damaged" + at;
+  }
+  const auto* range = dynamic_cast<const json::out_of_range*>(&error);
+  constexpr int kNoSuchKey = 403;
+  if (range != nullptr && range->id == kNoSuchKey) {
+    const std::size_t first = what.find('\''), last = what.rfind('\'');
+    if (first < last) return std::string(what.substr(first, last - first + 1)) + " is missing";
+  }
+  if (range != nullptr) return "a list is shorter than expected";
+  return "a value is of another kind than expected";
+}
+
 }  // namespace myoid

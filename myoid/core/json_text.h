@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <string>
 #include <string_view>
 
@@ -18,5 +19,10 @@ namespace myoid {
 
 /// Parses JSON as parse_json does; the fields of an object keep their order.
 [[nodiscard]] nlohmann::ordered_json parse_ordered_json(std::string_view text);
+
+/// Returns what is wrong with a JSON text, in the words of this program: "the text breaks off or is damaged at byte
+/// 5120",
+/// "'methods' is missing". `error` is a nlohmann::json::exception; its own words are a programmer's.
+[[nodiscard]] std::string json_error_text(const std::exception& error);
 
 }  // namespace myoid

@@ -130,8 +130,8 @@ std::optional<identification::ParameterMap> parameters_of(const StudyData& muscl
   return std::nullopt;
 }
 
-/// Returns the information of the trial of person k, who has the numbers z in the solver's scale.
-using Information = std::function<Eigen::MatrixXd(const TrialData& trial, const Eigen::VectorXd& z, std::size_t k)>;
+/// Returns the information of the trial of a person who has the numbers z in the solver's scale.
+using Information = std::function<Eigen::MatrixXd(const TrialData& trial, const Eigen::VectorXd& z)>;
 
 /// Returns true if the earlier run is by the posterior.
 bool has_shares(const std::optional<EarlierRun>& earlier) {
@@ -178,7 +178,7 @@ Performance performance_of(const MovementCourse& course,
   for (std::size_t k = 0; k < persons.size(); ++k) {
     trials.push_back(perform(course, muscles.muscles, person_of(parameters.values(persons[k]), k, seed)));
     Eigen::MatrixXd& information = result.information.per_person.emplace_back();
-    if (trials.back()) information = information_in(*trials.back(), persons[k], k);
+    if (trials.back()) information = information_in(*trials.back(), persons[k]);
   }
   result.effort = effort_of(trials, muscles.muscles, course.movement.duration_s);
   return result;
@@ -209,7 +209,7 @@ Teller teller_of(const StudyData& muscles,
                  const identification::ModelValues& start,
                  const DesignStudyOptions& options) {
   if (torque.estimator == identification::EstimatorKind::least_squares)
-    return {[&](const TrialData& trial, const Eigen::VectorXd& z, std::size_t) {
+    return {[&](const TrialData& trial, const Eigen::VectorXd& z) {
               StudyData one = muscles;
               one.trials = {trial};
               return information_of(one, torque, z, noise_of(options));
@@ -221,9 +221,7 @@ Teller teller_of(const StudyData& muscles,
       muscles, session_of(courses, muscles, start, options.seed), torque, planned_errors(options, torque),
       has_shares(options.earlier) ? identification::Believed::geometry_and_sensors_exact
                                   : identification::Believed::nothing_exact);
-  return {[posterior, seed = options.seed](const TrialData& trial, const Eigen::VectorXd& z, std::size_t k) {
-            return posterior->of(trial, z, math::seed_for(seed, fmt::format("{} {}", k, trial.name)));
-          },
+  return {[posterior](const TrialData& trial, const Eigen::VectorXd& z) { return posterior->of(trial, z); },
           posterior->quantities()};
 }
 

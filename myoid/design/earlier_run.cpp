@@ -51,7 +51,8 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
       return run;
     }
   } catch (const nlohmann::json::exception& error) {
-    throw ReadError(file, 0, fmt::format("is not what `myoid run` writes ({}); run the study again", error.what()));
+    throw ReadError(file, 0,
+                    fmt::format("is not what `myoid run` writes ({}); run the study again", json_error_text(error)));
   }
   throw ReadError(file, 0, "holds no fit by method torque; run the study with method = \"torque\"");
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -40,17 +39,15 @@ class PosteriorInformation {
 
   /// Returns the names of x.
   [[nodiscard]] const std::vector<std::string>& quantities() const { return quantities_; }
-  /// Returns M of a noise-free trial of a person with these unknowns. Adds noise drawn by `seed` to
-  /// the envelopes, because the estimator's smoothing depends on the noise in them.
-  [[nodiscard]] Eigen::MatrixXd of(const identification::TrialData& trial,
-                                   const Eigen::VectorXd& z,
-                                   std::uint64_t seed) const;
+  /// Returns M of a noise-free trial of a person with these unknowns. The EMG's noise is that of the errors, behind
+  /// the estimator's smoothing (drive_of_clean).
+  [[nodiscard]] Eigen::MatrixXd of(const identification::TrialData& trial, const Eigen::VectorXd& z) const;
 
  private:
   identification::StudyData muscles_;
   identification::EstimatorOptions options_;
   identification::NoiseValues noise_;
-  double emg_factor_ = 1.0;
+  std::vector<std::string> unknowns_;
   identification::Believed believed_;
   identification::Recorded session_;
   std::vector<std::string> quantities_;

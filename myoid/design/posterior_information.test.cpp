@@ -39,16 +39,16 @@ TEST(PosteriorInformation, OfASessionOfOneMovementIsThatOfTheLikelihoodOfItsReco
   const PosteriorInformation plan = informant(data, Believed::nothing_exact, kNoNoise);
   const identification::Likelihood likelihood(data, options_of(data));
   const Eigen::VectorXd z = likelihood.parameters().start();
-  const Eigen::MatrixXd m = plan.of(data.trials[0], z, 7);
+  const Eigen::MatrixXd m = plan.of(data.trials[0], z);
   const Eigen::Index p = z.size(), q = static_cast<Eigen::Index>(plan.quantities().size());
   ASSERT_EQ(m.rows(), p + q);
   // Schur's complement of the quantities, whose precision is 1 beforehand.
   const Eigen::MatrixXd of_unseen = m.bottomRightCorner(q, q) + Eigen::MatrixXd::Identity(q, q);
   const Eigen::MatrixXd left =
       m.topLeftCorner(p, p) - m.topRightCorner(p, q) * of_unseen.ldlt().solve(m.bottomLeftCorner(q, p));
-  identification::NoiseValues noise(5);
-  noise << std::log(0.4), std::log(identification::beliefs::kTorqueNoiseTime.value), std::log(1e-3), std::log(0.03),
-      0.0;  // kappa: at least a thousandth
+  identification::NoiseValues noise = identification::NoiseValues::Zero(identification::kNoiseFieldCount + 1);
+  noise.head(4) << std::log(0.4), std::log(identification::beliefs::kTorqueNoiseTime.value), std::log(1e-3),
+      std::log(0.03);  // kappa: at least a thousandth
   const Eigen::MatrixXd whole = likelihood.information(z, noise).information;
   EXPECT_LT((left - whole).norm(), 1e-4 * whole.norm());
 }
@@ -58,8 +58,8 @@ TEST(PosteriorInformation, ExactGeometryAndSensorsWeighNothing) {
   const PosteriorInformation plan = informant(data, Believed::geometry_and_sensors_exact);
   const identification::Likelihood likelihood(data, options_of(data));
   const Eigen::VectorXd z = likelihood.parameters().start();
-  const Eigen::MatrixXd m = plan.of(data.trials[0], z, 7);
-  EXPECT_EQ(m, plan.of(data.trials[0], z, 7));
+  const Eigen::MatrixXd m = plan.of(data.trials[0], z);
+  EXPECT_EQ(m, plan.of(data.trials[0], z));
   int of_the_model = 0;
   for (std::size_t i = 0; i < plan.quantities().size(); ++i) {
     const Eigen::Index at = z.size() + static_cast<Eigen::Index>(i);
@@ -74,7 +74,7 @@ TEST(PosteriorInformation, LessNoiseOfTheEmgTellsMore) {
   const StudyData data = three_trials();
   const Eigen::VectorXd z = identification::Likelihood(data, options_of(data)).parameters().start();
   const auto of_strength = [&](double emg_factor) {
-    return informant(data, Believed::nothing_exact, emg_factor).of(data.trials[0], z, 7)(0, 0);
+    return informant(data, Believed::nothing_exact, emg_factor).of(data.trials[0], z)(0, 0);
   };
   EXPECT_GT(of_strength(0.2), 1.5 * of_strength(1.0));
 }

@@ -18,8 +18,8 @@ TimeSeries thinned(const TimeSeries& series, double rate_hz) {
   return {slow.time_s(), slow.channels(), slow.values().cwiseMax(0.0)};
 }
 
-/// Returns the trials on which filters and levels of the EMG may depend: all but the trials held
-/// back for validation, or all if every trial is held back.
+/// Returns the trials on which the levels of the EMG may depend: all but the trials held back for
+/// validation, or all if every trial is held back.
 std::vector<bool> seen_trials(const Study& study) {
   std::vector<bool> seen;
   for (const TrialSpec& trial : study.trials) seen.push_back(trial.use != Use::validation);
@@ -34,18 +34,46 @@ void for_each_trial(std::size_t count, const Work& work) {
   });
 }
 
-/// Computes envelopes of clean EMG.
-void add_envelopes(const Study& study, StudyActivation& clean) {
-  const signals::EnvelopeOptions options = envelope_options(study);
+using StagesOfTrials = std::vector<const signals::EmgStages*>;  ///< nullptr: no raw EMG.
+
+ComparedEnvelopes compared_envelopes(const Study& study,
+                                     const EmgOfTrials& emg,
+                                     const StagesOfTrials& stages,
+                                     bool without_validation) {
   const std::vector<bool> seen = seen_trials(study);
-  std::vector<const signals::EmgStages*> stages;
-  for (std::size_t i = 0; i < clean.trials.size(); ++i) {
-    if (clean.trials[i].stages && seen[i]) stages.push_back(&*clean.trials[i].stages);
+  ComparedEnvelopes found;
+  for (std::size_t i = 0; i < emg.size(); ++i) {
+    if (emg[i] == nullptr || (without_validation && !seen[i])) continue;
+    const signals::EmgStages* const of = stages[i];
+    found.add({study.trials[i].name, study.trials[i].use == Use::mvc, of != nullptr ? &of->envelope : emg[i],
+               of != nullptr ? of->bandwidth_hz : Eigen::VectorXd(), of != nullptr ? of->flatness : Eigen::VectorXd()},
+              study.trials[i].exclude.windows);
   }
-  if (!stages.empty()) clean.scale.whitening = signals::find_whitening(stages, options);
-  for_each_trial(clean.trials.size(), [&](std::size_t i) {
-    if (clean.trials[i].stages) signals::add_envelope(*clean.trials[i].stages, options, clean.scale.whitening);
+  return found;
+}
+
+/// Fills the activations and the normalisation of `found`.
+void add_activations(const Study& study, const EmgOfTrials& emg, const StagesOfTrials& stages, StudyActivation& found) {
+  if (study.emg.kind == EmgKind::activation) {
+    for (std::size_t i = 0; i < emg.size(); ++i) {
+      if (emg[i] != nullptr) found.trials[i].activation = *emg[i];
+    }
+    return;
+  }
+  found.scale.normalisation = signals::find_normalisation(compared_envelopes(study, emg, stages, true).trials,
+                                                          {.window_s = study.emg.normalise_window_s});
+  for_each_trial(emg.size(), [&](std::size_t i) {
+    if (emg[i] == nullptr) return;
+    found.trials[i].activation =
+        thinned(signals::normalise(stages[i] != nullptr ? stages[i]->envelope : *emg[i], found.scale.normalisation),
+                kActivationRate_hz);
   });
+}
+
+StagesOfTrials stages_of(const std::vector<TrialActivation>& trials) {
+  StagesOfTrials stages;
+  for (const TrialActivation& trial : trials) stages.push_back(trial.stages ? &*trial.stages : nullptr);
+  return stages;
 }
 
 }  // namespace
@@ -58,7 +86,15 @@ StudyActivation study_envelopes(const Study& study, const EmgOfTrials& emg) {
   for_each_trial(emg.size(), [&](std::size_t i) {
     if (emg[i] != nullptr) found.trials[i].stages = signals::clean_emg(*emg[i], options);
   });
-  add_envelopes(study, found);
+  // A trial that is held back has a part: a filter follows from the inputs, and a prediction has the EMG.
+  std::vector<const signals::EmgStages*> cleaned;
+  for (const TrialActivation& trial : found.trials) {
+    if (trial.stages) cleaned.push_back(&*trial.stages);
+  }
+  if (!cleaned.empty()) found.scale.whitening = signals::find_whitening(cleaned, options);
+  for_each_trial(found.trials.size(), [&](std::size_t i) {
+    if (found.trials[i].stages) signals::add_envelope(*found.trials[i].stages, options, found.scale.whitening);
+  });
   return found;
 }
 
@@ -91,33 +127,11 @@ ComparedEnvelopes envelopes_of(const Study& study,
                                const EmgOfTrials& emg,
                                const StudyActivation& envelopes,
                                bool without_validation) {
-  const std::vector<bool> seen = seen_trials(study);
-  ComparedEnvelopes found;
-  for (std::size_t i = 0; i < emg.size(); ++i) {
-    if (emg[i] == nullptr || (without_validation && !seen[i])) continue;
-    const auto& stages = envelopes.trials[i].stages;
-    found.add({study.trials[i].name, study.trials[i].use == Use::mvc, stages ? &stages->envelope : emg[i],
-               stages ? stages->bandwidth_hz : Eigen::VectorXd(), stages ? stages->flatness : Eigen::VectorXd()},
-              study.trials[i].exclude.windows);
-  }
-  return found;
+  return compared_envelopes(study, emg, stages_of(envelopes.trials), without_validation);
 }
 
-void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& found) {
-  if (study.emg.kind == EmgKind::activation) {
-    for (std::size_t i = 0; i < emg.size(); ++i) {
-      if (emg[i] != nullptr) found.trials[i].activation = *emg[i];
-    }
-    return;
-  }
-  found.scale.normalisation = signals::find_normalisation(envelopes_of(study, emg, found, true).trials,
-                                                          {.window_s = study.emg.normalise_window_s});
-  for (std::size_t i = 0; i < emg.size(); ++i) {
-    if (emg[i] == nullptr) continue;
-    const auto& stages = found.trials[i].stages;
-    found.trials[i].activation =
-        thinned(signals::normalise(stages ? stages->envelope : *emg[i], found.scale.normalisation), kActivationRate_hz);
-  }
+void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& envelopes) {
+  add_activations(study, emg, stages_of(envelopes.trials), envelopes);
 }
 
 StudyActivation study_activation(const Study& study, const EmgOfTrials& emg) {
@@ -128,11 +142,14 @@ StudyActivation study_activation(const Study& study, const EmgOfTrials& emg) {
 
 StudyActivation activation_with_uses(const Study& study,
                                      const EmgOfTrials& emg,
-                                     const std::vector<const TrialActivation*>& known) {
+                                     const std::vector<const TrialActivation*>& known,
+                                     const EmgScale& scale) {
   StudyActivation found;
-  for (const TrialActivation* trial : known) found.trials.push_back({trial->stages, {}});
-  add_envelopes(study, found);
-  normalise(study, emg, found);
+  found.trials.resize(known.size());
+  found.scale.whitening = scale.whitening;
+  StagesOfTrials stages;
+  for (const TrialActivation* trial : known) stages.push_back(trial->stages ? &*trial->stages : nullptr);
+  add_activations(study, emg, stages, found);
   return found;
 }
 

@@ -38,9 +38,8 @@ inline constexpr double kActivationRate_hz = 200.0;
 /// Turns the EMG of all trials into activations: `study_envelopes`, then `normalise`.
 [[nodiscard]] StudyActivation study_activation(const Study& study, const EmgOfTrials& emg);
 
-/// Cleans, whitens (one decision for the study) and rectifies raw EMG; given envelopes and
-/// activations stay unchanged. Trials held back for validation have no part in the filter. The
-/// activations are empty. Throws as `signals::clean_emg`.
+/// Cleans, whitens (one filter for all trials of the study) and rectifies raw EMG; given envelopes and
+/// activations stay unchanged. The activations are empty. Throws as `signals::clean_emg`.
 [[nodiscard]] StudyActivation study_envelopes(const Study& study, const EmgOfTrials& emg);
 
 /// Envelopes for a comparison of levels: a trial without its excluded windows is several.
@@ -63,9 +62,11 @@ struct ComparedEnvelopes {
 /// greatest effort. Given activations stay unchanged. Throws InvalidInput as `signals::find_normalisation`.
 void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& envelopes);
 
-/// Returns the activations of the same trials with the uses of `study`, from the clean EMG of `known`.
+/// Returns the activations of the same trials with the uses of `study`, from the envelopes of `known` behind the filter
+/// of `scale`. The stages are empty.
 [[nodiscard]] StudyActivation activation_with_uses(const Study& study,
                                                    const EmgOfTrials& emg,
-                                                   const std::vector<const TrialActivation*>& known);
+                                                   const std::vector<const TrialActivation*>& known,
+                                                   const EmgScale& scale);
 
 }  // namespace myoid

@@ -74,7 +74,7 @@ TEST(StudyActivation, ATrialThatIsHeldBackHasNoPartInTheGreatestEffort) {
   EXPECT_NEAR(emg.scale.normalisation.at(0).reference_v, 1e-4, 1e-3 * 1e-4);
   // The same trials with other uses.
   study.trials[0].use = Use::calibration;
-  const StudyActivation other = activation_with_uses(study, both, {&emg.trials[0], &emg.trials[1]});
+  const StudyActivation other = activation_with_uses(study, both, {&emg.trials[0], &emg.trials[1]}, emg.scale);
   EXPECT_NEAR(other.scale.normalisation.at(0).reference_v, 4e-4, 1e-3 * 4e-4);
 }
 

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "myoid/core/choice.h"
+#include "myoid/core/time_series.h"
 #include "myoid/core/units.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/intervals/score.h"
@@ -96,7 +97,10 @@ struct TrialFit {
   Eigen::MatrixXd literature_force_n;  ///< n x m
   Eigen::MatrixXd force_fit_n;         ///< n x m
   Eigen::MatrixXd force_sd_n;          ///< n x m: from the parameters. Empty: unknown.
-  Score score;                         ///< Score of `torque_fit_nm`.
+  /// By the posterior: the drive behind the envelope of each EMG channel, from which `force_fit_n` follows by the law
+  /// of the muscles (posterior/drive.h). Else empty: the forces follow from the envelopes.
+  TimeSeries drive;
+  Score score;  ///< Score of `torque_fit_nm`.
   /// Score of both torques below the fit's cut-off (EstimatorOptions::residual_cutoff_hz). It leaves out most of the
   /// EMG envelope's noise, which the prediction carries and a muscle does not.
   Score band;

@@ -130,9 +130,9 @@ std::optional<std::vector<PathSurrogate>> read_surrogates(const std::filesystem:
                       fmt::format("expected {} muscles, found {}", model.muscles.size(), object.at("muscles").size()));
     return all;
   } catch (const nlohmann::json::exception& error) {
-    throw ReadError(
-        path, 0,
-        fmt::format("cannot be read as path surrogates ({}); delete the file, it will be made again", error.what()));
+    throw ReadError(path, 0,
+                    fmt::format("cannot be read as path surrogates ({}); delete the file, it will be made again",
+                                json_error_text(error)));
   }
 }
 

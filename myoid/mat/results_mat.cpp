@@ -201,7 +201,8 @@ MatStruct matlab_results(const fs::path& folder) {
     try {
       add_run(folder, variables);
     } catch (const json::exception& error) {
-      throw ReadError(folder / "run.json", 0, "is no record of a run of this version: {}", error.what());
+      throw ReadError(folder / "run.json", 0, "is no record of a run of this version: {}; run the study again",
+                      json_error_text(error));
     }
   } else if (std::vector<MatStruct> trials = trials_by_folder(folder); !trials.empty()) {
     variables.fields.emplace_back("trials", std::move(trials));

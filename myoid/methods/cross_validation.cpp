@@ -11,7 +11,6 @@
 
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/math/decompositions.h"
-#include "myoid/methods/paper.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/posterior/drive.h"
 
@@ -138,10 +137,9 @@ struct Predictors {
   const StudyData& data;
   const IdentificationResult& fit;
   const TrialPredictions& predictions;
-  std::vector<muscle::HillParameters<double>> literature, shortening, lengthening;
+  std::vector<muscle::HillParameters<double>> literature;
   double literature_delay_s = 0.0;
   double cutoff_hz = 0.0;  ///< Cut-off of the fit.
-  bool paper = false;
 };
 
 /// The constants of the baselines, from the fitted trials.
@@ -173,13 +171,6 @@ Baselines baselines(const std::vector<TrialData>& training, const Predictors& by
   return {.gain = square > 0.0 ? product / square : 0.0,
           .slopes = math::shortest_solution(normal, right),
           .mean_nm = sum / count};
-}
-
-Eigen::VectorXd by_paper(const TrialData& t, const Predictors& by) {
-  const Eigen::MatrixXd slow = predict(by.data, t, by.shortening, 0.0).force_n;
-  const Eigen::MatrixXd fast = predict(by.data, t, by.lengthening, 0.0).force_n;
-  const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
-  return resting_torque_nm(t) + t.moment_arm_m.cwiseProduct(force).rowwise().sum();
 }
 
 /// Pairs of curves, trial after trial.
@@ -227,7 +218,7 @@ Fold score_joint(const std::string& name,
   fold.trial = name;
   fold.gain = from.gain;
   std::vector<Eigen::VectorXd> time, deviation;
-  Curves identified, smooth, band, literature, regression, paper;
+  Curves identified, smooth, band, literature, regression;
   for (const TrialData& t : held) {
     const std::vector<Eigen::Index> rows = included_rows(t);
     const TrialFit found = by.predictions.of(t);
@@ -245,7 +236,6 @@ Fold score_joint(const std::string& name,
     band.add(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows), below(t.time_s, torque, by.cutoff_hz)(rows));
     literature.add(measured, (resting + from.gain * muscles)(rows));
     regression.add(measured, (resting + regressed)(rows));
-    if (by.paper) paper.add(measured, by_paper(t, by)(rows));
     fold.lag_s += best_lag_s(t.time_s, t.torque_nm, torque) / static_cast<double>(held.size());
   }
   Curves seen;
@@ -267,42 +257,24 @@ Fold score_joint(const std::string& name,
   fold.literature = literature.scored();
   fold.regression = regression.scored();
   fold.constant = score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), from.mean_nm));
-  if (by.paper) fold.paper = paper.scored();
   return fold;
 }
 
-/// Adds the curves of method `paper` from the calibration trials.
-void add_paper(const StudyData& data, const std::vector<std::string>& muscles, Predictors& by) {
-  for (const ParameterEstimate& e : identify_paper(data, {.muscles = muscles}).estimates) {
-    if (!std::isfinite(e.estimate)) continue;
-    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-      if (data.muscles[k].name == e.muscle)
-        (e.fit_case == "shortening" ? by.shortening : by.lengthening)[k].*muscle::hill_field(e.parameter).member =
-            e.estimate;
-    }
-  }
-}
-
 /// Fits one split and scores the trials that it left out, joint by joint.
-std::vector<Fold> score_split(Split split, const SplitFit& fit_to, const EstimatorOptions& options, bool with_paper) {
+std::vector<Fold> score_split(Split split, const SplitFit& fit_to, const EstimatorOptions& options) {
   EstimatorOptions of_fold = of_a_fold(options);
   const IdentificationResult fit = fit_to(split.data, of_fold);
   const TrialPredictions predictions(split.data, of_fold, fit);
   std::vector<muscle::HillParameters<double>> literature;
   for (const MuscleSetup& setup : split.data.muscles) literature.push_back(setup.start);
-  Predictors by{.data = split.data,
-                .fit = fit,
-                .predictions = predictions,
-                .literature = literature,
-                .shortening = literature,
-                .lengthening = literature,
-                .literature_delay_s = options.usual_delay_s(),
-                .cutoff_hz = options.residual_cutoff_hz.value_or(0.0)};
+  const Predictors by{.data = split.data,
+                      .fit = fit,
+                      .predictions = predictions,
+                      .literature = literature,
+                      .literature_delay_s = options.usual_delay_s(),
+                      .cutoff_hz = options.residual_cutoff_hz.value_or(0.0)};
   std::vector<TrialData> training, held;
   for (const TrialData& t : split.data.trials) (t.calibration ? training : held).push_back(t);
-  by.paper = with_paper && std::all_of(training.begin(), training.end(),
-                                       [](const TrialData& t) { return t.force_n.rows() == t.time_s.size(); });
-  if (by.paper) add_paper(split.data, options.muscles, by);
   std::vector<Fold> folds;
   const UnseenEffort unseen = unseen_effort(split.data);
   for (const std::string& joint : joint_names(split.data)) {
@@ -386,9 +358,8 @@ std::vector<Fold> cross_validate(const StudyData& data,
   std::vector<Split> all = splits(data, how);
   const EstimatorOptions shared = remembering_drives(options);
   std::vector<std::vector<Fold>> of_split(all.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t f) {
-    of_split[f] = score_split(std::move(all[f]), fit, shared, how.paper);
-  });
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(),
+                            [&](std::size_t f) { of_split[f] = score_split(std::move(all[f]), fit, shared); });
   std::vector<Fold> folds;
   for (std::vector<Fold>& of_one : of_split) std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
   return folds;

@@ -50,13 +50,17 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
   return one;
 }
 
+EstimatorOptions of_one_force(EstimatorOptions options, bool shared_forces) {
+  options.muscles.clear();
+  options.measured_is_force = !shared_forces || options.estimator == EstimatorKind::posterior;
+  options.unseen.moment_arm = options.unseen.moment_arm_slope = options.unseen.crosstalk = 0.0;
+  options.choose_lag = false;
+  options.progress.report = nullptr;
+  return options;
+}
+
 IdentificationResult identify_muscle_force(const StudyData& one, const ForceOptions& options) {
-  EstimatorOptions once = options.estimator;
-  once.muscles.clear();
-  once.measured_is_force = !options.shared_forces;
-  once.estimator = EstimatorKind::least_squares;
-  once.choose_lag = false;  // muscles of one person follow their EMG by the same law
-  once.progress.report = nullptr;
+  const EstimatorOptions once = of_one_force(options.estimator, options.shared_forces);
   const std::string& name = one.muscles.front().name;
   std::vector<std::string> speed;
   if (contains(options.speed_may_be_free, name)) speed.push_back(name);
@@ -80,7 +84,7 @@ void take_over(
   for (ParameterEstimate& e : fit.estimates) {
     e.method = "force";
     if (e.muscle == "subject" || e.muscle == data.muscles[k].emg_channel) e.muscle = name;
-    if (shared_forces && e.verdict == Verdict::identified) {
+    if (shared_forces && (e.verdict == Verdict::identified || e.verdict == Verdict::reproducible)) {
       e.verdict = Verdict::weak;
       e.reason +=
           ", but about the forces that an optimizer assigned, which carry its assumptions and no co-contraction; "
@@ -99,6 +103,7 @@ void take_over(
   append(all.diagnoses, fit.diagnoses);
   append(all.warnings, fit.warnings);
   append(all.interval_warnings, fit.interval_warnings);
+  all.model_error = std::max(all.model_error, fit.model_error);
   all.samples_used += fit.samples_used;
   all.samples_dropped += fit.samples_dropped;
   all.effective_samples += fit.effective_samples;

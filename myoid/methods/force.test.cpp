@@ -1,5 +1,6 @@
 #include "myoid/methods/force.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -52,6 +53,47 @@ TEST(IdentifyForce, FollowsTheEmgAsItIsTold) {
       EXPECT_EQ(rmse_n < 3.0, lag == EmgLag::shared) << rmse_n;
     }
   }
+}
+
+TEST(IdentifyForce, ByThePosteriorEachNumberHasTwoReadingsThatHoldThePerson) {
+  ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .emg_cv = 0.1, .with_priors = true});
+  ForceOptions options;
+  options.estimator.estimator = EstimatorKind::posterior;
+  options.detect_exact = true;
+  for (MuscleSetup& muscle : study.data.muscles) {
+    muscle.fixed = {"tendon_slack_length"};
+    options.estimator.gain_prior_sd[muscle.emg_channel] = 0.1;
+  }
+  test::StudyNoise noise(2);
+  for (TrialData& trial : study.data.trials) {
+    trial.force_n = predict(study.data, trial, study.truth, study.delay_s).force_n;
+    for (auto column : trial.force_n.colwise())
+      column += 0.02 * column.cwiseAbs().mean() * noise.band(column.size(), 6.0, 100.0);
+  }
+  const IdentificationResult r = identify_force(study.data, options);
+  EXPECT_EQ(r.termination, math::Termination::converged) << r.message;
+  EXPECT_FALSE(r.exact);
+  EXPECT_GT(r.r2, 0.9);
+  int held = 0, all = 0;
+  for (const ParameterEstimate& e : r.estimates) {
+    EXPECT_EQ(e.method, "force");
+    EXPECT_FALSE(is_voluntary(e.parameter));
+    ASSERT_TRUE(e.given_estimate && e.given_ci_low && e.given_ci_high && e.variance_shares);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (e.muscle != study.data.muscles[k].name ||
+          std::ranges::count(muscle::kHillFields, e.parameter, &muscle::HillField::name) == 0)
+        continue;
+      const double truth = study.truth[k].*muscle::hill_field(e.parameter).member;
+      held += truth >= *e.ci_low && truth <= *e.ci_high;
+      ++all;
+      // What is left of the geometry is a stiff tendon that may stretch; the size of F_max has none of it.
+      if (e.parameter == "max_isometric_force") {
+        EXPECT_LT((*e.variance_shares)[static_cast<std::size_t>(Source::geometry)], 0.1) << e.muscle;
+      }
+    }
+  }
+  EXPECT_EQ(all, 4 * 6);
+  EXPECT_GE(held, 22);  // of 24 intervals of 95 % one or two miss
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "myoid/methods/smooth_prediction.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/posterior/likelihood.h"
+#include "myoid/posterior/trial_run.h"
 
 namespace myoid::identification {
 
@@ -194,7 +195,10 @@ struct TrialPredictions::ByLaw {
 /// The posterior at the fit's values, given the torque of the fitted trials.
 struct TrialPredictions::ByPosterior {
   ByPosterior(const StudyData& of_data, const EstimatorOptions& of_options, const IdentificationResult& of)
-      : data(of_data), options(of_predictions(of_options, of)), fit(of), likelihood(data, options) {
+      : data(of_data),
+        options(of_predictions(of_options, of)),
+        fit(of),
+        likelihood(data, options, Columns::at_reference) {
     if (likelihood.parameters().size() != fit.solution.size())
       throw std::logic_error("a fit predicts by other unknowns than its own");
     likelihood.refer_to(fit.solution);  // nothing to do where the search of the options begins there
@@ -228,6 +232,7 @@ TrialFit TrialPredictions::of(const TrialData& trial) const {
     found.torque_fit_nm = forecast.mean_nm;
     found.torque_sd_nm = (forecast.variance_nm2 + variance_by(forecast.by_z, covariance)).cwiseSqrt();
     found.force_fit_n = forecast.force_n;
+    found.drive = drives(run, by.likelihood.parameters().channels());
     found.force_sd_n.resizeLike(forecast.force_n);
     for (std::size_t k = 0; k < forecast.force_by_z.size(); ++k)
       found.force_sd_n.col(static_cast<Eigen::Index>(k)) = variance_by(forecast.force_by_z[k], covariance).cwiseSqrt();

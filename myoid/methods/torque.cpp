@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/estimator.h"
+#include "myoid/identification/nuisances.h"
 #include "myoid/identification/told_by_motion.h"
 #include "myoid/intervals/estimates.h"
 #include "myoid/intervals/verdict_rules.h"
@@ -64,6 +66,15 @@ IdentificationResult finish(const Estimator& estimator,
   if (options.predictions) add_predictions(data, options, result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
+}
+
+/// Data without noise leave nothing to what is unseen: both readings are the same.
+void take_as_both_readings(IdentificationResult& exact) {
+  for (ParameterEstimate& e : exact.estimates) {
+    e.given_estimate = e.estimate;
+    e.given_ci_low = e.ci_low;
+    e.given_ci_high = e.ci_high;
+  }
 }
 
 /// Returns the data's preference for lags over a delay: the difference of two sums of squared
@@ -195,7 +206,7 @@ void judge_motion_alone(const StudyData& data, IdentificationResult& result) {
 
 IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
   IdentificationResult result;
-  if (options.estimator == EstimatorKind::posterior && !options.measured_is_force) {
+  if (options.estimator == EstimatorKind::posterior) {
     const TorqueOptions remembering = remembering_drives(options);
     result = identify_by_posterior(data, remembering);
     if (options.predictions) add_predictions(data, remembering, result);
@@ -219,19 +230,29 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
   plain.residual_cutoff_hz.reset();
   plain.gain_prior_sd.clear();
   plain.max_rate_hz = std::max(options.max_rate_hz, kNoiseFreeRate_hz);
-  StudyData freed = data;
+  plain.estimator = EstimatorKind::least_squares;
+  StudyData held = data;
+  hold_nuisances(held);
+  StudyData freed = held;
   free_speeds(freed, speed_may_be_free);
-  for (const StudyData* study : {&data, static_cast<const StudyData*>(&freed)}) {
-    if (study == &freed && speed_may_be_free.empty()) break;
+  StudyData of_emg = data;
+  hold_nuisances(of_emg, beliefs::kEmgExponent.name);
+  for (const StudyData* study : {&held, &freed, &of_emg}) {
+    if (study == &freed && speed_may_be_free.empty()) continue;
+    if (study == &of_emg && of_emg.rules == held.rules) continue;
     const Estimator estimator(*study, plain);
     const std::optional<Estimator::Solution> found = noise_free_solution(*study, estimator);
     if (!found) continue;
     IdentificationResult result = finish(estimator, *found, *study, begin);
     result.exact = true;
+    take_as_both_readings(result);
     if (options.multistart > 1) result.basins.push_back(find_basins(estimator, found->weighting, options.multistart));
     return result;
   }
-  return identify_torque(freed, options);
+  StudyData whole = data;
+  free_speeds(whole, speed_may_be_free);
+  if (!tells_nuisances(whole, options)) hold_nuisances(whole);
+  return identify_torque(whole, options);
 }
 
 }  // namespace myoid::identification

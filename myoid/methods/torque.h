@@ -30,10 +30,11 @@ using TorqueOptions = EstimatorOptions;
 /// Throws InvalidInput for data that do not fit together. A search that fails does not throw: read `termination`.
 [[nodiscard]] IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options = {});
 
-/// Identifies from data that may be free of noise. First comes a fit without priors, weights and low-pass, from several
-/// starts (noise_free_solution). If it leaves less than 1e-6 of the data's size, it is the result (`exact`), from all
-/// samples up to kNoiseFreeRate_hz. Else v_max of the muscles in `speed_may_be_free` is freed (free_speeds) and the fit
-/// repeated. If this fails, too, `identify_torque` gives the result, with the freed v_max.
+/// Identifies from data that may be free of noise, by either estimator. First comes a fit without priors, nuisances
+/// (nuisances.h), weights and low-pass, from several starts (noise_free_solution). If it leaves less than 1e-6 of the
+/// data's size, it is the result (`exact`, both readings equal), from all samples up to kNoiseFreeRate_hz. Else v_max
+/// of the muscles in `speed_may_be_free` is freed (free_speeds) and the fit repeated, or the EMG's exponents are freed.
+/// If these fail, too, `identify_torque` gives the result, with the nuisances and the freed v_max.
 [[nodiscard]] IdentificationResult identify_torque_or_exact(const StudyData& data,
                                                             const TorqueOptions& options = {},
                                                             const std::vector<std::string>& speed_may_be_free = {});

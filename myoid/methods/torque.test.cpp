@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
+#include "myoid/identification/nuisances.h"
 #include "myoid/methods/prediction.h"
 
 #include "tests/support/elbow_study.h"
@@ -366,6 +367,31 @@ TEST(IdentifyTorqueOrExact, FreesTheSpeedOnlyIfTheDataAreMetOnlyThen) {
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_NEAR(freed_speed.muscles[k].max_shortening_speed_mps, study.truth[k].max_shortening_speed_mps,
                 1e-6 * study.truth[k].max_shortening_speed_mps);
+}
+
+TEST(IdentifyTorqueOrExact, GivesExactDataBackByThePosteriorBesideNuisances) {
+  ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .with_priors = true});
+  TorqueOptions options;
+  options.estimator = EstimatorKind::posterior;
+  options.unseen = {};
+  for (const MuscleSetup& muscle : study.data.muscles) options.gain_prior_sd[muscle.emg_channel] = 0.1;
+  study.data.rules = nuisance_rules(study.data, true);
+  const IdentificationResult result = identify_torque_or_exact(study.data, options);
+  ASSERT_TRUE(result.exact);
+  int compared = 0;
+  for (const ParameterEstimate& e : result.estimates) {
+    ASSERT_TRUE(e.given_estimate);
+    EXPECT_EQ(*e.given_estimate, e.estimate);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (e.muscle != study.data.muscles[k].name ||
+          std::ranges::count(muscle::kHillFields, e.parameter, &muscle::HillField::name) == 0)
+        continue;
+      const double truth = study.truth[k].*muscle::hill_field(e.parameter).member;
+      EXPECT_NEAR(e.estimate, truth, 1e-9 * truth) << e.muscle << " " << e.parameter;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 4 * 6);
 }
 
 /// The study at one joint angle: muscles that do not move.

@@ -15,14 +15,17 @@ namespace {
 
 constexpr double kInside = 0.003;   // of a range: a search begins no nearer to a bound
 constexpr double kFarthest = 40.0;  // of x: farther out z equals its bound to round-off
-constexpr double kStartingModelError = 0.1, kLeastModelError = 1e-6;
+constexpr double kLeastModelError = 1e-6;
 constexpr double kStartingTorqueError = 0.3;  // of the torque's root mean square
+
+/// Returns true for the size y of a kind of unseen quantities over its believed spread, half normal.
+constexpr bool is_size_of_kind(Eigen::Index field) { return field > kModelErrorSize && field < kNoiseFieldCount; }
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 constexpr double kFarthestScore = 30.0;  // beyond, the tail of a normal distribution is nearly 0
 
-/// The size s at the normal score x, over the spread of its half normal prior, and d ln s / dx.
+/// A size s at the normal score x, over the spread of its half normal prior, and d ln s / dx.
 struct HalfNormal {
   double size = 0.0, slope = 0.0;
 };
@@ -64,8 +67,8 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
   noise_mean_[kTorqueTime] = std::log(beliefs::kTorqueNoiseTime.value);
   noise_sd_[kTorqueTime] = beliefs::kTorqueNoiseTime.sd;
   noise_sd_[kEmgFactor] = (known ? beliefs::kEmgNoise : beliefs::kUnknownEmgNoise).sd;
-  noise_mean_[kModelErrorSize] = std::log(kStartingModelError);
   noise_sd_[kModelErrorSize] = std::max(options.unseen.model_error, kLeastModelError);
+  noise_mean_[kModelErrorSize] = std::log(noise_sd_[kModelErrorSize]);
 }
 
 void Density::refer_to(const Eigen::VectorXd& x) {
@@ -117,7 +120,6 @@ Eigen::VectorXd Density::x_of(const Eigen::VectorXd& z, const NoiseValues& noise
 Eigen::VectorXd Density::start() const {
   NoiseValues noise = noise_mean_;
   noise[kTorqueSd] = std::log(kStartingTorqueError * std::max(likelihood_.torque_size_nm(), 1e-9));
-  noise[kModelErrorSize] = std::log(kStartingModelError);
   return x_of(parameters().start(), noise);
 }
 
@@ -160,6 +162,12 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
   }
   for (Eigen::Index field = 0; field < noise.size(); ++field) {
     if (field == kModelErrorSize) continue;
+    if (is_size_of_kind(field)) {
+      const double square = std::exp(2.0 * noise[field]);
+      result += noise[field] - 0.5 * square;
+      if (gradient != nullptr) (*gradient)[p + field] = by.by_noise[field] + 1.0 - square;
+      continue;
+    }
     const double scaled = (noise[field] - noise_mean_[field]) / noise_sd_[field];
     result -= 0.5 * scaled * scaled;
     if (gradient != nullptr) (*gradient)[p + field] = by.by_noise[field] - scaled / noise_sd_[field];
@@ -189,6 +197,8 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
     h(share, size) += rows;
   }
   h(p + kModelErrorSize, p + kModelErrorSize) = 1.0 + 3.0 * std::pow(half_normal(x[p + kModelErrorSize]).slope, 2);
+  for (Eigen::Index field = 0; field < kNoiseFieldCount; ++field)
+    if (is_size_of_kind(field)) h(p + field, p + field) = 1.0 + 2.0 * std::exp(2.0 * x[p + field]);
   return h;
 }
 

@@ -11,17 +11,20 @@ namespace myoid::identification {
 ///
 ///   z = lower + (upper - lower) / (1 + exp(-x)),
 ///
-/// the next entries are the hyperparameters phi of the errors. The size s of the model's error
-/// enters by its normal score,
+/// the next entries are the hyperparameters phi of the errors. The size s of the model's error enters by its normal
+/// score,
 ///
 ///   erf(s / (sqrt(2) sd)) = Phi(x),    Phi the standard normal distribution,
 ///
-/// because ln s has no lower end where the model is exact. The density is that of x, with dz/dx:
+/// because ln s has no lower end where the model is exact. The size y of a kind of unseen quantities, over the spread
+/// that is believed, is half normal and enters by ln y, whose density y exp(-y^2 / 2) has its mode at the belief, y =
+/// 1: where the torque tells nothing of the kind, its quantities have the spread that they have over all y. The density
+/// is that of x, with dz/dx:
 ///
 ///   ln p(x | y) = ln p(y | z, phi) + ln p(z) + ln p(phi) + sum ln dz/dx
 ///
 /// The priors of z are the study's (ParameterMap); prior_precision joins them over muscles. The priors of phi stand in
-/// beliefs.h: ln sigma_T, ln tau_T, ln kappa and ln b are normal, s is half normal.
+/// beliefs.h: ln sigma_T, ln tau_T, ln kappa and ln b are normal, the sizes are half normal.
 ///
 /// Spreads that are judgments are uncertain themselves, by a common factor lambda (Unlikeness). A search takes their
 /// priors at one value of lambda: the density integrated over lambda has its greatest value where all numbers are the

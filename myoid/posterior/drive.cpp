@@ -59,29 +59,24 @@ Eigen::VectorXd moving_mean(const Eigen::VectorXd& x, Eigen::Index half) {
   return mean;
 }
 
-/// Returns the falling sequence nearest to x by weighted least squares; pools rising neighbors.
-Eigen::VectorXd falling(const Eigen::VectorXd& x, const Eigen::VectorXd& weight) {
-  struct Pool {
-    double weight, mean;
-    Eigen::Index count;
-  };
-  std::vector<Pool> pools;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    pools.push_back({weight[i], x[i], 1});
-    while (pools.size() > 1 && pools[pools.size() - 2].mean < pools.back().mean) {
-      const Pool last = pools.back();
+/// Returns the falling sequence nearest to x by least squares; pools rising neighbors.
+Eigen::VectorXd falling(const Eigen::VectorXd& x) {
+  std::vector<std::pair<double, Eigen::Index>> pools;  // mean and number
+  for (const double value : x) {
+    pools.push_back({value, 1});
+    while (pools.size() > 1 && pools[pools.size() - 2].first < pools.back().first) {
+      const auto [mean, number] = pools.back();
       pools.pop_back();
-      Pool& into = pools.back();
-      into.mean = (into.weight * into.mean + last.weight * last.mean) / (into.weight + last.weight);
-      into.weight += last.weight;
-      into.count += last.count;
+      auto& [of_both, count] = pools.back();
+      count += number;
+      of_both += (mean - of_both) * static_cast<double>(number) / static_cast<double>(count);
     }
   }
   Eigen::VectorXd result(x.size());
   Eigen::Index first = 0;
-  for (const Pool& pool : pools) {
-    result.segment(first, pool.count).setConstant(pool.mean);
-    first += pool.count;
+  for (const auto& [mean, count] : pools) {
+    result.segment(first, count).setConstant(mean);
+    first += count;
   }
   return result;
 }
@@ -90,39 +85,62 @@ Eigen::VectorXd evenly(const Envelope& envelope, const Eigen::VectorXd& time_s) 
   return time_s.unaryExpr([&](double t) { return envelope.at(t).value; });
 }
 
-/// One-sided power densities of drive and noise in the recording, at the frequencies of an
-/// EnvelopeError below the highest.
-struct Spectra {
-  Eigen::VectorXd drive, noise;
-  double level = 1.0;  ///< Power of the noise over the expected.
+/// An envelope on the even clock of its smoothing.
+struct EvenEnvelope {
+  double rate_hz = 0.0;
+  Eigen::VectorXd time_s, values;
 };
-Spectra spectra_of(const Eigen::VectorXd& values,
-                   double rate_hz,
-                   double noise_sd,
-                   double rest,
-                   const EnvelopeError& error,
-                   double cutoff_hz) {
+EvenEnvelope even_envelope(const Envelope& recorded, double cutoff_hz) {
+  EvenEnvelope of{.rate_hz = kRatePerCutoff * cutoff_hz};
+  const auto n = static_cast<Eigen::Index>((recorded.last_s() - recorded.first_s()) * of.rate_hz) + 1;
+  of.time_s =
+      Eigen::VectorXd::LinSpaced(n, recorded.first_s(), recorded.first_s() + static_cast<double>(n - 1) / of.rate_hz);
+  of.values = evenly(recorded, of.time_s);
+  return of;
+}
+
+/// Returns true for an envelope without noise, a short one, or one at one level (a dead electrode).
+bool is_its_own_drive(const EvenEnvelope& of, double noise_sd) {
+  return !(noise_sd > 0.0) || static_cast<double>(of.values.size()) < 2.0 * kMargin_s * of.rate_hz ||
+         of.values.maxCoeff() - of.values.minCoeff() <= 1e-9 * of.values.cwiseAbs().maxCoeff();
+}
+
+/// One-sided power densities, at the frequencies of an EnvelopeError below the highest.
+struct Power {
+  Eigen::VectorXd frequency_hz, envelope, noise;  ///< The noise is the expected one.
+};
+Power power_of(const EvenEnvelope& of, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz) {
   const Eigen::Index count = std::min<Eigen::Index>(
       error.spectrum().size(), static_cast<Eigen::Index>(kHighestPerCutoff * cutoff_hz / error.step_hz()));
-  const Eigen::VectorXd frequency = error.frequencies_hz().head(count);
+  Power power{.frequency_hz = error.frequencies_hz().head(count)};
   const auto half = static_cast<Eigen::Index>(std::ceil(kBandHalf_hz / error.step_hz()));
-  const Eigen::VectorXd power = moving_mean(power_density(values, rate_hz, frequency), half);
-  Spectra of;
+  power.envelope = moving_mean(power_density(of.values, of.rate_hz, power.frequency_hz), half);
   double variance = 0.0;
-  for (const double u : values) variance += std::pow(envelope_sd_at(u, noise_sd, rest), 2);
-  of.noise = variance / static_cast<double>(values.size()) / error.step_hz() * error.spectrum().head(count);
+  for (const double u : of.values) variance += std::pow(envelope_sd_at(u, noise_sd, rest), 2);
+  power.noise = variance / static_cast<double>(of.values.size()) / error.step_hz() * error.spectrum().head(count);
+  return power;
+}
+
+/// One-sided power density of the drive in the recording.
+struct Spectra {
+  Eigen::VectorXd drive;
+  double level = 1.0;  ///< Power of the noise over the expected.
+};
+Spectra spectra_of(
+    const EvenEnvelope& recorded, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz) {
+  const Power power = power_of(recorded, noise_sd, rest, error, cutoff_hz);
   std::vector<double> ratio;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    if (frequency[i] > 0.5 * cutoff_hz && frequency[i] < cutoff_hz) ratio.push_back(power[i] / of.noise[i]);
+  for (Eigen::Index i = 0; i < power.noise.size(); ++i) {
+    if (power.frequency_hz[i] > 0.5 * cutoff_hz && power.frequency_hz[i] < cutoff_hz)
+      ratio.push_back(power.envelope[i] / power.noise[i]);
   }
   std::nth_element(ratio.begin(), ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2), ratio.end());
   // Chi-squared's median over its mean; a Hann window makes 1.5 neighboring frequencies one.
-  const double freedom = std::max(2.0, 2.0 * (2.0 * kBandHalf_hz) * static_cast<double>(values.size()) / rate_hz / 1.5);
+  const double freedom =
+      std::max(2.0, 2.0 * (2.0 * kBandHalf_hz) * static_cast<double>(recorded.values.size()) / recorded.rate_hz / 1.5);
   const double median = ratio[ratio.size() / 2] / std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
-  of.level = std::min(kMostNoise, median);
-  of.noise *= of.level;
-  of.drive = falling(power - of.noise, Eigen::VectorXd::Ones(count)).cwiseMax(0.0);
-  return of;
+  const double level = std::min(kMostNoise, median);
+  return {falling(power.envelope - level * power.noise).cwiseMax(0.0), level};
 }
 
 /// Returns exp(i w) for each frequency, where w is the angle of one sample.
@@ -253,18 +271,14 @@ NoiseOverEnvelope noise_over_envelope(double u, double noise_sd, double rest) {
 
 Drive drive_behind(
     const Envelope& recorded, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz) {
-  const double span_s = recorded.last_s() - recorded.first_s();
-  const double rate_hz = kRatePerCutoff * cutoff_hz;
-  const auto n = static_cast<Eigen::Index>(span_s * rate_hz) + 1;
-  const auto margin = static_cast<Eigen::Index>(kMargin_s * rate_hz);
+  const EvenEnvelope even = even_envelope(recorded, cutoff_hz);
   Eigen::VectorXd left = Eigen::VectorXd::Ones(error.spectrum().size());
-  if (!(noise_sd > 0.0) || n < 2 * margin) return {recorded, left};
-  const Eigen::VectorXd time =
-      Eigen::VectorXd::LinSpaced(n, recorded.first_s(), recorded.first_s() + static_cast<double>(n - 1) / rate_hz);
-  const Eigen::VectorXd values = evenly(recorded, time);
-  // A constant envelope (a dead electrode, a muscle at one level) has no spectrum.
-  if (values.maxCoeff() - values.minCoeff() <= 1e-9 * values.cwiseAbs().maxCoeff()) return {recorded, left};
-  const Spectra spectra = spectra_of(values, rate_hz, noise_sd, rest, error, cutoff_hz);
+  if (is_its_own_drive(even, noise_sd)) return {recorded, left};
+  const Spectra spectra = spectra_of(even, noise_sd, rest, error, cutoff_hz);
+  const Eigen::VectorXd &time = even.time_s, &values = even.values;
+  const double rate_hz = even.rate_hz;
+  const Eigen::Index n = values.size();
+  const auto margin = static_cast<Eigen::Index>(kMargin_s * rate_hz);
   const auto longest = static_cast<Eigen::Index>(kAtOnce_s * rate_hz);
   const Eigen::Index count = bands(spectra.drive.size());
   Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(count), noise_power = left_power;
@@ -290,6 +304,18 @@ Drive drive_behind(
   return {Envelope(fine, faded, std::lround(fine_hz / kRead_hz)), std::move(left)};
 }
 
+Drive drive_of_clean(
+    const Envelope& clean, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz, double level) {
+  const EvenEnvelope even = even_envelope(clean, cutoff_hz);
+  Eigen::VectorXd left = Eigen::VectorXd::Ones(error.spectrum().size());
+  if (is_its_own_drive(even, noise_sd)) return {clean, left};
+  const Power power = power_of(even, noise_sd, rest, error, cutoff_hz);
+  const Eigen::ArrayXd drive = falling(power.envelope).cwiseMax(0.0);
+  const Eigen::ArrayXd wiener = drive / (drive + level * power.noise.array()).max(1e-300);
+  for (Eigen::Index i = 0; i < left.size(); ++i) left[i] = level * wiener[std::min(i, wiener.size() - 1)];
+  return {clean, std::move(left)};
+}
+
 std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
                                                  const std::string& channel,
                                                  double noise_sd,
@@ -304,8 +330,10 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
     const std::lock_guard lock(mutex_);
     if (const auto known = drives_.find(key); known != drives_.end()) return known->second;
   }
+  const Envelope envelope(recorded.time_s(), values);
   auto found = std::make_shared<const Drive>(
-      drive_behind(Envelope(recorded.time_s(), values), noise_sd, rest, error, cutoff_hz));
+      level_of_clean_ ? drive_of_clean(envelope, noise_sd, rest, error, cutoff_hz, *level_of_clean_)
+                      : drive_behind(envelope, noise_sd, rest, error, cutoff_hz));
   const std::lock_guard lock(mutex_);
   return drives_.emplace(std::move(key), std::move(found)).first->second;
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,10 +46,19 @@ struct Drive {
 [[nodiscard]] Drive drive_behind(
     const Envelope& recorded, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz);
 
+/// Returns the drive of an envelope without noise, as of a planned movement: the envelope itself. `left` is that of
+/// Wiener's filter of a recording whose noise has `level` times the expected power N, level S / (S + level N).
+[[nodiscard]] Drive drive_of_clean(
+    const Envelope& clean, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz, double level);
+
 /// The drives that fits of one recording have found: its folds and predictions need the same ones.
 /// Several threads may ask at once.
 class DriveMemory {
  public:
+  DriveMemory() = default;
+  /// A memory of planned movements, whose envelopes hold no noise (drive_of_clean).
+  explicit DriveMemory(double level_of_clean) : level_of_clean_(level_of_clean) {}
+
   /// Returns drive_behind of the channel, found once for each envelope and noise.
   [[nodiscard]] std::shared_ptr<const Drive> behind(const TimeSeries& recorded,
                                                     const std::string& channel,
@@ -59,6 +69,7 @@ class DriveMemory {
 
  private:
   using Key = std::vector<double>;  ///< All that the drive depends on.
+  std::optional<double> level_of_clean_;
   std::mutex mutex_;
   std::map<Key, std::shared_ptr<const Drive>> drives_;
 };

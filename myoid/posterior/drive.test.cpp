@@ -87,6 +87,25 @@ TEST(Drive, IsNearerThanTheEnvelopeAndKnowsItsError) {
   }
 }
 
+/// The error that is expected of a planned movement is the error that its recording leaves.
+TEST(Drive, OfACleanEnvelopeIsTheEnvelopeAndItsErrorThatOfARecording) {
+  for (const double noise_sd : {0.1, 0.15, 0.25}) {
+    const MadeEnvelope of = made_envelope(noise_sd);
+    const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
+    const Envelope clean(of.time, of.drive);
+    const Drive planned = drive_of_clean(clean, noise_sd, 0.0, error, kCutoff_hz, 1.0);
+    EXPECT_EQ(planned.envelope.samples(), of.drive);
+    const Drive found = drive_behind(Envelope(of.time, of.values), noise_sd, 0.0, error, kCutoff_hz);
+    const double said = noise_sd * std::sqrt(error.behind(planned.left).share());
+    EXPECT_NEAR(said / error_of(of, found.envelope), 1.0, 0.3) << noise_sd;
+    // Twice the noise leaves more of its power, and less than twice.
+    const double more = error.behind(drive_of_clean(clean, noise_sd, 0.0, error, kCutoff_hz, 2.0).left).share(),
+                 less = error.behind(planned.left).share();
+    EXPECT_GT(more, less) << noise_sd;
+    EXPECT_LT(more, 2.0 * less) << noise_sd;
+  }
+}
+
 TEST(Drive, ASmoothEnvelopeIsLeftAlone) {
   // The noise is believed to be there, and is not: it is lowered to what is recorded.
   const MadeEnvelope of = made_envelope(0.0);

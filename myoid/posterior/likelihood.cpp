@@ -69,9 +69,10 @@ void add_noise(const TrialRun& run, const EmgNoise& noise, const Variance& varia
 
 }  // namespace
 
-Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, const Recorded* session)
+Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, Columns columns, const Recorded* session)
     : data_(data),
       options_(options),
+      columns_are_(columns),
       map_(data, options),
       runs_(trial_runs(data, options, map_)),
       given_(runs_.size()),
@@ -114,8 +115,9 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
   std::vector<RunEvaluation> at;
   at.reserve(runs_.size());
   for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.lag, values, nullptr);
-  unseen_ =
-      unseen_quantities(data_, options_, map_, recorded_, runs_, values, at, steps_from(z, map_, options_.lag, runs_));
+  const std::vector<Stepped> steps =
+      columns_are_ == Columns::follow ? steps_from(z, map_, options_.lag, runs_) : std::vector<Stepped>{};
+  unseen_ = unseen_quantities(data_, options_, map_, recorded_, runs_, values, at, steps);
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Reduction& reduction = runs_[r].reduction;
     columns_[r] = reduction.apply(unseen_.columns[r]);
@@ -172,8 +174,7 @@ Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
     const UnseenQuantity& of = unseen_.quantities[i];
     const bool exact = believed_ == Believed::geometry_and_sensors_exact && of.source != Source::model;
-    w[static_cast<Eigen::Index>(i)] =
-        exact ? 0.0 : of.weight * (of.of_the_model ? std::exp(noise[kModelErrorSize]) : 1.0);
+    w[static_cast<Eigen::Index>(i)] = exact ? 0.0 : of.weight * (of.size ? std::exp(noise[*of.size]) : 1.0);
   }
   return w;
 }
@@ -222,6 +223,13 @@ Likelihood::AllRuns Likelihood::all_runs(const Eigen::VectorXd& z, const NoiseVa
   return all;
 }
 
+Eigen::MatrixXd Likelihood::turned_columns(std::size_t r, const AllRuns& all) const {
+  Eigen::MatrixXd columns = columns_[r];
+  for (Eigen::Index s = 0; s < all.turned.size(); ++s)
+    columns.col(unseen_.slopes[static_cast<std::size_t>(s)].quantity) += all.turned[s] * by_slope_[r].col(s);
+  return columns;
+}
+
 bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& noise, Block& block) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
@@ -236,10 +244,7 @@ bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& nois
   block.whitening = block.factor.matrixL().solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
   const Eigen::VectorXd white = block.whitening * residual;
   block.solved = block.whitening.transpose() * white;
-  block.unseen = columns_[r];
-  for (Eigen::Index s = 0; s < all.turned.size(); ++s)
-    block.unseen.col(unseen_.slopes[static_cast<std::size_t>(s)].quantity) += all.turned[s] * by_slope_[r].col(s);
-  block.unseen = (block.unseen * all.weights.asDiagonal()).eval();
+  block.unseen = turned_columns(r, all) * all.weights.asDiagonal();
   block.unseen_half.noalias() = block.whitening * block.unseen;
   block.projected.noalias() = block.unseen_half.transpose() * white;
   block.gram.setZero(all.weights.size(), all.weights.size());
@@ -363,8 +368,8 @@ double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gra
   gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
   gradient->by_noise.setZero(noise.size());
   for (Eigen::Index i = 0; i < quantities; ++i) {
-    if (unseen_.quantities[static_cast<std::size_t>(i)].of_the_model)
-      gradient->by_noise[kModelErrorSize] += expected[i] * expected[i] - (1.0 - all.variance(i, i));
+    if (const std::optional<NoiseField> size = unseen_.quantities[static_cast<std::size_t>(i)].size)
+      gradient->by_noise[*size] += expected[i] * expected[i] - (1.0 - all.variance(i, i));
   }
   for (const Gradient& part : parts) {
     gradient->by_z += part.by_z;

@@ -12,6 +12,9 @@
 
 namespace myoid::identification {
 
+/// The columns of S follow the unknowns, or are read at the reference only, which saves their slopes.
+enum class Columns { follow, at_reference };
+
 /// Quantities that are taken to be exact: none, or the geometry and the sensors' scales.
 enum class Believed { nothing_exact, geometry_and_sensors_exact };
 
@@ -45,7 +48,10 @@ class Likelihood {
 
   /// Takes the start as the reference, or the answer at which a search begins (EstimatorOptions::begin_at). `session`
   /// is the recording of which the data are a part; null: the data are the whole recording.
-  Likelihood(const StudyData& data, const EstimatorOptions& options, const Recorded* session = nullptr);
+  Likelihood(const StudyData& data,
+             const EstimatorOptions& options,
+             Columns columns = Columns::follow,
+             const Recorded* session = nullptr);
 
   /// Computes S, its slopes and Q at the reference values z.
   void refer_to(const Eigen::VectorXd& z);
@@ -129,10 +135,13 @@ class Likelihood {
 
   struct Residuals {
     Eigen::VectorXd measured_nm;                           ///< L y, all runs one after the other.
-    Eigen::VectorXd predicted_nm;                          ///< L T^.
+    Eigen::VectorXd predicted_nm;                          ///< L (T^ + S W x^), without the model's error.
     std::vector<std::vector<Eigen::Index>> rows_of_joint;  ///< As ParameterMap::joints().
   };
-  [[nodiscard]] Residuals residuals(const Eigen::VectorXd& z) const;
+  /// Returns the measured torques and those of the law with geometry and sensors as the torque tells them. An error of
+  /// a moment arm is part of the explanation: where muscles work against each other, T^ alone may be off by several
+  /// times the torque that is left. The error of the model is no explanation.
+  [[nodiscard]] Residuals residuals(const Eigen::VectorXd& z, const NoiseValues& noise) const;
 
  private:
   struct AllRuns;
@@ -152,6 +161,8 @@ class Likelihood {
   [[nodiscard]] Eigen::MatrixXd envelope_covariance(std::size_t run,
                                                     const TorqueSignals& signals,
                                                     const NoiseValues& noise) const;
+  /// Returns L S of the run at the unknowns of `all`.
+  [[nodiscard]] Eigen::MatrixXd turned_columns(std::size_t run, const AllRuns& all) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
   [[nodiscard]] bool fill(std::size_t run, const AllRuns& all, const NoiseValues& noise, Block& block) const;
   void pull_back(
@@ -174,6 +185,7 @@ class Likelihood {
 
   const StudyData& data_;
   EstimatorOptions options_;
+  Columns columns_are_;
   ParameterMap map_;
   std::vector<TrialRun> runs_;
   std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.

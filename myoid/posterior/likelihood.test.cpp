@@ -267,7 +267,7 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
   for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
     const UnseenQuantity& of = likelihood.unseen().quantities[static_cast<std::size_t>(i)];
     if (believed == Believed::geometry_and_sensors_exact && of.source != Source::model) continue;
-    weights[i] = of.weight * (of.of_the_model ? std::exp(noise[kModelErrorSize]) : 1.0);
+    weights[i] = of.weight * (of.size ? std::exp(noise[*of.size]) : 1.0);
     sigma += weights[i] * weights[i] * shapes.col(i) * shapes.col(i).transpose();
   }
   const Eigen::LDLT<Eigen::MatrixXd> factor(sigma);
@@ -392,6 +392,27 @@ TEST(Likelihood, HasTheSameBitsForEveryNumberOfThreads) {
   EXPECT_EQ(value, on(3, three));
   EXPECT_EQ(one.by_z, three.by_z);
   EXPECT_EQ(one.by_noise, three.by_noise);
+}
+
+// All moment arms of the person are 10 % longer than the study says.
+TEST(Likelihood, TheExplanationHasTheErrorsOfTheGeometryThatTheTorqueTells) {
+  ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .true_arm_scale = 1.1});
+  for (std::size_t k = 0; k < 4; ++k) study.data.muscles[k].start = study.truth[k];
+  const EstimatorOptions options{.delay_s = study.delay_s, .unseen = {.model_error = 1e-3}};
+  Likelihood likelihood(study.data, options);
+  const Eigen::VectorXd z = likelihood.parameters().start();
+  likelihood.refer_to(z);
+  NoiseValues noise = NoiseValues::Zero(kNoiseFieldCount);
+  noise[kTorqueSd] = std::log(0.01 * likelihood.torque_size_nm());
+  noise[kTorqueTime] = std::log(0.3);
+  noise[kEmgFactor] = noise[kModelErrorSize] = std::log(1e-3);
+  const Likelihood::Residuals rows = likelihood.residuals(z, noise);
+  likelihood.believe(Believed::geometry_and_sensors_exact);
+  const Likelihood::Residuals exact = likelihood.residuals(z, noise);
+  const double size = rows.measured_nm.norm();
+  EXPECT_EQ(rows.measured_nm, exact.measured_nm);
+  EXPECT_GT((exact.predicted_nm - exact.measured_nm).norm(), 0.05 * size);
+  EXPECT_LT((rows.predicted_nm - rows.measured_nm).norm(), 0.01 * size);
 }
 
 }  // namespace

@@ -151,8 +151,12 @@ Likelihood::ActiveTorque Likelihood::active_torque(const TrialRun& run,
   return found;
 }
 
-Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z) const {
+Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   const ModelValues values = map_.values(z);
+  const AllRuns all = all_runs(z, noise);
+  Eigen::VectorXd expected = all.weights.cwiseProduct(unseen_given(z, noise).mean);
+  for (std::size_t i = 0; i < unseen_.quantities.size(); ++i)
+    if (unseen_.quantities[i].size == kModelErrorSize) expected[static_cast<Eigen::Index>(i)] = 0.0;
   Residuals result{Eigen::VectorXd(rows_), Eigen::VectorXd(rows_),
                    std::vector<std::vector<Eigen::Index>>(map_.joints().size())};
   Eigen::Index first = 0;
@@ -160,7 +164,8 @@ Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z) const {
     const RunEvaluation evaluation(runs_[r], map_, options_.lag, values, nullptr);
     const Eigen::Index m = runs_[r].measured_nm.size();
     result.measured_nm.segment(first, m) = runs_[r].measured_nm;
-    result.predicted_nm.segment(first, m) = runs_[r].reduction.apply(evaluation.signals().torque_nm);
+    result.predicted_nm.segment(first, m) =
+        runs_[r].reduction.apply(evaluation.signals().torque_nm) + turned_columns(r, all) * expected;
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto j = static_cast<std::size_t>(i / runs_[r].reduction.outputs());
       result.rows_of_joint[static_cast<std::size_t>(runs_[r].joints[j])].push_back(first + i);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace myoid::identification {
@@ -43,24 +44,26 @@ Eigen::VectorXd EnvelopeError::frequencies_hz() const {
   return step_hz_ * Eigen::VectorXd::LinSpaced(kFrequencies, 0.5, static_cast<double>(kFrequencies) - 0.5);
 }
 
-double EnvelopeError::correlation(double apart_s) const {
-  const double apart = std::abs(apart_s);
-  if (apart >= reach_s_) return 0.0;
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < kFrequencies; ++i)
-    sum += spectrum_[i] * std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) * step_hz_ * apart);
-  return sum;
+Eigen::VectorXd EnvelopeError::correlations(double interval_s, Eigen::Index last) const {
+  // cos(w_i j) by turning each wave on from sample to sample.
+  const Eigen::ArrayXcd turn =
+      (std::complex<double>(0.0, 2.0 * std::numbers::pi * interval_s) * frequencies_hz().array()).exp();
+  Eigen::ArrayXcd wave = spectrum_.cast<std::complex<double>>();
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(last + 1);
+  for (Eigen::Index j = 0; j <= last && static_cast<double>(j) * interval_s < reach_s_; ++j, wave *= turn)
+    r[j] = wave.real().sum();
+  return r;
 }
 
 Eigen::VectorXd EnvelopeError::from_white(double interval_s) const {
   // The square root of R's spectrum, over a circle that is longer than the reach of R.
   const auto reach = static_cast<Eigen::Index>(std::ceil(reach_s_ / interval_s));
   const Eigen::Index size = 2 * reach + 1;
-  Eigen::VectorXd r(reach + 1);
-  for (Eigen::Index j = 0; j <= reach; ++j) r[j] = correlation(static_cast<double>(j) * interval_s);
-  const auto cosine = [size](Eigen::Index a, Eigen::Index b) {
-    return std::cos(2.0 * std::numbers::pi * static_cast<double>((a * b) % size) / static_cast<double>(size));
-  };
+  const Eigen::VectorXd r = correlations(interval_s, reach);
+  const Eigen::VectorXd circle = (2.0 * std::numbers::pi / static_cast<double>(size) *
+                                  Eigen::ArrayXd::LinSpaced(size, 0.0, static_cast<double>(size - 1)))
+                                     .cos();
+  const auto cosine = [&](Eigen::Index a, Eigen::Index b) { return circle[(a * b) % size]; };
   Eigen::VectorXd amplitude(reach + 1);
   for (Eigen::Index k = 0; k <= reach; ++k) {
     double power = r[0];

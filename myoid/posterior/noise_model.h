@@ -8,7 +8,8 @@
 
 namespace myoid::identification {
 
-/// Indices in NoiseValues of the hyperparameters phi of the errors, each on an unbounded scale.
+/// Indices in NoiseValues of the hyperparameters phi of the errors, each on an unbounded scale. The sizes, from
+/// kModelErrorSize on, are those of quantities that residuals can tell (UnseenQuantity::size).
 /// After them stands ln b of each fitted trial, the trial's own factor of sigma_T: a dynamometer
 /// errs by more than the inverse dynamics of the same session.
 enum NoiseField : int {
@@ -16,6 +17,11 @@ enum NoiseField : int {
   kTorqueTime,      ///< ln tau_T [s]: e_T has the covariance sigma_T^2 exp(-|dt| / tau_T).
   kEmgFactor,       ///< ln kappa: noise of the envelopes over the noise that their bandwidth predicts.
   kModelErrorSize,  ///< ln s: relative size of the model's error e_m.
+  // ln of the spread of a kind of unseen quantities, over the spread that is believed.
+  kArmSlopeSize,
+  kCrosstalkSize,
+  kGainDriftSize,
+  kRiseAndFallSize,
   kNoiseFieldCount
 };
 using NoiseValues = Eigen::VectorXd;
@@ -34,8 +40,8 @@ class EnvelopeError {
   [[nodiscard]] Eigen::VectorXd frequencies_hz() const;
   /// Share of the variance at each of `frequencies_hz`; the shares add to 1.
   [[nodiscard]] const Eigen::VectorXd& spectrum() const { return spectrum_; }
-  /// Returns R at a time difference [s]; R is 0 from `reach_s` on.
-  [[nodiscard]] double correlation(double apart_s) const;
+  /// Returns R at the time differences 0, interval, ... last x interval [s]; R is 0 from `reach_s` on.
+  [[nodiscard]] Eigen::VectorXd correlations(double interval_s, Eigen::Index last) const;
   [[nodiscard]] double reach_s() const { return reach_s_; }
   [[nodiscard]] double share() const { return share_; }
   /// Returns weights h, an odd number about the middle one, that turn white noise of unit variance

@@ -126,6 +126,7 @@ struct Reporting {
   const IdentificationResult& result;
   bool converged = true;
   bool from_mvc = true;      ///< Activation 1 is a maximal effort.
+  bool of_force = false;     ///< EstimatorOptions::measured_is_force.
   double strength_sd = 0.0;  ///< UnseenSpreads::strength.
 };
 
@@ -184,6 +185,7 @@ void judge_row(const Reporting& of,
   facts.is_delay = p.is(Scope::channel, kDelay);
   facts.shares = of.shares[unknown];
   facts.r2 = of.result.r2;
+  facts.of_force = of.of_force;
   facts.model_error = of.result.model_error;
   e.variance_shares = facts.shares;
   const bool of_width = p.is(Scope::muscle, kWidth);
@@ -294,7 +296,7 @@ void fill_fit(const Candidate& best, const Sample& sample, const StudyData& data
   for (const TrialRun& run : runs) result.envelope_variance += run.envelope_sd.cwiseAbs2();
   result.envelope_variance *= std::exp(2.0 * noise[kEmgFactor]) / static_cast<double>(runs.size());
   result.emg_cv = std::sqrt(result.envelope_variance.mean());
-  const Likelihood::Residuals rows = density.likelihood().residuals(result.solution);
+  const Likelihood::Residuals rows = density.likelihood().residuals(result.solution, noise);
   for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint) {
     if (!joint.empty())
       result.r2 = std::min(result.r2, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
@@ -358,7 +360,7 @@ void add_warnings(const std::vector<Candidate>& candidates,
                     unlikeness));
   if (result.model_error > kVerdictRules.model_error)
     result.warnings.push_back(fmt::format(
-        "what the model leaves of the torque depends on posture, effort and speed as if it were wrong by {:.0f} %",
+        "what the model leaves unexplained depends on posture, effort and speed as if it were wrong by {:.0f} %",
         100.0 * result.model_error));
   add_distances_to(result.warnings, result.prior_distances);
 }
@@ -393,9 +395,11 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
                      result,
                      best.mode.converged,
                      options.from_mvc,
+                     options.measured_is_force,
                      options.unseen.strength};
   add_estimates(of, result);
-  if (options.marginals && options.predictions) add_voluntary(of, *best.density, options, result);
+  if (options.marginals && options.predictions && !options.measured_is_force)
+    add_voluntary(of, *best.density, options, result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, best.density->unlikeness(), result);
   if (best.mode.converged) result.diagnoses = signatures(result.estimates);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "myoid/core/error.h"
 #include "myoid/core/parallel.h"
@@ -150,6 +151,21 @@ TrialRun whole_run(const TrialData& trial,
   run.trial = static_cast<int>(here - data.trials.begin());
   run.session = std::min((before + 0.5) / all, 1.0);
   return run;
+}
+
+TimeSeries drives(const TrialRun& run, const std::vector<std::string>& channels) {
+  const auto finest =
+      std::max_element(run.envelopes.begin(), run.envelopes.end(),
+                       [](const Envelope& a, const Envelope& b) { return a.time_s().size() < b.time_s().size(); });
+  if (finest == run.envelopes.end()) return {};
+  const Eigen::VectorXd& time = finest->time_s();
+  std::vector<Channel> columns;
+  Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(run.envelopes.size()));
+  for (std::size_t c = 0; c < run.envelopes.size(); ++c) {
+    columns.push_back({channels[c], Unit::dimensionless});
+    values.col(static_cast<Eigen::Index>(c)) = time.unaryExpr([&](double t) { return run.envelopes[c].at(t).value; });
+  }
+  return {time, std::move(columns), std::move(values)};
 }
 
 }  // namespace myoid::identification

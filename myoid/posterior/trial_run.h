@@ -1,9 +1,11 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "myoid/core/time_series.h"
 #include "myoid/identification/envelope.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identification/study_data.h"
@@ -52,5 +54,8 @@ struct TrialRun {
                                  const StudyData& data,
                                  const EstimatorOptions& options,
                                  const ParameterMap& map);
+
+/// Returns the drives of a run on the finest clock among them, each under its channel's name.
+[[nodiscard]] TimeSeries drives(const TrialRun& run, const std::vector<std::string>& channels);
 
 }  // namespace myoid::identification

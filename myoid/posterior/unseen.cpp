@@ -46,7 +46,7 @@ struct Collector {
   void add_electrodes() {
     const std::size_t channels = map_.channels().size();
     for (std::size_t c = 0; c < channels; ++c) {
-      add(map_.channels()[c] + ".gain_drift", Source::electrodes, spreads_.gain_drift);
+      add(map_.channels()[c] + ".gain_drift", Source::electrodes, spreads_.gain_drift, kGainDriftSize);
       for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque * of.run.session; });
       if (spreads_.effort > 0.0) {
         add(map_.channels()[c] + ".effort", Source::electrodes, spreads_.effort);
@@ -54,12 +54,12 @@ struct Collector {
         for (std::size_t k = 0; k < data_.muscles.size(); ++k)
           if (map_.channel_of_muscle(k) == static_cast<int>(c)) multiplies_strength_of(k);
       }
-      add(map_.channels()[c] + ".rise_and_fall", Source::model, beliefs::kRiseAndFall.sd);
+      add(map_.channels()[c] + ".rise_and_fall", Source::model, beliefs::kRiseAndFall.sd, kRiseAndFallSize);
       for_channel(c, [&](const OfMuscle& of, auto column) { column += of.torque * earlier(of.at, c).abs(); });
       for (std::size_t other = 0; other < channels; ++other) {
         if (other == c) continue;
         add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]), Source::electrodes,
-            spreads_.crosstalk);
+            spreads_.crosstalk, kCrosstalkSize);
         for_channel(c, [&](const OfMuscle& of, auto column) {
           column += of.torque * activation_of(of.at, other) / activation_of(of.at, c).max(kNoneActs);
         });
@@ -79,7 +79,7 @@ struct Collector {
     const auto c = static_cast<std::size_t>(channel);
     const Recorded::Range& range = recorded_.muscles[k];
     const auto shape = [&](const char* of_what, double weight, const auto& factor) {
-      add(name + ".error_" + of_what, Source::model, weight, true);
+      add(name + ".error_" + of_what, Source::model, weight, kModelErrorSize);
       for_runs(k, [&](const OfMuscle& of, auto column) { column += of.torque * factor(of); });
     };
     const auto place = [&](const OfMuscle& of) { return range.place(of.length); };
@@ -130,13 +130,13 @@ struct Collector {
       const std::string name = joints == 1 ? "joint" : map_.joints()[j];
       const double size_nm = recorded_.joint_torque_nm[j];
       if (!is_free(Scope::joint, kOffset, joint)) {
-        add(name + ".error_constant", Source::model, 1.0, true);
+        add(name + ".error_constant", Source::model, 1.0, kModelErrorSize);
         for_joint(joint, [&](const TrialRun&, auto column) { column.setConstant(size_nm); });
       }
       if (is_free(Scope::joint, kStiffness, joint)) continue;
       std::size_t k = 0;
       while (k + 1 < data_.muscles.size() && !recorded_.parts.crosses(k, joint)) ++k;
-      add(name + ".error_slope", Source::model, 1.0, true);
+      add(name + ".error_slope", Source::model, 1.0, kModelErrorSize);
       for_joint(joint, [&](const TrialRun& run, auto column) {
         column = size_nm * recorded_.by_joint[j][k].place(recorded_.parts.of(run.length_m, k, joint).array());
       });
@@ -213,7 +213,7 @@ struct Collector {
       column += own(of) * of.torque + of.by_length * (part(of.run.length_m) - mean) +
                 of.by_velocity * part(of.run.velocity_mps);
     });
-    add(name + "_slope" + of_joint, Source::geometry, spreads_.moment_arm_slope);
+    add(name + "_slope" + of_joint, Source::geometry, spreads_.moment_arm_slope, kArmSlopeSize);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       const Eigen::ArrayXd x = range.place(part(of.run.length_m));
       column += own(of) * of.torque * x + of.by_length * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0) +
@@ -240,8 +240,8 @@ struct Collector {
     });
   }
 
-  void add(std::string name, Source source, double weight, bool of_the_model = false) {
-    quantities_.push_back({std::move(name), source, weight, of_the_model, {}});
+  void add(std::string name, Source source, double weight, std::optional<NoiseField> size = {}) {
+    quantities_.push_back({std::move(name), source, weight, size, {}});
     for (std::size_t r = 0; r < runs_.size(); ++r) columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,8 @@ namespace myoid::identification {
 struct UnseenQuantity {
   std::string name;
   Source source = Source::model;
-  double weight = 0.0;                   ///< Standard deviation; for a model's error, over its size s.
-  bool of_the_model = false;             ///< The standard deviation is s weight.
+  double weight = 0.0;                   ///< Standard deviation, over the size if there is one.
+  std::optional<NoiseField> size = {};   ///< The hyperparameter whose exponential multiplies the weight.
   std::vector<std::size_t> strength_of;  ///< Muscles whose F_max it multiplies.
 };
 

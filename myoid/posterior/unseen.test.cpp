@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -272,10 +275,17 @@ TEST(Unseen, ALagIsThatOfOneMuscleAgainstTheMuscles) {
                     [](double by, TrialRun&, ModelValues& values) { values.channels[3][kDelay] -= 0.15 * by; });
 }
 
-TEST(Unseen, WhatTheModelErrsByIsMarked) {
+TEST(Unseen, ASizeIsLearnedOfEachKindThatResidualsCanTell) {
+  const std::map<std::string, NoiseField> sizes{{".error_", kModelErrorSize},
+                                                {".moment_arm_slope", kArmSlopeSize},
+                                                {".crosstalk_of_", kCrosstalkSize},
+                                                {".gain_drift", kGainDriftSize},
+                                                {".rise_and_fall", kRiseAndFallSize}};
   for (const UnseenQuantity& q : AtStart(two_trials()).unseen().quantities) {
-    EXPECT_EQ(q.of_the_model, q.name.find(".error_") != std::string::npos) << q.name;
-    EXPECT_TRUE(!q.of_the_model || q.source == Source::model) << q.name;
+    const auto of = std::find_if(sizes.begin(), sizes.end(),
+                                 [&](const auto& kind) { return q.name.find(kind.first) != std::string::npos; });
+    EXPECT_EQ(q.size, of == sizes.end() ? std::nullopt : std::optional(of->second)) << q.name;
+    EXPECT_TRUE(q.size != kModelErrorSize || q.source == Source::model) << q.name;
     EXPECT_GT(q.weight, 0.0) << q.name;
   }
 }

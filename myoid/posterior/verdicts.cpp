@@ -13,8 +13,11 @@
 namespace myoid::identification {
 namespace {
 
+/// The names of the sources; "{}" is the torque or the force.
 constexpr std::array<std::string_view, kSourceCount> kSourceNames = {
-    "noise of the torque", "prior belief", "geometry", "electrodes", "scale of the torque", "error of the model"};
+    "noise of the {}", "prior belief", "geometry", "electrodes", "scale of the {}", "error of the model"};
+
+std::string_view fitted(const PosteriorFacts& facts) { return facts.of_force ? "force" : "torque"; }
 
 /// Returns the distance from the value to the farther end: of a delay in seconds, of an angle in radians, else as a
 /// share.
@@ -52,13 +55,15 @@ double weak_half(const PosteriorFacts& facts) {
                           : kVerdictRules.weak_half_width;
 }
 
-std::string sources_text(const SourceShares& shares) {
+std::string sources_text(const PosteriorFacts& facts) {
+  const SourceShares& shares = facts.shares;
   std::array<std::size_t, kSourceCount> order{0, 1, 2, 3, 4, 5};
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
   std::string text;
   for (const std::size_t i : order) {
     if (shares[i] < 0.1) break;
-    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", kSourceNames[i], 100.0 * shares[i]);
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ",
+                        fmt::format(fmt::runtime(kSourceNames[i]), fitted(facts)), 100.0 * shares[i]);
   }
   return text;
 }
@@ -139,7 +144,7 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (facts.contraction)
     text += fmt::format("; the recording takes {:.0f} % off the prior's variance",
                         100.0 * std::max(0.0, *facts.contraction));
-  if (const std::string sources = sources_text(facts.shares); !sources.empty()) text += "; it rests on " + sources;
+  if (const std::string sources = sources_text(facts); !sources.empty()) text += "; it rests on " + sources;
   if (is_far(facts)) text += fmt::format("; {:.1f} standard deviations away from its prior", *facts.prior_distance);
   if (finding == Finding::impossible)
     text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
@@ -157,11 +162,9 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
                        100.0 * facts.model_error, text);
   if (finding == Finding::unexplained)
     text = fmt::format(
-        "the fit explains little of the torque (R2 {:.2f}): a sign, a unit, an offset, a clock, the order of files or "
-        "a "
-        "column is wrong, "
-        "or the EMG is not that of these muscles; {}",
-        facts.r2, text);
+        "the fit explains little of the {} (R2 {:.2f}): a sign, a unit, an offset, a clock, the order of files or a "
+        "column is wrong, or the EMG is not that of these muscles; {}",
+        fitted(facts), facts.r2, text);
   if (facts.approximate) text += "; approximate: the normal approximation could not be checked";
   return text;
 }

@@ -30,7 +30,8 @@ struct PosteriorFacts {
   bool at_bound = false;      ///< An end of the interval is as good as a bound (VerdictRules::on_bound).
   /// For l0 and l_sh: range of lengths at which the muscle is active, over l0.
   std::optional<double> length_span;
-  double r2 = 1.0;           ///< R2 of the fitted torque.
+  bool of_force = false;     ///< The fit is to a force.
+  double r2 = 1.0;           ///< R2 of the fitted torque or force.
   double model_error = 0.0;  ///< Relative size of the model's systematic error.
   SourceShares shares{};
 };

@@ -66,6 +66,19 @@ void put(
   }
 }
 
+myoid_model* open_by(myoid::Reading reading, const char* results, const char* study, char* error, std::size_t size) {
+  if (results == nullptr) {
+    if (error != nullptr && size > 0) std::snprintf(error, size, "the folder of the results is NULL");
+    return nullptr;
+  }
+  try {
+    return new myoid_model{myoid::read_predictor(results, study == nullptr ? "" : study, reading)};
+  } catch (const std::exception& problem) {
+    if (error != nullptr && size > 0) std::snprintf(error, size, "%s", problem.what());
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 extern "C" {
@@ -76,16 +89,11 @@ const char* myoid_version(void) {
 }
 
 myoid_model* myoid_open(const char* results, const char* study, char* error, size_t size) {
-  if (results == nullptr) {
-    if (error != nullptr && size > 0) std::snprintf(error, size, "the folder of the results is NULL");
-    return nullptr;
-  }
-  try {
-    return new myoid_model{myoid::read_predictor(results, study == nullptr ? "" : study)};
-  } catch (const std::exception& problem) {
-    if (error != nullptr && size > 0) std::snprintf(error, size, "%s", problem.what());
-    return nullptr;
-  }
+  return open_by(myoid::Reading::person, results, study, error, size);
+}
+
+myoid_model* myoid_open_given(const char* results, const char* study, char* error, size_t size) {
+  return open_by(myoid::Reading::geometry_and_sensors_exact, results, study, error, size);
 }
 
 void myoid_close(myoid_model* model) { delete model; }

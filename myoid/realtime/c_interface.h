@@ -7,7 +7,10 @@
  * model, each with a workspace of its own. No function throws or prints. NULL in place of a model,
  * workspace or array is an error and never read: counts are then -1, names NULL, numbers NaN.
  *
- * Units: N m, N, rad, rad/s, s. An envelope is 0..1, as activation.sto holds it.
+ * Units: N m, N, rad, rad/s, s. An envelope is 0..1, as activation.sto holds it. A run by the posterior makes its
+ * forces from the drive behind the envelope (drive.sto), which needs the samples that follow: fed with drive.sto,
+ * myoid_follow and myoid_evaluate give the forces of identified_forces.sto. A live program has envelopes, which are
+ * noisier, and so are its forces.
  */
 #include <stddef.h>
 
@@ -36,6 +39,13 @@ const char* myoid_version(void);
  * where it was; else NULL. Returns NULL on an error, with a sentence in `error` (of `size` bytes;
  * may be NULL). */
 myoid_model* myoid_open(const char* results, const char* study, char* error, size_t size);
+
+/* The same by the second reading, given geometry and sensors: values and bands as if the study's moment arms, tendons
+ * and sensors were exact, for use with the same model, electrodes and dynamometer. parameters.json holds the covariance
+ * of the person's reading; here each unknown's standard deviation is scaled by the ratio of the widths of its two
+ * intervals. Of a run by least squares, which has this reading alone, both functions open the same model. */
+myoid_model* myoid_open_given(const char* results, const char* study, char* error, size_t size);
+
 void myoid_close(myoid_model* model);
 
 /* EMG channels, joints and muscles; the names live as long as the model. -1 or NULL without a model or an element

@@ -10,6 +10,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/options.h"
 #include "myoid/identification/parameter_fields.h"
@@ -34,7 +35,7 @@ json read_json(const fs::path& path) {
   try {
     return parse_json(recording::read_text_file(path));
   } catch (const json::exception& error) {
-    throw ReadError(path, 0, "is no result of a run: {}", error.what());
+    throw ReadError(path, 0, "is no result of a run: {}; run the study again", json_error_text(error));
   }
 }
 
@@ -71,7 +72,14 @@ struct Numbers {
   }
 };
 
-void set_values(const Study& study, const json& method, Numbers& numbers) {
+/// Returns a row's value by a reading; NaN where it has none.
+double value_of(const json& row, Reading reading) {
+  const json given = row.value("given_estimate", json());
+  const json& value = reading == Reading::person || !given.is_number() ? row.at("estimate") : given;
+  return value.is_number() ? value.get<double>() : kNan;
+}
+
+void set_values(const Study& study, const json& method, Reading reading, Numbers& numbers) {
   for (const ParameterRule& rule : study.parameters) {
     if (!rule.value) continue;
     const std::vector<std::string> all{"subject"};
@@ -79,11 +87,12 @@ void set_values(const Study& study, const json& method, Numbers& numbers) {
       for (const Place& place : numbers.of(parameter_field(rule.parameter), owner)) *place.value = *rule.value;
   }
   for (const json& row : method.at("estimates")) {
-    if (!row.at("estimate").is_number()) continue;
+    const double value = value_of(row, reading);
+    if (std::isnan(value)) continue;
     const auto name = row.at("parameter").get<std::string>();
     if (name.starts_with("voluntary_")) continue;  // follows from the muscles' numbers
     for (const Place& place : numbers.of(parameter_field(name), row.at("muscle").get<std::string>()))
-      *place.value = row.at("estimate").get<double>();
+      *place.value = value;
   }
   for (std::size_t k = 0; k < numbers.slope_ratio.size(); ++k) {
     MuscleValues& m = numbers.predictor->muscles[k].values;
@@ -107,37 +116,69 @@ void add_product_chains(const MuscleValues& m, double ratio, Chains& chains) {
   std::erase_if(chains, [](const Predictor::Chain& c) { return c.field == kSlopeRatio; });
 }
 
-/// Adds the chains of a label "BIC+BRA.optimal_fiber_length": the owners, and the parameter.
-void add_chains(const std::string& label, Eigen::Index variable, Numbers& numbers) {
-  const std::size_t point = label.rfind('.');
-  if (point == std::string::npos) throw InvalidInput("found the unknown '{}', expected OWNER.PARAMETER", label);
-  const ParameterField& field = parameter_field(label.substr(point + 1));
+/// An unknown of the fit by its label, "BIC+BRA.optimal_fiber_length".
+struct LabeledUnknown {
+  explicit LabeledUnknown(const std::string& label)
+      : point(label.rfind('.')), field(parameter_field(label.substr(point == std::string::npos ? 0 : point + 1))) {
+    if (point == std::string::npos) throw InvalidInput("found the unknown '{}', expected OWNER.PARAMETER", label);
+    for (const std::string_view owner : recording::split(std::string_view(label).substr(0, point), '+'))
+      owners.emplace_back(owner);
+  }
+
+  std::size_t point;
+  const ParameterField& field;
+  std::vector<std::string> owners;
+};
+
+void add_chains(const LabeledUnknown& unknown, Eigen::Index variable, Numbers& numbers) {
   std::vector<Place> places;
-  for (const std::string_view owner : recording::split(std::string_view(label).substr(0, point), '+')) {
-    const std::vector<Place> of_owner = numbers.of(field, owner);
+  for (const std::string& owner : unknown.owners) {
+    const std::vector<Place> of_owner = numbers.of(unknown.field, owner);
     places.insert(places.end(), of_owner.begin(), of_owner.end());
   }
   for (const auto& [value, chains] : places) {
     const double first = *places.front().value;
-    const double slope = field.logarithmic ? *value : first != 0.0 ? *value / first : 1.0;
-    chains->push_back({field.field, variable, slope});
+    const double slope = unknown.field.logarithmic ? *value : first != 0.0 ? *value / first : 1.0;
+    chains->push_back({unknown.field.field, variable, slope});
   }
 }
 
-void set_covariance(const json& method, Numbers& numbers) {
+/// Returns the width of the interval given geometry and sensors over that of the person; 1 where a row has one reading.
+double narrower(const json& estimates, const LabeledUnknown& unknown) {
+  for (const json& row : estimates) {
+    if (row.at("parameter") != unknown.field.name ||
+        std::ranges::find(unknown.owners, row.at("muscle").get<std::string>()) == unknown.owners.end())
+      continue;
+    const auto width = [&](const char* low_name, const char* high_name) {
+      const json low = row.value(low_name, json()), high = row.value(high_name, json());
+      if (!low.is_number() || !high.is_number()) return kNan;
+      return unknown.field.logarithmic ? std::log(high.get<double>() / low.get<double>())
+                                       : high.get<double>() - low.get<double>();
+    };
+    const double ratio = width("given_ci_low", "given_ci_high") / width("ci_low", "ci_high");
+    if (std::isfinite(ratio)) return ratio;
+  }
+  return 1.0;
+}
+
+void set_covariance(const json& method, Reading reading, Numbers& numbers) {
   const json& covariance = method.at("covariance");
   const auto labels = covariance.at("parameters").get<std::vector<std::string>>();
   Predictor& p = *numbers.predictor;
   const auto n = static_cast<Eigen::Index>(labels.size());
   p.covariance.setZero(n, n);
+  Eigen::VectorXd share = Eigen::VectorXd::Ones(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const json& row = covariance.at("matrix").at(static_cast<std::size_t>(i));
     for (Eigen::Index j = 0; j < n; ++j) {
       const json& cell = row.at(static_cast<std::size_t>(j));
       p.covariance(i, j) = cell.is_number() ? cell.get<double>() : 0.0;
     }
-    add_chains(labels[static_cast<std::size_t>(i)], i, numbers);
+    const LabeledUnknown unknown(labels[static_cast<std::size_t>(i)]);
+    add_chains(unknown, i, numbers);
+    if (reading != Reading::person) share[i] = narrower(method.at("estimates"), unknown);
   }
+  p.covariance = share.asDiagonal() * p.covariance * share.asDiagonal();
   for (std::size_t k = 0; k < p.muscles.size(); ++k) {
     if (numbers.slope_ratio[k] > 0.0)
       add_product_chains(p.muscles[k].values, numbers.slope_ratio[k], p.muscles[k].chains);
@@ -215,7 +256,7 @@ void refuse_unlike(const Study& study, const json& parameters) {
 
 }  // namespace
 
-Predictor read_predictor(const fs::path& results, const fs::path& study_file) {
+Predictor read_predictor(const fs::path& results, const fs::path& study_file, Reading reading) {
   const json parameters = read_json(results / "parameters.json");
   try {
     const fs::path file =
@@ -227,14 +268,15 @@ Predictor read_predictor(const fs::path& results, const fs::path& study_file) {
     for (const json& method : parameters.at("methods")) {
       if (method.at("method") != "torque") continue;
       Numbers numbers{&predictor, std::vector<double>(predictor.muscles.size(), 0.0)};
-      set_values(study, method, numbers);
-      set_covariance(method, numbers);
+      set_values(study, method, reading, numbers);
+      set_covariance(method, reading, numbers);
       set_lags(method, predictor);
       set_paths(study, model, predictor);
       return predictor;
     }
   } catch (const json::exception& error) {
-    throw ReadError(results / "parameters.json", 0, "is no result of a run of this version: {}", error.what());
+    throw ReadError(results / "parameters.json", 0, "is no result of a run of this version: {}; run the study again",
+                    json_error_text(error));
   }
   throw InvalidInput("{} has no method torque; add it to method in [identify]", (results / "parameters.json").string());
 }

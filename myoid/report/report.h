@@ -110,11 +110,13 @@ struct ForestRow {
 /// A number of one person in a strip plot. Without a value the cell is empty.
 struct StripCell {
   std::optional<double> value{};
-  std::optional<double> lower{}, upper{};  ///< 95 % interval.
-  std::optional<double> truth{};           ///< In a virtual recording.
-  std::string verdict{};                   ///< "identified"; empty for numbers without one.
-  Badge badge = Badge::none;               ///< Badge of the verdict; determines color and shape.
-  bool outlier = false;                    ///< Far from the other persons.
+  std::optional<double> lower{}, upper{};  ///< 95 % interval of the person.
+  /// Value and 95 % interval given geometry and sensors; empty: the number has one reading.
+  std::optional<double> given_value{}, given_lower{}, given_upper{};
+  std::optional<double> truth{};  ///< In a virtual recording.
+  std::string verdict{};          ///< "identified"; empty for numbers without one.
+  Badge badge = Badge::none;      ///< Badge of the verdict; determines color and shape.
+  bool outlier = false;           ///< Far from the other persons.
 };
 
 /// A number that the persons share. Its cells have one scale.

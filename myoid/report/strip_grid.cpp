@@ -18,7 +18,11 @@ constexpr std::size_t kMostInName = 100;  // characters
 
 std::string shown_name(std::string_view name) { return escape_xml(recording::elided(name, kMostInName)); }
 
-bool is_told(const StripCell& cell) { return cell.value && (cell.badge == Badge::good || cell.badge == Badge::weak); }
+bool is_told(const StripCell& cell) {
+  return cell.value && (cell.badge == Badge::good || cell.badge == Badge::repeat || cell.badge == Badge::weak);
+}
+
+bool has_given(const StripCell& cell) { return cell.given_lower && cell.given_upper; }
 
 /// Widens a range so that it holds x.
 void hold(StripScale& scale, double x) {
@@ -35,6 +39,8 @@ std::string sentence(const StripRow& row, const StripColumn& column, const Strip
                                  format_beside(*cell.value, cell.lower, cell.upper));
   if (!column.unit.empty()) text += ' ' + column.unit;
   if (cell.lower && cell.upper) text += fmt::format(", 95 % interval {}", format_interval(*cell.lower, *cell.upper));
+  if (has_given(cell))
+    text += fmt::format(", given geometry and sensors {}", format_interval(*cell.given_lower, *cell.given_upper));
   if (cell.truth) text += fmt::format(", truth {}", format_value(*cell.truth));
   if (!cell.verdict.empty()) text += ", " + spelled(cell.verdict);
   if (cell.outlier) text += ", far from the other persons";
@@ -56,9 +62,12 @@ std::string background(const StripColumn& column, const StripScale& scale) {
 std::string interval_drawing(const StripCell& cell, const StripScale& scale) {
   if (!cell.lower || !cell.upper) return "";
   const std::string_view color = verdict_color(cell.badge);
-  std::string svg =
-      fmt::format("<line x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"10\" y2=\"10\" stroke=\"{}\" stroke-width=\"2\"/>",
-                  percent(scale, *cell.lower), percent(scale, *cell.upper), color);
+  const auto line = [&](double from, double to, int width) {
+    return fmt::format("<line x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"10\" y2=\"10\" stroke=\"{}\" stroke-width=\"{}\"/>",
+                       percent(scale, from), percent(scale, to), color, width);
+  };
+  std::string svg = line(*cell.lower, *cell.upper, 2);
+  if (has_given(cell)) svg += line(*cell.given_lower, *cell.given_upper, 6);
   if (*cell.lower < scale.lower) svg += beyond_arrow(-1, color);
   if (*cell.upper > scale.upper) svg += beyond_arrow(1, color);
   return svg;
@@ -90,7 +99,7 @@ std::string head_html(const StripColumn& column, const StripScale& scale) {
 
 std::string legend(const StripGrid& grid) {
   std::string text = "<p class=\"legend\">";
-  bool outliers = false, truths = false;
+  bool outliers = false, truths = false, readings = false;
   for (const Badge badge : {Badge::good, Badge::repeat, Badge::weak, Badge::info, Badge::none, Badge::bad}) {
     std::string verdict;
     for (const StripRow& row : grid.rows) {
@@ -98,10 +107,15 @@ std::string legend(const StripGrid& grid) {
         if (cell.value && cell.badge == badge && verdict.empty()) verdict = cell.verdict;
         outliers = outliers || cell.outlier;
         truths = truths || cell.truth;
+        readings = readings || has_given(cell);
       }
     }
     if (!verdict.empty()) text += fmt::format("<span>{} {}</span> ", verdict_mark(badge), typeset(spelled(verdict)));
   }
+  if (readings)
+    text +=
+        "<span>\u2014 95 % interval of the person</span> <span><b>\u2501</b> the same if geometry and sensors were "
+        "exact</span> ";
   if (outliers)
     text +=
         "<span><svg class=\"mark\" width=\"20\" height=\"20\" viewBox=\"-10 -10 20 20\" "
@@ -171,7 +185,8 @@ std::string strip_grid_html(const StripGrid& grid) {
 }
 
 std::string strip_grid_csv(const StripGrid& grid) {
-  Table table{.columns = {"person", "number", "unit", "value", "lower", "upper", "truth", "verdict", "outlier"}};
+  Table table{.columns = {"person", "number", "unit", "value", "lower", "upper", "given_value", "given_lower",
+                          "given_upper", "truth", "verdict", "outlier"}};
   const auto number = [](const std::optional<double>& x) { return x ? fmt::format("{}", *x) : ""; };
   for (const StripRow& row : grid.rows) {
     for (std::size_t c = 0; c < grid.columns.size(); ++c) {
@@ -179,7 +194,8 @@ std::string strip_grid_csv(const StripGrid& grid) {
       if (!cell.value) continue;
       table.rows.push_back(
           text_row({row.person, grid.columns[c].name, grid.columns[c].unit, number(cell.value), number(cell.lower),
-                    number(cell.upper), number(cell.truth), cell.verdict, cell.outlier ? "yes" : "no"}));
+                    number(cell.upper), number(cell.given_value), number(cell.given_lower), number(cell.given_upper),
+                    number(cell.truth), cell.verdict, cell.outlier ? "yes" : "no"}));
     }
   }
   return table_csv(table);

@@ -75,12 +75,35 @@ TEST(StripGrid, DrawsEachPersonWhereTheNumberIs) {
   EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
+TEST(StripGrid, TheReadingGivenGeometryAndSensorsIsAThickBarUnderTheSameMark) {
+  StripGrid grid = four();
+  StripCell& cell = grid.rows[0].cells[0];
+  EXPECT_THAT(strip_grid_html(grid), Not(HasSubstr("if geometry and sensors were exact")));
+  cell.given_value = 101.0;
+  cell.given_lower = 98.0;
+  cell.given_upper = 104.0;
+  const std::string html = strip_grid_html(grid);
+  // The scale goes from -5 to 305: 98 is at 103/310, 104 at 109/310.
+  EXPECT_THAT(html, HasSubstr("<line x1=\"33.23%\" x2=\"35.16%\" y1=\"10\" y2=\"10\""));
+  EXPECT_THAT(html, HasSubstr("stroke-width=\"6\""));
+  EXPECT_THAT(html, HasSubstr("<svg x=\"33.87%\" y=\"50%\""));
+  EXPECT_THAT(html, HasSubstr("given geometry and sensors 98"));
+  EXPECT_THAT(html, HasSubstr("if geometry and sensors were exact"));
+  EXPECT_THAT(strip_grid_csv(grid), HasSubstr("A,BIC,N,100,90,110,101,98,104,,identified,no\n"));
+}
+
+TEST(StripGrid, AReproducibleNumberIsDrawnAsOneThatIsTold) {
+  StripGrid grid = four();
+  grid.rows[2].cells[0].badge = Badge::repeat;
+  EXPECT_GT(strip_scale(grid, 0).upper, 900.0);
+}
+
 TEST(StripGrid, TheFileHasTheNumbersAsTheyAre) {
   EXPECT_EQ(strip_grid_csv(four()),
-            "person,number,unit,value,lower,upper,truth,verdict,outlier\n"
-            "A,BIC,N,100,90,110,,identified,no\n"
-            "B & C,BIC,N,200,-300,700,,weak,no\n"
-            "D,BIC,N,900,890,910,,not_identifiable,no\n");
+            "person,number,unit,value,lower,upper,given_value,given_lower,given_upper,truth,verdict,outlier\n"
+            "A,BIC,N,100,90,110,,,,,identified,no\n"
+            "B & C,BIC,N,200,-300,700,,,,,weak,no\n"
+            "D,BIC,N,900,890,910,,,,,not_identifiable,no\n");
 }
 
 TEST(StripGrid, ARowWithoutACellForEachColumnIsRefused) {

@@ -82,7 +82,7 @@ Run read_run(const std::filesystem::path& folder) {
     throw ReadError(
         path, 0,
         fmt::format("is not the result of a run: {}; run the study (myoid run) and give the folder of its result",
-                    error.what()));
+                    json_error_text(error)));
   }
   return run;
 }

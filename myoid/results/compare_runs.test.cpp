@@ -225,6 +225,20 @@ TEST(CompareRuns, AFolderWithoutARunIsRefused) {
   std::filesystem::create_directories(folder.path() / "bad");
   recording::write_file(folder.path() / "bad" / "parameters.json", "{\"methods\": [{}]}");
   EXPECT_THROW(static_cast<void>(compare_runs(good, folder.path() / "bad")), InvalidInput);
+  // A file that a full disk cut off: the words are the program's, with the file and a remedy.
+  const std::string whole = recording::read_text_file(good / "parameters.json");
+  recording::write_file(folder.path() / "cut/parameters.json", whole.substr(0, whole.size() / 2));
+  try {
+    static_cast<void>(compare_runs(good, folder.path() / "cut"));
+    ADD_FAILURE() << "accepted";
+  } catch (const InvalidInput& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("cut/parameters.json: is not the result of a run: the text breaks off or is damaged at byte"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("myoid run"), std::string::npos) << text;
+    EXPECT_EQ(text.find("exception"), std::string::npos) << text;
+  }
 }
 
 TEST(CompareRuns, SaysWhenTheTwoAreNotOfOneKind) {

@@ -41,12 +41,15 @@ report::StripCell& place(std::vector<report::StripGrid>& grids,
   const std::string id = "change_" + p.first.parameter + (p.first.fit_case == "both" ? "" : "_" + p.first.fit_case);
   auto grid = std::ranges::find(grids, id, &report::StripGrid::id);
   if (grid == grids.end()) {
-    report::StripGrid made{.id = id,
-                           .title = "Change of " + report::spelled(p.first.parameter) +
-                                    (p.first.fit_case == "both" ? "" : ", " + p.first.fit_case),
-                           .caption =
-                               "Second session minus first; the bar is the smallest change that these two recordings "
-                               "detect, to either side. A bar that does not reach the line is a change."};
+    report::StripGrid made{
+        .id = id,
+        .title = "Change of " + report::spelled(p.first.parameter) +
+                 (p.first.fit_case == "both" ? "" : ", " + p.first.fit_case),
+        .caption =
+            "Second session minus first, both given geometry and sensors where the fits have that "
+            "reading: errors of moment arms, tendons and sensors are the same in both. The bar is the "
+            "smallest change that these two recordings detect, to either side. A bar that does not reach the line is a "
+            "change."};
     for (const PersonChange& change : changes) made.rows.push_back({.person = change.person, .page = change.page});
     grid = grids.insert(grids.end(), std::move(made));
   }
@@ -99,7 +102,8 @@ report::Section change_section(const std::vector<PersonChange>& changes) {
       .title = "Changes over the persons",
       .caption =
           "Of persons whose two recordings tell the number. The smallest detectable change of a person follows from "
-          "the two intervals. That of the group is 1.96 standard deviations of the differences between persons: for "
+          "the two intervals given geometry and sensors. That of the group is 1.96 standard deviations of the "
+          "differences between persons: for "
           "persons who did not change, it holds every error of a repetition, placing the electrodes anew included.",
       .columns = {"parameter", "muscle", "unit", "persons", "differ", "mean difference",
                   "smallest detectable change, median person", "of the group"}};

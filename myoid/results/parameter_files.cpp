@@ -232,7 +232,6 @@ ordered_json fold_json(const identification::Fold& f) {
           {"gain", number_or_null(f.gain)},
           {"regression_on_emg", score_json(f.regression)},
           {"constant", score_json(f.constant)},
-          {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
           {"lag_s", number_or_null(f.lag_s)},
           {"covered", number_or_null(f.covered)},
           {"unseen_effort", {{"channel", f.unseen.channel}, {"ratio", number_or_null(f.unseen.ratio)}}},

@@ -37,6 +37,17 @@ Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd) {
   return {mean - reach * sd, mean + reach * sd};
 }
 
+std::string band_sentence(const std::vector<identification::TrialFit>& predictions) {
+  const bool by_posterior =
+      std::ranges::any_of(predictions, [](const identification::TrialFit& trial) { return !trial.drive.empty(); });
+  return by_posterior
+             ? "Bands are of the person: that of a torque holds the parameters, the errors of moment arms, tendons and "
+               "sensors as far as the fitted trials show them, and the noise; that of a force holds the parameters, "
+               "given the drive and the lengths."
+             : "Bands are given geometry and sensors, as if moment arms, tendons and sensors were exact: that of a "
+               "torque holds the parameters and the noise, that of a force the parameters.";
+}
+
 recording::NameIds prediction_folders(const std::vector<identification::TrialFit>& predictions) {
   return recording::NameIds(unique_values(predictions, &identification::TrialFit::trial), recording::IdFor::file,
                             recording::result_names());
@@ -72,13 +83,16 @@ void write_prediction(const identification::TrialFit& prediction,
   }
   recording::write_storage(folder / "predicted_forces.sto", forces.series(prediction.time_s),
                            {.title = "Predicted forces", .comments = comments});
+  if (!prediction.drive.empty())
+    recording::write_storage(folder / "drive.sto", prediction.drive, {.title = "Drive", .comments = comments});
 }
 
 void write_predictions(const std::vector<identification::TrialFit>& predictions,
                        const std::vector<std::string>& muscles,
                        const Provenance& provenance,
                        const std::filesystem::path& folder) {
-  const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
+  const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version),
+                                          band_sentence(predictions)};
   const recording::NameIds folders = prediction_folders(predictions);
   const recording::NameIds joints(unique_values(predictions, &identification::TrialFit::joint));
   for (const identification::TrialFit& trial : predictions)

@@ -18,9 +18,12 @@ struct Band {
 /// Returns the band; empty without a standard deviation.
 [[nodiscard]] Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd);
 
+/// Returns a sentence on the reading of the bands: what they hold, and what they take for exact.
+[[nodiscard]] std::string band_sentence(const std::vector<identification::TrialFit>& predictions);
+
 /// Writes predicted_torque_<joint>.sto (`<joint>_measured`, `_predicted`, and with a band `_low`, `_high` [N m]) and
-/// predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0 [N]) of one trial. `joints` holds the id
-/// of each joint for the names of files.
+/// predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0 [N]) of one trial, and by the posterior
+/// drive.sto. `joints` holds the id of each joint for the names of files.
 void write_prediction(const identification::TrialFit& prediction,
                       const std::vector<std::string>& muscles,
                       const recording::NameIds& joints,
@@ -30,7 +33,8 @@ void write_prediction(const identification::TrialFit& prediction,
 /// Returns the folder of each predicted trial.
 [[nodiscard]] recording::NameIds prediction_folders(const std::vector<identification::TrialFit>& predictions);
 
-/// Writes each trial's `write_prediction` into the trial's folder, and predictions.csv.
+/// Writes each trial's `write_prediction` into the trial's folder, and predictions.csv. Each .sto says the
+/// band_sentence.
 void write_predictions(const std::vector<identification::TrialFit>& predictions,
                        const std::vector<std::string>& muscles,
                        const Provenance& provenance,

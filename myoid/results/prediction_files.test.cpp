@@ -4,14 +4,18 @@
 #include <filesystem>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/files/text_file.h"
 #include "myoid/tables/storage_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
 namespace myoid {
 namespace {
+
+using testing::HasSubstr;
 
 identification::TrialFit prediction() {
   identification::TrialFit fit;
@@ -38,6 +42,21 @@ TEST(PredictionFiles, HoldTheBandsAndNoForceBelowZero) {
   const TimeSeries forces = recording::read_storage(folder.path() / "predicted_forces.sto").data;
   EXPECT_EQ(forces.column("BIC_low")[0], 0.0);
   EXPECT_NEAR(forces.column("BIC_high")[2], 30.0 + 1.959964 * 3.0, 1e-5);
+}
+
+TEST(PredictionFiles, SayTheReadingOfTheBandsAndHoldTheDrive) {
+  const test::TemporaryFolder folder;
+  std::vector<identification::TrialFit> predictions{prediction()};
+  const auto head = [&] {
+    return recording::read_text_file(folder / "fast_heavy/predicted_forces.sto").substr(0, 600);
+  };
+  write_predictions(predictions, {"BIC"}, {}, folder.path());
+  EXPECT_THAT(head(), HasSubstr("given geometry and sensors"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "fast_heavy/drive.sto"));
+  predictions[0].drive = TimeSeries(predictions[0].time_s, {{"BIC"}}, Eigen::Vector3d(0.1, 0.2, 0.3));
+  write_predictions(predictions, {"BIC"}, {}, folder.path());
+  EXPECT_THAT(head(), HasSubstr("of the person"));
+  EXPECT_EQ(recording::read_storage(folder / "fast_heavy/drive.sto").data.column("BIC")[2], 0.3);
 }
 
 TEST(PredictionFiles, AnyNamesOfTrialsAndJointsHaveFilesOfTheirOwn) {

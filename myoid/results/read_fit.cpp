@@ -79,8 +79,8 @@ identification::IdentificationResult read_fit(const std::filesystem::path& folde
       return fit;
     }
   } catch (const json::exception& error) {
-    throw ReadError(path, 0,
-                    fmt::format("is no result of a run of this version: {}; run the study again", error.what()));
+    throw ReadError(
+        path, 0, fmt::format("is no result of a run of this version: {}; run the study again", json_error_text(error)));
   }
   throw InvalidInput(fmt::format("{} has no method torque; add it to method in [identify]", path.string()));
 }

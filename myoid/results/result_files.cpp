@@ -168,6 +168,9 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
       recording::write_storage(folder / ids.of(data.name) / "identified_forces.sto",
                                identified_forces(result, data, method),
                                {.title = "Forces", .comments = with_emg(&method)});
+      if (const TimeSeries& drive = trial_of(method, data.name)->drive; !drive.empty())
+        recording::write_storage(folder / ids.of(data.name) / "drive.sto", drive,
+                                 {.title = "Drive", .comments = of_activation});
     }
   }
   for (const identification::InformedForces& forces : result.fit.informed)

@@ -128,9 +128,9 @@ Table folds_table(const StudyResult& result) {
           "its EMG does least harm. Below 1.5 Hz both torques are compared without faster changes, which in the "
           "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. Baselines, RMSE in N m "
           "and R2 in brackets: the literature's parameters with the one gain that fits the others best; torque "
-          "regressed on EMG times moment arm; the source paper's method; the others' mean torque.",
+          "regressed on EMG times moment arm; the others' mean torque.",
       {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz",
-       "VAF", "in band", "lag [ms]", "literature x gain", "regression", "paper", "constant"}};
+       "VAF", "in band", "lag [ms]", "literature x gain", "regression", "constant"}};
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
   for (const identification::Fold& f : result.folds) {
     const bool stands_out =
@@ -145,7 +145,6 @@ Table folds_table(const StudyResult& result) {
                            {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
                            {error_and_r2(f.literature)},
                            {error_and_r2(f.regression)},
-                           {f.paper ? error_and_r2(*f.paper) : "-"},
                            {fmt::format("{:.2f}", f.constant.rmse_nm())}});
     table.rows.push_back(std::move(row));
   }

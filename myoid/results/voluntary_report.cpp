@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "myoid/core/units.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
+#include "myoid/report/muscle_names.h"
 #include "myoid/report/typeset.h"
 #include "myoid/report/verdict_mark.h"
 
@@ -40,13 +42,20 @@ const ParameterEstimate* angle_of(const IdentificationResult& method, const Volu
   return row_of(method, curve, std::string(identification::kVoluntaryAngle));
 }
 
-/// Returns the owner for people: "BIC", "BIC at the knee angle", "elbow flexion, BIC and BRA together".
-std::string name_of(const VoluntaryCurve& curve) {
-  if (!curve.of_joint)
-    return curve.ending.empty() ? curve.owner : fmt::format("{} at {}", curve.owner, report::spelled(curve.joint));
-  return fmt::format("{}, {}{}", report::spelled(curve.joint), fmt::join(curve.muscles, " + "),
+/// Returns the owner for people, muscles as `spelled_muscle` writes them: "Biceps", "Biceps at the knee angle", "elbow
+/// flexion, Biceps + Brachialis".
+std::string name_of(const VoluntaryCurve& curve, std::string (*spelled_muscle)(std::string_view)) {
+  if (!curve.of_joint) {
+    const std::string muscle = spelled_muscle(curve.owner);
+    return curve.ending.empty() ? muscle : fmt::format("{} at {}", muscle, report::spelled(curve.joint));
+  }
+  std::vector<std::string> muscles;
+  for (const std::string& name : curve.muscles) muscles.push_back(spelled_muscle(name));
+  return fmt::format("{}, {}{}", report::spelled(curve.joint), fmt::join(muscles, " + "),
                      curve.direction > 0 ? "" : " (negative direction)");
 }
+
+std::string plain_name(const VoluntaryCurve& curve) { return name_of(curve, report::plain_muscle); }
 
 bool is_at_end(const VoluntaryCurve& curve) {
   Eigen::Index top = 0;
@@ -74,7 +83,7 @@ std::string sentence(const IdentificationResult& method, const VoluntaryCurve& c
   const ParameterEstimate* torque = torque_of(method, curve);
   if (torque == nullptr) return "";
   const ParameterEstimate* angle = angle_of(method, curve);
-  std::string text = fmt::format("{}: {} N m", name_of(curve), size_text(*torque));
+  std::string text = fmt::format("{}: {} N m", plain_name(curve), size_text(*torque));
   if (angle != nullptr) text += " at " + angle_text(curve, *angle);
   text += fmt::format(", 95 % {} N m", report::format_interval(*torque->ci_low, *torque->ci_high));
   if (angle != nullptr) text += fmt::format(" and {} to {}", degrees(*angle->ci_low), degrees(*angle->ci_high));
@@ -134,7 +143,7 @@ report::Table table_of(const StudyResult& result, const IdentificationResult& me
     const ParameterEstimate* torque = torque_of(method, curve);
     if (torque == nullptr) continue;
     const ParameterEstimate* angle = angle_of(method, curve);
-    std::vector<Cell> row{{name_of(curve)},
+    std::vector<Cell> row{{name_of(curve, report::plain_muscle_and_name)},
                           {size_text(*torque)},
                           {interval_text(torque->ci_low, torque->ci_high, 1.0)},
                           {interval_text(torque->given_ci_low, torque->given_ci_high, 1.0)},
@@ -156,7 +165,7 @@ report::Panel panel_of(const VoluntaryCurve& curve) {
   const bool over_angle = curve.angle_rad.size() > 0;
   const std::vector<double> x = report::to_vector(over_angle ? Eigen::VectorXd(curve.angle_rad / kDegree)
                                                              : Eigen::VectorXd(1e3 * curve.length_m));
-  report::Panel panel{.title = name_of(curve)};
+  report::Panel panel{.title = plain_name(curve)};
   panel.x = over_angle ? report::Axis{.label = report::spelled(curve.joint), .unit = "deg"}
                        : report::Axis{.label = "length of muscle and tendon", .unit = "mm"};
   panel.y = {.label = "torque", .unit = "N m", .lower = 0.0};
@@ -206,7 +215,7 @@ std::string voluntary_headline(const IdentificationResult& method) {
     if (torque == nullptr || !is_told(*torque)) continue;
     const std::string place =
         angle != nullptr && is_told(*angle) ? fmt::format(" at {}", angle_text(curve, *angle)) : std::string();
-    parts.push_back(fmt::format("{} {} N m ({}){}", name_of(curve), size_text(*torque),
+    parts.push_back(fmt::format("{} {} N m ({}){}", plain_name(curve), size_text(*torque),
                                 report::format_interval(*torque->ci_low, *torque->ci_high), place));
   }
   if (parts.empty()) return "";

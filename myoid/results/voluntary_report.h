@@ -11,14 +11,15 @@ namespace myoid {
 
 /// Returns a sentence for each muscle and each joint, in the order of IdentificationResult::voluntary:
 ///
-///   BIC: 41.2 N m at 85°, 95 % 38.1 to 44.6 N m and 78° to 91° (identified; angle weak)
+///   Biceps: 41.2 N m at 85°, 95 % 38.1 to 44.6 N m and 78° to 91° (identified; angle weak)
 ///
-/// "at 110° or beyond" where the torque is greatest at the end of the recorded range.
+/// Muscles have their plain names (report/muscle_names.h). "at 110° or beyond" where the torque is greatest at the end
+/// of the recorded range.
 [[nodiscard]] std::vector<std::string> voluntary_sentences(const identification::IdentificationResult& method);
 
 /// Returns the torques that the recording tells, as the report's first sentence with a blank behind it; empty: none.
 ///
-///   Greatest voluntary torque (95 % interval): BIC 43 N m (36 to 50) at 92°; TRI 52 N m (47 to 58) at 51°.
+///   Greatest voluntary torque (95 % interval): Biceps 43 N m (36 to 50) at 92°; Triceps 52 N m (47 to 58).
 [[nodiscard]] std::string voluntary_headline(const identification::IdentificationResult& method);
 
 /// Returns the section of the greatest voluntary torques: the sentences, a table, and the torque over the angle.

@@ -50,7 +50,7 @@ IdentificationResult biceps() {
 
 TEST(VoluntarySentences, SayTorqueAngleAndIntervals) {
   EXPECT_THAT(voluntary_sentences(biceps()),
-              ElementsAre("BIC: 41.0 N m at 85°, 95 % 38.0 to 44.0 N m and 78° to 91° (identified; angle weak)"));
+              ElementsAre("Biceps: 41.0 N m at 85°, 95 % 38.0 to 44.0 N m and 78° to 91° (identified; angle weak)"));
 }
 
 TEST(VoluntarySentences, AnOptimumAtTheEndIsAtOrBeyond) {
@@ -75,11 +75,11 @@ TEST(VoluntarySentences, WithoutAnglesHaveNone) {
 TEST(VoluntaryHeadline, HoldsOnlyTorquesAndAnglesThatTheRecordingTells) {
   IdentificationResult method = biceps();
   EXPECT_EQ(voluntary_headline(method),
-            "Greatest voluntary torque (95 % interval): BIC 41.0 N m (38.0 to 44.0) at 85°. ");
+            "Greatest voluntary torque (95 % interval): Biceps 41.0 N m (38.0 to 44.0) at 85°. ");
   method.voluntary[0].from_mvc = false;
   method.estimates[1].verdict = Verdict::not_identifiable;
   EXPECT_EQ(voluntary_headline(method),
-            "Greatest voluntary torque at the largest recorded EMG (95 % interval): BIC 41.0 N m (38.0 to 44.0). ");
+            "Greatest voluntary torque at the largest recorded EMG (95 % interval): Biceps 41.0 N m (38.0 to 44.0). ");
   method.estimates[0].verdict = Verdict::not_identifiable;
   EXPECT_EQ(voluntary_headline(method), "");
 }
@@ -98,6 +98,7 @@ TEST(VoluntarySection, HasTheTableAndTheCurve) {
   ASSERT_EQ(section.tables[0].rows.size(), 1U);
   const std::vector<report::Cell>& row = section.tables[0].rows[0];
   ASSERT_EQ(row.size(), section.tables[0].columns.size());
+  EXPECT_EQ(row[0].text, "Biceps (BIC)");
   EXPECT_EQ(row[1].text, "41.0");
   EXPECT_THAT(row[6].text, HasSubstr("40.0 at 60°/s"));
   EXPECT_EQ(row[9].badge, report::Badge::good);

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "myoid/core/units.h"
+#include "myoid/identification/nuisances.h"
 #include "myoid/intake/emg_cover.h"
 #include "myoid/kinematics/lumped_muscles.h"
 #include "myoid/run/effort_prior.h"
-#include "myoid/run/nuisances.h"
 #include "myoid/run/resting_joints.h"
 #include "myoid/study/study_model.h"
 
@@ -81,7 +81,9 @@ identification::StudyData estimator_data(const FitSource& source) {
     if (use == Use::mvc || use == Use::static_pose || use == Use::passive) continue;
     data.trials.push_back(trial_data(study, trial, use, activation, groups, source.resting));
   }
-  if (study.identify.priors) data.rules = nuisance_rules(study.emg, data);
+  // EMG that is given as activation is taken at its word.
+  const bool scaled = study.emg.kind != EmgKind::activation && study.emg.has_mvc;
+  if (study.identify.priors) data.rules = identification::nuisance_rules(data, scaled);
   if (unknown_effort) data.rules.push_back(effort_bounds());
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
   identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));

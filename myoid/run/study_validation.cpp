@@ -28,7 +28,7 @@ FitInput without_left_out(const FitSource& source, const identification::StudyDa
     emg.push_back(trial.input.emg ? &*trial.input.emg : nullptr);
     known.push_back(&trial.emg);
   }
-  const StudyActivation seen = activation_with_uses(study, emg, known);
+  const StudyActivation seen = activation_with_uses(study, emg, known, source.scale);
   FitSource of_fold{study, source.model, source.trials, source.resting, {}, seen.scale};
   for (const TrialActivation& trial : seen.trials) of_fold.activation.push_back(&trial.activation);
   FitInput input = fit_input(of_fold, progress);

@@ -41,14 +41,20 @@ struct Extreme {
 /// mean away from it, counted from the extreme one on. Among equally strong windows the extreme one
 /// lies the farther from their mean, the more windows there are.
 Extreme extreme_level(std::vector<double> means, double margin, double side) {
-  std::sort(means.begin(), means.end(), [&](double a, double b) { return side * a < side * b; });
+  // A heap gives the few windows at the extreme in order without a sort of all.
+  const auto is_farther = [side](double a, double b) { return side * a > side * b; };
+  std::make_heap(means.begin(), means.end(), is_farther);
   Extreme e{.level = means.front(), .count = 0};
   double sum = 0.0;
-  const auto alike = [&] {
-    return e.count < means.size() && side * means[e.count] <= side * e.level * (1.0 + side * margin);
+  const auto alike = [&] { return !means.empty() && side * means.front() <= side * e.level * (1.0 + side * margin); };
+  const auto take = [&] {
+    sum += means.front();
+    ++e.count;
+    std::pop_heap(means.begin(), means.end(), is_farther);
+    means.pop_back();
   };
   while (alike()) {
-    do sum += means[e.count++];
+    do take();
     while (alike());
     e.level = sum / static_cast<double>(e.count);
   }

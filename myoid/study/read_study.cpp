@@ -123,6 +123,14 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
   return study;
 }
 
+identification::UnseenSpreads read_beliefs(const std::filesystem::path& file) {
+  const toml::table root = recording::parse_toml(recording::read_text_file(file), file);
+  TomlTable whole(root, file, "study");
+  std::optional<TomlTable> table = whole.table("beliefs");
+  if (!table) throw ReadError(file, 0, "there is no table [beliefs]");
+  return read_spec<identification::UnseenSpreads>(*std::move(table), file.parent_path());
+}
+
 Study read_study(const std::filesystem::path& file) { return parse_study(recording::read_text_file(file), file); }
 
 }  // namespace myoid

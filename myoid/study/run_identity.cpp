@@ -119,7 +119,7 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
     throw ReadError(
         path, 0,
         fmt::format("is not the result of a run: {}; run the study (myoid run) and give the folder of its result",
-                    error.what()));
+                    json_error_text(error)));
   }
 }
 

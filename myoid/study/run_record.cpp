@@ -40,7 +40,7 @@ RunRecord read_run_record(const fs::path& folder) {
     for (const json& input : run.value("inputs", json::array()))
       record.inputs.push_back({input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
   } catch (const json::exception& error) {
-    throw ReadError(path, 0, fmt::format("not a run's record: {}; run the study again", error.what()));
+    throw ReadError(path, 0, fmt::format("not a run's record: {}; run the study again", json_error_text(error)));
   }
   return record;
 }

@@ -235,7 +235,8 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
                   "posterior the muscles are those of the torque, and one round shares it among them."});
   v.flag("priors", identify.priors, {.says = "The [priors](../theory/priors.md) from the literature are used."});
   v.choice("estimator", identify.estimator,
-           {.says = "Method `torque`: `posterior`, whose intervals also hold moment arms, tendons, the scale of the "
+           {.says = "Methods `torque` and `force`: `posterior`, whose intervals also hold moment arms, tendons, the "
+                    "scale of the "
                     "torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)); "
                     "`least_squares`, weighted and corrected for the errors of the EMG, whose intervals hold given "
                     "geometry and sensors only (always without priors)."});

@@ -38,7 +38,7 @@ std::string result_unit(const std::string& series, const std::string& channel, b
   if (series == "MuscleAnalysis_MuscleTendonVelocity") return "m/s";
   if (series == "MuscleAnalysis_Length" || series.starts_with("MuscleAnalysis_MomentArm_")) return "m";
   if (series.starts_with("predicted_torque_")) return "N m";
-  if (series == "activation" || series.ends_with("_activation")) return "1";
+  if (series == "activation" || series == "drive" || series.ends_with("_activation")) return "1";
   if (series.ends_with("_force") || series.ends_with("_forces")) return channel.ends_with("_reserve") ? "N m" : "N";
   return {};
 }

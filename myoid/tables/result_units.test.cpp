@@ -21,6 +21,7 @@ TEST(ResultUnits, AreThoseOfThePagesOfTheCommands) {
   EXPECT_EQ(result_unit("EmgInformed_force", "elbow_flexion_reserve", false), "N m");
   EXPECT_EQ(result_unit("StaticOptimization_activation", "BIC", false), "1");
   EXPECT_EQ(result_unit("activation", "BIC", false), "1");
+  EXPECT_EQ(result_unit("drive", "BIC", false), "1");
   EXPECT_EQ(result_unit("identified_forces", "BIC_reference", false), "N");
   EXPECT_EQ(result_unit("predicted_forces", "BIC_low", false), "N");
   EXPECT_EQ(result_unit("predicted_torque_elbow_flexion", "elbow_flexion_low", false), "N m");

@@ -75,7 +75,7 @@ struct TruthSpec {
   /// Values that are set, not drawn, by muscle and parameter name; SI.
   std::map<std::string, std::map<std::string, double>> values;
   Range emg_delay_s = {0.030, 0.080};  ///< Electromechanical delay. (L2: follows from the activation dynamics.)
-  /// Levels L0 and L1: draws the person's nuisances, too (run/nuisances.h, `draw_beside_muscles`).
+  /// Levels L0 and L1: draws the person's nuisances, too (identification/nuisances.h, `draw_beside_muscles`).
   bool beside_muscles = false;
   /// Shifts the mean of the drawn values, in standard deviations of the prior.
   double offset = 0.0;

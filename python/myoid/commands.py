@@ -74,14 +74,14 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
              forces: Files | None = None, moment_arms: Files | None = None, torques: Files | None = None,
              coordinate: Texts | None = None, motion: Files | None = None, lowpass: float | None = None,
              method: str | None = None, delay: float | None = None, lag: str | None = None, no_priors: bool = False,
-             free: Texts | None = None, residual_cutoff: float | None = None, max_rate: float | None = None,
-             estimator: str | None = None, posterior_draws: int | None = None, loss: str | None = None,
-             bootstrap: int | None = None, profile: bool = False, compare_solvers: bool = False,
-             starts: int | None = None, folds: str | None = None, scales: str | None = None,
-             validate: Texts | None = None, out: File | None = None, mat: File | None = None,
-             threads: int | None = None, seed: int | None = None, start: float | None = None,
-             end: float | None = None, overwrite: bool = False,
-             progress: Report = None) -> Result:  # fmt: skip
+             free: Texts | None = None, hold: Texts | None = None, residual_cutoff: float | None = None,
+             max_rate: float | None = None, estimator: str | None = None, beliefs: File | None = None,
+             posterior_draws: int | None = None, loss: str | None = None, bootstrap: int | None = None,
+             profile: bool = False, compare_solvers: bool = False, starts: int | None = None,
+             folds: str | None = None, scales: str | None = None, validate: Texts | None = None,
+             out: File | None = None, mat: File | None = None, threads: int | None = None,
+             seed: int | None = None, start: float | None = None, end: float | None = None,
+             overwrite: bool = False, progress: Report = None) -> Result:  # fmt: skip
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
 
     Args:
@@ -93,20 +93,22 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         moment_arms: r = -dl/dq [m]; a file for each coordinate of each trial; `torque` needs them.
         torques: The torque that the muscles provide together [N m]; `torque` needs them.
         coordinate: Columns of the torque file; None: the only one.
-        motion: Joint angles, for free joint parameters.
+        motion: Joint angles, for the stiffness and viscosity of the joint itself.
         lowpass: The angles are smoothed, -3 dB here [Hz].
         method: "torque" (default), "force" or "paper".
         delay: The EMG delay is held at this [s].
         lag: "automatic", "delay" or "shared".
         no_priors: The data alone.
-        free: Further parameters to identify.
+        free: Further parameters to identify, beside those of every fit.
+        hold: Parameters that are known, such as "emg_exponent" and "emg_gain" for activations without error.
         residual_cutoff: Low-pass of both sides of the residual [Hz] (default 1.5).
         max_rate: Samples are thinned to at most this [Hz] (default 20).
-        estimator: "least_squares" or "posterior".
+        estimator: "posterior" (default) or "least_squares".
+        beliefs: File with a table [beliefs], such as a study.toml; None: the usual beliefs.
         posterior_draws: Draws by Hamiltonian Monte Carlo, in place of an approximation; 0: none.
-        loss: "square", "huber" or "cauchy".
-        bootstrap: Bootstrap replicates.
-        profile: Profile likelihood of every parameter.
+        loss: By least squares: "square", "huber" or "cauchy".
+        bootstrap: By least squares: bootstrap replicates.
+        profile: By least squares: profile likelihood of every parameter.
         compare_solvers: Also writes solvers.csv.
         starts: Starts of the search.
         folds: The part that is left out and predicted: "trial", "block" or "none".

@@ -166,7 +166,7 @@ run_slurm() {
   write_workflow slurm
   kill_a_worker & local killer=$!
   sh "$work/out/workflow/submit.sh" >/dev/null
-  deadline=$((SECONDS + 60 + 10 * persons))
+  deadline=$((SECONDS + 240 + 20 * persons))  # a limit, not a measure
   while squeue -h | grep -q .; do
     [ $SECONDS -lt $deadline ] || { say "FAILED: slurm does not end:"; squeue; exit 1; }
     sleep 0.5

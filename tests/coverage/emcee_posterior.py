@@ -27,7 +27,7 @@ except ImportError:
     emcee = None
 
 BAND_HZ = 1.5
-SD, TIME, KAPPA, MODEL, SHARE = range(5)  # places of the hyperparameters
+SD, TIME, KAPPA, MODEL, SHARE = 0, 1, 2, 3, 8  # places of the hyperparameters; s and four sizes from MODEL on
 
 
 def low_pass(run):
@@ -103,7 +103,7 @@ class Posterior:
         common = np.outer(strength, strength) * dump["strength_sd"] ** 2
         self.precision = np.linalg.inv(common + np.diag(sd * sd))
         self.logarithmic = get("logarithmic")
-        self.weight, self.of_model = np.array(dump["weight"]), np.array(dump["of_the_model"]) > 0.5
+        self.weight, self.size = np.array(dump["weight"]), np.array(dump["size"]).astype(int)
         self.growth, self.reference = np.array(dump["growth"]), np.array(dump["reference"])
         self.torque_size = dump["torque_size"]
         slopes = np.array(dump["slopes"]).reshape(-1, 3)
@@ -118,7 +118,7 @@ class Posterior:
         return self.lower + self.range / (1.0 + np.exp(-x[:, :len(self.lower)]))
 
     def noise(self, x):
-        """ln sigma_T, ln tau, ln kappa, ln s, ln b of each trial; s has a half normal prior, x its normal score."""
+        """ln sigma_T, ln tau, ln kappa, ln s by its normal score, ln of four sizes, ln b of each trial."""
         noise = x[:, len(self.lower):].copy()
         noise[:, MODEL] = np.log(0.1 * np.sqrt(2.0) * erfinv(ndtr(noise[:, MODEL])))
         return noise
@@ -164,7 +164,9 @@ class Posterior:
         result -= 0.5 * ((noise[:, SD] - np.log(0.05 * self.torque_size)) / 1.5) ** 2
         result -= 0.5 * ((noise[:, TIME] - np.log(0.3)) / 0.5) ** 2 + 0.5 * (noise[:, KAPPA] / 0.3) ** 2
         result -= 0.5 * x[:, p + MODEL] ** 2 + 0.5 * (noise[:, SHARE:] ** 2).sum(axis=1)
-        width = self.weight * np.where(self.of_model, np.exp(noise[:, MODEL])[:, None], 1.0)
+        sizes = noise[:, MODEL + 1:SHARE]
+        result += (sizes - 0.5 * np.exp(2.0 * sizes)).sum(axis=1)
+        width = self.weight * np.where(self.size >= 0, np.exp(noise[:, np.maximum(self.size, 0)]), 1.0)
         gram = np.zeros((len(x), len(self.weight), len(self.weight)))
         seen = np.zeros((len(x), len(self.weight)))
         turn = self.reach * np.tanh((z - self.reference)[:, self.turns_with] / self.reach)

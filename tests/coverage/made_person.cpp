@@ -197,11 +197,14 @@ class Maker {
         std::log(beliefs::kTorqueNoise.value) + beliefs::kTorqueNoise.sd * random_.normal();  // over the torque's size
     noise[kTorqueTime] = std::log(beliefs::kTorqueNoiseTime.value) + beliefs::kTorqueNoiseTime.sd * random_.normal();
     noise[kEmgFactor] = beliefs::kEmgNoise.sd * random_.normal();
-    noise[kModelErrorSize] = std::log(beliefs::kModelError.sd * std::abs(random_.normal()));
+    for (int size = kModelErrorSize; size < kNoiseFieldCount; ++size)
+      noise[size] = std::log(std::abs(random_.normal()));
+    noise[kModelErrorSize] += std::log(beliefs::kModelError.sd);
   }
 
   void draw_unseen() {
-    const double s = std::exp(person_.noise[kModelErrorSize]);
+    const auto size = [&](NoiseField field) { return std::exp(person_.noise[field]); };
+    const double s = size(kModelErrorSize);
     for (std::size_t k = 0; k < of_arm_.size(); ++k) {
       MuscleErrors& e = errors_.emplace_back();
       const auto column = static_cast<Eigen::Index>(k);
@@ -215,19 +218,19 @@ class Maker {
       e.shortest -= 0.5 * more;
       e.longest += 0.5 * more;
       e.arm = beliefs::kMomentArm.sd * random_.normal();
-      e.arm_slope = beliefs::kMomentArmSlope.sd * random_.normal();
+      e.arm_slope = size(kArmSlopeSize) * beliefs::kMomentArmSlope.sd * random_.normal();
       e.slack_m = held_slack_sd_m(person_.data, k) * random_.normal();
       e.strain = std::hypot(beliefs::kTendonStretch.value, beliefs::kTendonStretch.sd) * random_.normal();
       for (double& x : e.model) x = s * random_.normal();
       e.model[3] *= 0.5;
-      drift_.push_back(beliefs::kGainDrift.sd * random_.normal());
+      drift_.push_back(size(kGainDriftSize) * beliefs::kGainDrift.sd * random_.normal());
       effort_.push_back(1.0 + beliefs::kVoluntaryEffort.sd * random_.normal());
-      rise_and_fall_s_.push_back(beliefs::kRiseAndFall.sd * random_.normal());
+      rise_and_fall_s_.push_back(size(kRiseAndFallSize) * beliefs::kRiseAndFall.sd * random_.normal());
     }
     crosstalk_ = Eigen::MatrixXd::Identity(muscles(), muscles());
     for (Eigen::Index c = 0; c < muscles(); ++c) {
       for (Eigen::Index other = 0; other < muscles(); ++other)
-        if (other != c) crosstalk_(other, c) = beliefs::kCrossTalk.sd * random_.normal();
+        if (other != c) crosstalk_(other, c) = size(kCrosstalkSize) * beliefs::kCrossTalk.sd * random_.normal();
     }
   }
 
@@ -328,11 +331,10 @@ class Maker {
     const std::vector<TrialRun> measured = trial_runs(data, person_.options, map);
     const Unseen unseen =
         unseen_quantities(data, person_.options, map, recorded(measured, map.held().muscles), measured, values, at);
-    const double s = std::exp(person_.noise[kModelErrorSize]);
     Eigen::VectorXd x(static_cast<Eigen::Index>(unseen.quantities.size()));
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const UnseenQuantity& q = unseen.quantities[static_cast<std::size_t>(i)];
-      x[i] = q.weight * (q.of_the_model ? s : 1.0) * random_.normal();
+      x[i] = q.weight * (q.size ? std::exp(person_.noise[*q.size]) : 1.0) * random_.normal();
     }
     x.array() *= (unseen.growth * log_strength(map, runs, at, unseen, x)).array().exp();
     for (std::size_t r = 0; r < runs.size(); ++r)

@@ -78,10 +78,10 @@ void write(std::uint64_t seed, int draws) {
                m[kSlack]);
   }
   const Unseen& unseen = likelihood.unseen();
-  Eigen::VectorXd weight(static_cast<Eigen::Index>(unseen.quantities.size())), model(weight);
+  Eigen::VectorXd weight(static_cast<Eigen::Index>(unseen.quantities.size())), size(weight);
   for (Eigen::Index i = 0; i < weight.size(); ++i) {
     weight[i] = unseen.quantities[static_cast<std::size_t>(i)].weight;
-    model[i] = unseen.quantities[static_cast<std::size_t>(i)].of_the_model ? 1.0 : 0.0;
+    size[i] = unseen.quantities[static_cast<std::size_t>(i)].size.value_or(NoiseField{-1});
   }
   Eigen::MatrixXd slopes(static_cast<Eigen::Index>(unseen.slopes.size()), 3);
   for (Eigen::Index s = 0; s < slopes.rows(); ++s) {
@@ -89,10 +89,10 @@ void write(std::uint64_t seed, int draws) {
     slopes.row(s) << static_cast<double>(of.quantity), static_cast<double>(of.unknown), of.reach;
   }
   fmt::print(
-      "],\"weight\":{},\"of_the_model\":{},\"growth\":{},\"slopes\":{},\"reference\":{},"
+      "],\"weight\":{},\"size\":{},\"growth\":{},\"slopes\":{},\"reference\":{},"
       "\"torque_size\":{:.17g},"
       "\"runs\":[",
-      json(weight), json(model), json(unseen.growth), json(slopes), json(likelihood.reference()),
+      json(weight), json(size), json(unseen.growth), json(slopes), json(likelihood.reference()),
       likelihood.torque_size_nm());
   for (std::size_t r = 0; r < likelihood.runs().size(); ++r) {
     fmt::print("{}", r ? "," : "");

@@ -101,7 +101,8 @@ Finished identify(const fs::path& muscles_csv,
                   const std::string& out,
                   const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments{
-      "identify", "--muscles", muscles_csv.string(), "--coordinate", trials[0].torque_column, "--out", out};
+      "identify", "--muscles", muscles_csv.string(), "--coordinate", trials[0].torque_column,
+      "--out",    out,         "--estimator",        "least_squares"};
   const auto add = [&](const char* option, fs::path TrialFiles::*file) {
     arguments.emplace_back(option);
     for (const TrialFiles& t : trials) arguments.push_back((t.*file).string());

@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
 
   EXPECT(myoid_open(NULL, NULL, error, sizeof error) == NULL && strlen(error) > 0);
   EXPECT(myoid_open(NULL, NULL, NULL, 0) == NULL);
+  EXPECT(myoid_open_given(NULL, NULL, error, sizeof error) == NULL && strlen(error) > 0);
+  EXPECT(myoid_open_given("/no/such/folder", NULL, NULL, 100) == NULL);
   EXPECT(myoid_open("/no/such/folder", NULL, NULL, 100) == NULL);
   EXPECT(myoid_channel_count(NULL) == -1 && myoid_joint_count(NULL) == -1 && myoid_muscle_count(NULL) == -1);
   EXPECT(myoid_channel_name(NULL, 0) == NULL && myoid_joint_name(NULL, 0) == NULL);

@@ -9,9 +9,10 @@ namespace myoid::test {
 
 /// Sizes of the errors of two trials, each with its own share of the torque's error.
 inline const identification::NoiseValues kNoise =
-    (identification::NoiseValues(6) << -0.9, -1.4, 0.1, -3.0, 0.3, -0.4).finished();
+    (identification::NoiseValues(10) << -0.9, -1.4, 0.1, -3.0, -0.3, 0.2, -0.6, 0.1, 0.3, -0.4).finished();
 inline const identification::NoiseValues kNoiseOfLeg =
-    (identification::NoiseValues(6) << 1.5, -1.4, 0.1, -3.0, -0.2, 0.5).finished();  // of some 60 N m
+    (identification::NoiseValues(10) << 1.5, -1.4, 0.1, -3.0, -0.3, 0.2, -0.6, 0.1, -0.2, 0.5)
+        .finished();  // of some 60 N m
 
 /// Two muscles on one electrode, exponent, gain, offset and an elastic law of length free.
 inline ElbowStudy crowded_study() {

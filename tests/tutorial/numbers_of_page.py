@@ -230,7 +230,7 @@ CLAIMS = [
 def pattern_of(claim):
     """A pattern for the claim with any words in the place of its numbers, over line breaks."""
     parts = [r"\s+".join(re.escape(text) for text in part.split(" ")) for part in claim.split("{}")]
-    return re.compile(r"([−\w.]+(?: \w+)?)".join(parts))
+    return re.compile(r"([−\w.]+(?: \w+)?(?: and prior dominated)?)".join(parts))
 
 
 def filled(claim, values):

@@ -1,4 +1,4 @@
-#include "myoid/run/nuisances.h"
+#include "myoid/identification/nuisances.h"
 
 #include <algorithm>
 #include <map>
@@ -6,19 +6,15 @@
 #include <utility>
 
 #include "myoid/beliefs/beliefs.h"
+#include "myoid/identification/parameters.h"
 
-namespace myoid {
+namespace myoid::identification {
 namespace {
-
-namespace beliefs = identification::beliefs;
-using identification::JointData;
-using identification::ParameterRule;
-using identification::TrialData;
 
 constexpr double kStrained = 0.5;  // of the greatest EMG
 
 /// Returns the belief as a rule, with its spread in units of `unit`.
-ParameterRule rule(const identification::Belief& belief, double unit = 1.0) {
+ParameterRule nuisance(const Belief& belief, double unit = 1.0) {
   ParameterRule r;
   r.parameter = belief.name;
   r.free = true;
@@ -48,9 +44,9 @@ void widen(const Eigen::MatrixXd& arm_m,
 }
 
 /// Returns the EMG channels that exceed kStrained of the maximum in a fitted trial.
-std::vector<std::string> strained_channels(const identification::StudyData& data) {
+std::vector<std::string> strained_channels(const StudyData& data) {
   std::vector<std::string> channels;
-  for (const identification::MuscleSetup& muscle : data.muscles) {
+  for (const MuscleSetup& muscle : data.muscles) {
     const std::string& channel = muscle.emg_channel;
     if (std::ranges::find(channels, channel) != channels.end()) continue;
     const bool strained = std::ranges::any_of(data.trials, [&](const TrialData& trial) {
@@ -64,11 +60,11 @@ std::vector<std::string> strained_channels(const identification::StudyData& data
 
 }  // namespace
 
-std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg, const identification::StudyData& data) {
-  std::vector<ParameterRule> rules{rule(beliefs::kLengthActivation)};
+std::vector<ParameterRule> nuisance_rules(const StudyData& data, bool exponents) {
+  std::vector<ParameterRule> rules{nuisance(beliefs::kLengthActivation)};
   rules.back().tie = true;
-  if (emg.kind != EmgKind::activation && emg.has_mvc) {
-    ParameterRule exponent = rule(beliefs::kEmgExponent);
+  if (exponents) {
+    ParameterRule exponent = nuisance(beliefs::kEmgExponent);
     exponent.owners = strained_channels(data);
     if (!exponent.owners.empty()) rules.push_back(std::move(exponent));
   }
@@ -81,13 +77,13 @@ std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg, const identificati
       widen(more.moment_arm_m, more.angle_rad, more.velocity_radps, more.acceleration_radps2, n, joints[more.name]);
   }
   for (const auto& [name, joint] : joints) {
-    if (!joint.motion || joint.arm_m.size() != static_cast<Eigen::Index>(data.muscles.size())) continue;
+    if (joint.arm_m.size() != static_cast<Eigen::Index>(data.muscles.size())) continue;
     double strength_nm = 0.0;
     for (Eigen::Index k = 0; k < joint.arm_m.size(); ++k)
       strength_nm += joint.arm_m[k] * data.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
-    for (const identification::Belief* belief :
-         {&beliefs::kStiffnessShare, &beliefs::kOffsetShare, &beliefs::kViscosityShare}) {
-      ParameterRule r = rule(*belief, strength_nm);
+    for (const Belief* belief : {&beliefs::kStiffnessShare, &beliefs::kOffsetShare, &beliefs::kViscosityShare}) {
+      if (belief != &beliefs::kOffsetShare && !joint.motion) continue;
+      ParameterRule r = nuisance(*belief, strength_nm);
       r.owners = {name};
       if (strength_nm > 0.0) rules.push_back(std::move(r));
     }
@@ -95,4 +91,24 @@ std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg, const identificati
   return rules;
 }
 
-}  // namespace myoid
+bool tells_nuisances(const StudyData& data, const EstimatorOptions& options) {
+  constexpr double kRowsAnUnknown = 1.5, kRow_s = 0.22;
+  StudyData held = data;
+  hold_nuisances(held);
+  double rows = 0.0;
+  for (const TrialData& trial : data.trials) {
+    if (!trial.calibration) continue;
+    const double all = (trial.time_s[trial.time_s.size() - 1] - trial.time_s[0]) / kRow_s;
+    const double most = options.unseen.independent_rows;
+    rows += static_cast<double>(joint_count(trial)) * (most > 0.0 ? std::min(most, all) : all);
+  }
+  return rows >= kRowsAnUnknown * static_cast<double>(ParameterMap(held, options).size());
+}
+
+void hold_nuisances(StudyData& data, std::string_view but) {
+  std::erase_if(data.rules, [&](const ParameterRule& rule) {
+    return rule.usual && rule.free.value_or(false) && rule.parameter != but;
+  });
+}
+
+}  // namespace myoid::identification
