@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """The source paper's experiment: its tables I and II, its figures 8 to 10, and what happens as its assumptions fail.
 
-usage: paper.py MYOID OUT [--persons N]
+usage: paper.py MYOID OUT [--page PAGE]
 
-MYOID: the program. OUT: a new folder for recordings, tables and figures. N: virtual persons, 5 by default.
+MYOID: the program. OUT: a new folder for recordings, tables and figures. --page: also puts the tables into this page,
+between the lines <!-- printed: NAME --> and <!-- end of NAME -->, and the figures that it shows beside it.
 
 Virtual persons move as section IV of the paper asks (learned.toml), and their forces are known. The published criterion
 is minimized for each muscle and branch. The tables are those of the first person. Then one assumption fails at a time,
@@ -17,11 +18,17 @@ import json
 import math
 import os
 import random
+import re
+import shutil
+import statistics
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import NamedTuple
 
 HERE = Path(__file__).resolve().parent
+PERSONS = 5
 MUSCLES = {"TRI": "Triceps", "BRD": "Brachioradialis", "BRA": "Brachialis", "BIC": "Biceps"}
 CHANNEL = {"BRA": "BIC"}  # no electrode: as the biceps
 CASES = {
@@ -30,19 +37,38 @@ CASES = {
 }
 SYMBOL = {"optimal_fiber_length": "l_m0", "force_length_width": "l_msh", "concentric_curvature": "V_sh",
           "eccentric_curvature_product": "V_sh V_shl", "eccentric_plateau": "V_ml"}
-PLAIN = {"converged": "converged", "iteration_limit": "not converged"}
 HELD = ["max_isometric_force", "max_shortening_speed", "tendon_slack_length"]
+ROUND_OFF = 1e-9  # N², of a criterion
 
-# What fails | changes of the protocol | keys of [truth] | forces | F_max over the person's | EMG's relative noise
-ASSUMPTIONS = [
-    ("none: all assumptions hold", {}, [], "known", 1.0, 0.0),
-    ("EMG 20 ms early", {}, ["emg_delay_s=[0.02,0.02]"], "known", 1.0, 0.0),
-    ("EMG with 10 % noise", {}, [], "known", 1.0, 0.1),
-    ("F_max 25 % too high", {}, [], "known", 1.25, 0.0),
-    ("tendon stretches by 5 % at F_max", {}, ["tendon_strain=[0.05,0.05]"], "known", 1.0, 0.0),
-    ("forces shared, literature's F_max", {}, [], "shared", 1.0, 0.0),
-    ("the same, and co-contraction of 5 %", {"co_contraction = [0, 0]": "co_contraction = [0.05, 0.05]"}, [], "shared",
-     1.0, 0.0),
+
+class Failure(NamedTuple):
+    """An assumption that fails, by the person, the recording, or what the fit is given."""
+
+    label: str
+    control: str = "co_contraction = [0, 0]"  # of the protocol
+    truth: tuple = ()  # keys of [truth]
+    shared: bool = False  # forces of static optimization and the literature's F_max, not the person's
+    held: dict = {}  # factors on what the fit holds
+    noise: float = 0.0  # relative, of the EMG
+    fading: float = 0.0  # share of the force that is lost by the end
+    muscles: tuple = tuple(MUSCLES)  # that count
+
+
+FAILURES = [
+    Failure("nothing: all assumptions hold"),
+    Failure("EMG 20 ms early", truth=("emg_delay_s=[0.02,0.02]",)),
+    Failure("EMG with 10 % noise", noise=0.1),
+    Failure("brachialis not driven as the biceps (brachialis alone)", muscles=("BRA",),
+            control="co_contraction = [0, 0]\nbrachialis_synergy = 0.35"),
+    Failure("F_max 25 % too high", held={"max_isometric_force": 1.25}),
+    Failure("v_max 25 % too high", held={"max_shortening_speed": 1.25}),
+    Failure("tendon 5 % too long", held={"tendon_slack_length": 1.05}),
+    Failure("tendon stretches by 5 % at F_max", truth=("tendon_strain=[0.05,0.05]",)),
+    Failure("moment arms wrong by 10 %", truth=("moment_arm_sd=0.1",)),
+    Failure("fatigue: 20 % of the force lost in 20 s", fading=0.2),
+    Failure("another muscle law: Millard's curves", truth=("curves=millard",)),
+    Failure("forces shared, literature's F_max", shared=True),
+    Failure("the same, and co-contraction of 5 %", shared=True, control="co_contraction = [0.05, 0.05]"),
 ]
 
 
@@ -86,47 +112,52 @@ def hill(a, length, speed, p, case):
 class Recording:
     """A virtual person's recording and the run of it: lengths, speeds, activations, both kinds of forces."""
 
-    def __init__(self, program, folder, seed, changes, truth):
+    def __init__(self, program, folder, seed, control, truth):
         self.program, self.folder = program, folder
         folder.mkdir(parents=True)
         protocol = (HERE / "learned.toml").read_text()
-        for old, new in changes.items():
-            assert old in protocol, old
-            protocol = protocol.replace(old, new)
-        (folder / "protocol.toml").write_text(protocol)
+        usual = Failure._field_defaults["control"]
+        assert usual in protocol, usual
+        (folder / "protocol.toml").write_text(protocol.replace(usual, control))
         keys = ["--truth", *truth] if truth else []
         myoid(program, "twin", "--protocol", folder / "protocol.toml", "--seed", seed, *keys, "--out", folder / "rec")
         myoid(program, "run", folder / "rec/study.toml", "--method", "paper", "--out", folder / "run")
         rows = csv.DictReader((folder / "rec/truth.csv").open())
         self.truth = {(row["muscle"], row["parameter"]): float(row["value"]) for row in rows}
+        self.forces = folder / "rec/truth/learned_force.sto"
         self.shared = Fit(folder / "run")
 
-    def by_known_forces(self, strength, noise):
-        """Method paper of the person's own forces, F_max times `strength`, and EMG with noise."""
-        folder = self.folder / f"known_{strength}_{noise}"
+    def by_known_forces(self, failure, name):
+        """Method paper of the person's own forces, with the failure of what it is given."""
+        folder = self.folder / name
         folder.mkdir()
-        names = [*CASES["shortening"], *CASES["lengthening"][2:]]
-        with (folder / "muscles.csv").open("w") as file:
-            file.write(",".join(["muscle", "emg", *names, *HELD]) + "\n")
-            for muscle in MUSCLES:
-                start = [self.shared.start[muscle, name] for name in names]
-                held = [self.truth[muscle, name] for name in HELD]
-                held[0] *= strength
-                file.write(",".join([muscle, CHANNEL.get(muscle, muscle), *map(repr, start + held)]) + "\n")
+        unknown = [*CASES["shortening"], *CASES["lengthening"][2:]]
+        rows = [["muscle", "emg", *unknown, *HELD]]
+        for muscle in MUSCLES:
+            start = [self.shared.start[muscle, name] for name in unknown]
+            held = [self.truth[muscle, name] * failure.held.get(name, 1.0) for name in HELD]
+            rows.append([muscle, CHANNEL.get(muscle, muscle), *start, *held])
+        write(folder / "muscles.csv", rows)
         activation = columns(self.folder / "run/learned/activation.sto")
-        with (folder / "activation.csv").open("w") as file:
-            channels = [name for name in activation if name != "time"]
-            file.write(",".join(["time", *channels]) + "\n")
-            gains = {name: wander(activation["time"], noise, name) for name in channels}
-            for i, time in enumerate(activation["time"]):
-                row = [time, *(activation[c][i] * gains[c][i] for c in channels)]
-                file.write(",".join(map(repr, row)) + "\n")
+        for channel in activation.keys() - {"time"}:
+            noise = wander(activation["time"], failure.noise, channel)
+            activation[channel] = [a * b for a, b in zip(activation[channel], noise)]
+        write(folder / "activation.csv", [list(activation), *zip(*activation.values())])
+        force = columns(self.forces)
+        end = force["time"][-1]
+        for muscle in MUSCLES:
+            force[muscle] = [f * (1.0 - failure.fading * t / end) for f, t in zip(force[muscle], force["time"])]
+        write(folder / "force.csv", [list(force), *zip(*force.values())])
         run = self.folder / "run/learned"
         myoid(self.program, "identify", "--method", "paper", "--muscles", folder / "muscles.csv", "--activations",
               folder / "activation.csv", "--lengths", run / "MuscleAnalysis_Length.sto", "--velocities",
-              run / "MuscleAnalysis_MuscleTendonVelocity.sto", "--forces", self.folder / "rec/truth/learned_force.sto",
-              "--out", folder / "out")
+              run / "MuscleAnalysis_MuscleTendonVelocity.sto", "--forces", folder / "force.csv", "--out", folder / "out")
         return Fit(folder / "out")
+
+
+def write(path, rows):
+    with path.open("w", newline="") as file:
+        csv.writer(file).writerows(rows)
 
 
 def wander(times, noise, seed):
@@ -151,146 +182,224 @@ class Fit:
 
 
 def value(x):
-    return "-" if x is None else f"{x:.4g}"
+    return "–" if x is None else f"{x:.4g}"
 
 
-def table(fit, case, title):
+def percent(x):
+    return "–" if x is None else "0" if x < 1e-8 else f"{100 * x:.2g}" if x < 0.1 else f"{100 * x:.0f}"
+
+
+def markdown(heads, rows):
+    return [f"| {' | '.join(heads)} |", "|" + " --- |" * len(heads), *(f"| {' | '.join(map(str, row))} |" for row in rows)]
+
+
+def estimates(fit, case):
     """Table I or II, as the paper has it, with the criterion and the steps."""
-    heads = ["muscle", "x", *(SYMBOL[n] for n in CASES[case]), "C [N²]", "steps", "plain steps"]
-    lines = ["", title, "", f"| {' | '.join(heads)} |",
-             "| --- | --- |" + " --- |" * (len(CASES[case]) + 3)]
+    rows = []
     for muscle, name in MUSCLES.items():
         s = fit.searches[muscle, case]
-        start = [value(fit.start[muscle, n]) for n in CASES[case]]
-        found = [value(fit.value[muscle, case, n]) for n in CASES[case]]
-        steps = str(s["iterations"]) if s["termination"] == "converged" else f"no minimum ({s['iterations']})"
-        ended = "elsewhere" if s["plain_elsewhere"] else PLAIN.get(s["plain_termination"], "diverged")
-        plain = f"{ended} ({s['plain_iterations']})"
-        lines.append(f"| {name} | x_init | {' | '.join(start)} | {value(s['start_cost'])} | | |")
-        lines.append(f"| {name} | x̂ | {' | '.join(found)} | {value(s['cost'])} | {steps} | {plain} |")
-    return "\n".join(lines)
+        steps = s["iterations"] if s["termination"] == "converged" else f"no minimum ({s['iterations']})"
+        plain = s["plain_iterations"] if reached(s) else "not reached"
+        cost = f"< {ROUND_OFF:.0e}" if s["cost"] < ROUND_OFF else value(s["cost"])
+        start, found = ([value(of(n)) for n in CASES[case]] for of in
+                        (lambda n: fit.start[muscle, n], lambda n: fit.value[muscle, case, n]))
+        rows.append([name, "x_init", *start, value(s["start_cost"]), "", ""])
+        rows.append([name, "x̂", *found, cost, steps, plain])
+    return markdown(["muscle", "x", *(SYMBOL[n] for n in CASES[case]), "C [N²]", "steps", "plain steps"], rows)
+
+
+def reached(search):
+    """Whether the plain steps ended at the minimum."""
+    return search["plain_termination"] == "converged" and not search["plain_elsewhere"]
+
+
+def counts(searches):
+    """How many minima there are, after how many steps, and how many of them plain steps reach."""
+    found = [s for s in searches if s["termination"] == "converged"]
+    steps = round(statistics.median(s["iterations"] for s in found)) if found else "–"
+    return [f"{len(found)} of {len(searches)}", steps, sum(map(reached, found))]
+
+
+def polylines(time, values, width, base, room, left, most, style):
+    x = [left + width * (t - time[0]) / (time[-1] - time[0]) for t in time]
+    points = " ".join(f"{a:.1f},{base - room * min(1.0, max(0.0, b / most)):.1f}" for a, b in zip(x, values))
+    return f'<polyline points="{points}" fill="none" {style}/>'
 
 
 def svg(path, title, time, panels):
-    """Panels under each other: force over time, curves as (label, color, dash, values)."""
+    """Panels under each other: force over time, curves as (label, color, style, values), up to the first one's most."""
     width, height, left, top = 900, 250, 70, 40
     text = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {top + height * len(panels)}" '
             'font-family="Helvetica, Arial, sans-serif" font-size="13">',
-            f'<text x="{left}" y="22" font-size="15">{title}</text>']
+            f'<rect width="100%" height="100%" fill="white"/><text x="{left}" y="22" font-size="15">{title}</text>']
     for k, curves in enumerate(panels):
-        most = max(max(v) for _, _, _, v in curves) or 1.0
-        base = top + height * (k + 1) - 40
-        room = height - 60
-        x = [left + (width - left - 20) * (t - time[0]) / (time[-1] - time[0]) for t in time]
+        most = 1.3 * max(curves[0][3])
+        base, room = top + height * (k + 1) - 40, height - 60
         text.append(f'<path d="M{left} {base - room}V{base}H{width - 20}" fill="none" stroke="#888"/>')
         text.append(f'<text x="{left - 6}" y="{base - room + 5}" text-anchor="end">{most:.0f} N</text>')
         text.append(f'<text x="{left - 6}" y="{base + 5}" text-anchor="end">0</text>')
         text.append(f'<text x="{left}" y="{base + 17}">{time[0]:.1f} s</text>')
         text.append(f'<text x="{width - 20}" y="{base + 17}" text-anchor="end">{time[-1]:.1f} s</text>')
-        for n, (label, color, dash, values) in enumerate(curves):
-            points = " ".join(f"{a:.1f},{base - room * max(0.0, b) / most:.1f}" for a, b in zip(x, values))
-            text.append(f'<polyline points="{points}" fill="none" stroke="{color}" stroke-width="1.4"{dash}/>')
+        for n, (label, color, style, values) in enumerate(curves):
+            text.append(polylines(time, values, width - left - 20, base, room, left, most, f'stroke="{color}" {style}'))
             text.append(f'<text x="{left + 10 + 330 * n}" y="{base - room - 4}" fill="{color}">{label}</text>')
     path.write_text("\n".join([*text, "</svg>"]) + "\n")
 
 
-def figures(fit, run, forces, held, prefix, out, what):
-    """Figures 8 to 10: forces of triceps, brachioradialis and brachialis, by x̂ above and by the literature below."""
-    length, speed = columns(run / "MuscleAnalysis_Length.sto"), columns(run / "MuscleAnalysis_MuscleTendonVelocity.sto")
-    activation = columns(run / "activation.sto")
-    time = [t for t in length["time"] if activation["time"][0] <= t <= activation["time"][-1]]
-    time = time[:: max(1, len(time) // 800)]
-    reference = columns(forces)
+def figures(out, prefix, what, courses):
+    """Figures 8 to 10: the force that was fitted and the muscle model's, by x̂ above and by the literature below."""
     for number, muscle in ((8, "TRI"), (9, "BRD"), (10, "BRA")):
-        known = at(time, reference["time"], reference[muscle])
-        a = at(time, activation["time"], activation[CHANNEL.get(muscle, muscle)])
-        lm = [x - held[muscle]["tendon_slack_length"] for x in at(time, length["time"], length[muscle])]
-        v = at(time, speed["time"], speed[muscle])
-        by_start, by_fit = [], []
-        for i in range(len(time)):
-            case = "shortening" if v[i] <= 0.0 else "lengthening"
-            start = {n: fit.start[muscle, n] for n in CASES[case]}
-            found = {n: fit.value[muscle, case, n] for n in CASES[case]}
-            by_start.append(hill(a[i], lm[i], v[i], start | held[muscle], case))
-            none = None in found.values()
-            by_fit.append(by_start[-1] if none else hill(a[i], lm[i], v[i], found | held[muscle], case))
-        blue = (what, "#1f5fa8", "", known)
+        time, known, by_start, by_fit = courses(muscle)
+        every = max(1, len(time) // 500)
+        time, known, by_start, by_fit = (x[::every] for x in (time, known, by_start, by_fit))
+        blue = (what, "#1f5fa8", 'stroke-width="2.2" stroke-opacity="0.6"', known)
+        dashed = 'stroke-width="1.3" stroke-dasharray="5 3"'
         svg(out / f"{prefix}figure{number}.svg", f"{MUSCLES[muscle]}: force of the muscle", time,
-            [[blue, ("muscle model, x̂", "#b3261e", ' stroke-dasharray="7 4"', by_fit)],
-             [blue, ("muscle model, literature", "#111111", ' stroke-dasharray="7 4"', by_start)]])
+            [[blue, ("muscle model, x̂", "#b3261e", dashed, by_fit)],
+             [blue, ("muscle model, literature", "#111111", dashed, by_start)]])
 
 
-def median(values):
-    values = sorted(values)
-    return values[len(values) // 2] if values else None
+def courses_of_person(recording, fit):
+    """The forces of a muscle over time: the person's, by the literature's numbers, by x̂."""
+    run = recording.folder / "run/learned"
+    length, speed = columns(run / "MuscleAnalysis_Length.sto"), columns(run / "MuscleAnalysis_MuscleTendonVelocity.sto")
+    activation, force = columns(run / "activation.sto"), columns(recording.forces)
+    time = [t for t in length["time"] if activation["time"][0] <= t <= activation["time"][-1]]
+
+    def courses(muscle):
+        held = {name: recording.truth[muscle, name] for name in HELD}
+        a = at(time, activation["time"], activation[CHANNEL.get(muscle, muscle)])
+        lm = [x - held["tendon_slack_length"] for x in at(time, length["time"], length[muscle])]
+        by_start, by_fit = [], []
+        for drive, here, v in zip(a, lm, at(time, speed["time"], speed[muscle])):
+            case = "shortening" if v <= 0.0 else "lengthening"
+            by_start.append(hill(drive, here, v, held | {n: fit.start[muscle, n] for n in CASES[case]}, case))
+            by_fit.append(hill(drive, here, v, held | {n: fit.value[muscle, case, n] for n in CASES[case]}, case))
+        return time, at(time, force["time"], force[muscle]), by_start, by_fit
+
+    return courses
 
 
-def assumptions(program, out, persons):
-    """A row of Markdown for each assumption that fails; the first person's fit by all assumptions."""
-    print("\nMedian error [%] of each number over the minima that were found, and how the searches fared\n")
-    heads = [f"{SYMBOL[n]}, {case}" for case, names in CASES.items() for n in names]
-    print("| what fails | " + " | ".join(heads) + " | minima | steps | plain steps reach them |")
-    print("| --- |" + " --- |" * (len(heads) + 3))
+def persons_of(program, out, failure, recordings):
+    """The recordings of all persons, each made once."""
+    key = (failure.control, failure.truth)
+    if key not in recordings:
+        world = len(recordings) + 1
+
+        def make(seed):
+            return Recording(program, out / f"world{world}_person{seed}", seed, *key)
+
+        with ThreadPoolExecutor(2) as pool:
+            recordings[key] = list(pool.map(make, range(1, PERSONS + 1)))
+    return recordings[key]
+
+
+def fail(program, out):
+    """A row for each assumption that fails; also the first person's fit where all hold."""
     recordings, first, rows = {}, None, []
-    for label, changes, truth, forces, strength, noise in ASSUMPTIONS:
-        errors, found, steps, plain, all_searches = {}, 0, [], 0, 0
-        for seed in range(1, persons + 1):
-            key = (seed, str(changes), str(truth))
-            if key not in recordings:
-                recordings[key] = Recording(program, out / f"person{len(recordings) + 1}", seed, changes, truth)
-            recording = recordings[key]
-            fit = recording.shared if forces == "shared" else recording.by_known_forces(strength, noise)
-            first = first or (recording, fit)
-            for (muscle, case), s in fit.searches.items():
-                all_searches += 1
-                if s["termination"] != "converged":
+    for number, failure in enumerate(FAILURES):
+        people = persons_of(program, out, failure, recordings)
+        with ThreadPoolExecutor(2) as pool:
+            fits = list(pool.map(
+                lambda person: person.shared if failure.shared else person.by_known_forces(failure, f"known{number}"),
+                people))
+        first = first or (people[0], fits[0])
+        errors, searches = {}, []
+        for person, fit in zip(people, fits):
+            for (muscle, case), search in fit.searches.items():
+                if muscle not in failure.muscles:
                     continue
-                found += 1
-                steps.append(s["iterations"])
-                plain += s["plain_termination"] == "converged" and not s["plain_elsewhere"]
-                for name in CASES[case]:
-                    true = recording.truth[muscle, name]
-                    errors.setdefault((case, name), []).append(abs(fit.value[muscle, case, name] - true) / true)
-        cells = [median(errors.get((case, name), [])) for case, names in CASES.items() for name in names]
-        rows.append([label, *cells, found, all_searches, median(steps), plain])
-        shown = ["-" if c is None else f"{100 * c:.2g}" for c in cells]
-        print(f"| {label} | {' | '.join(shown)} | {found} of {all_searches} | {median(steps)} | {plain} |", flush=True)
-    with (out / "assumptions.csv").open("w", newline="") as file:
-        csv.writer(file).writerows([["what_fails", *heads, "minima", "searches", "steps", "plain"], *rows])
-    return first
+                searches.append(search)
+                for name in CASES[case] if search["termination"] == "converged" else []:
+                    true = person.truth.get((muscle, name))
+                    if true is not None:  # another law has not all numbers
+                        errors.setdefault((case, name), []).append(abs(fit.value[muscle, case, name] / true - 1.0))
+        medians = [statistics.median(errors[case, name]) if (case, name) in errors else None
+                   for case, names in CASES.items() for name in names]
+        rows.append([failure.label, *medians, *counts(searches)])
+    heads = ["what fails", *(f"{SYMBOL[n]}, {case}" for case, names in CASES.items() for n in names)]
+    heads += ["minima", "steps", "plain steps reach"]
+    write(out / "assumptions.csv", [heads, *rows])
+    return markdown(heads, [[label, *map(percent, row[:7]), *row[7:]] for label, *row in rows]), *first
 
 
-def elbow(program, out, data):
-    """The published method on the recording of an elbow, whose forces nobody measured."""
+def literature_force(model, muscle):
+    text = model.read_text()
+    return float(re.search(f'name="{muscle}".*?<max_isometric_force>([^<]*)<', text, re.DOTALL).group(1))
+
+
+def gains(folder):
+    """The factor on each muscle's literature force that fits the shared force best."""
+    sums = {muscle: [0.0, 0.0] for muscle in MUSCLES}
+    for path in sorted(folder.glob("*/identified_forces.sto")):
+        force = columns(path)
+        for muscle, sum_of in sums.items():
+            model, shared = force[f"{muscle}_literature"], force[f"{muscle}_reference"]
+            sum_of[0] += sum(a * b for a, b in zip(model, shared))
+            sum_of[1] += sum(a * a for a in model)
+    return {muscle: a / b for muscle, (a, b) in sums.items()}
+
+
+def elbow(program, out, data, model):
+    """The published method on the recording of an elbow, by the literature's F_max and by what the shared forces say."""
     study = (HERE.parent / "elbow_emg/study.toml").read_text().replace("../../../shared/data", str(data))
     (out / "elbow.toml").write_text(study)
     myoid(program, "run", out / "elbow.toml", "--method", "paper", "--out", out / "elbow")
-    fit = Fit(out / "elbow")
-    assert not any(fit.interval.values()), "a shared force has no interval"
-    print("\nThe recording of an elbow, forces shared by static optimization. No number is a measurement.")
-    print(table(fit, "shortening", "Table I: parameters estimated with C_1"))
-    print(table(fit, "lengthening", "Table II: parameters estimated with C_2"))
+    gain = gains(out / "elbow")
+    for muscle in MUSCLES:
+        force = gain[muscle] * literature_force(model, muscle)
+        study = study.replace(f'name = "{muscle}"', f'name = "{muscle}"\nstart = {{ max_isometric_force = {force:.3f} }}')
+    (out / "elbow_scaled.toml").write_text(study)
+    myoid(program, "run", out / "elbow_scaled.toml", "--method", "paper", "--out", out / "elbow_scaled")
+    assert all(abs(g - 1.0) < 1e-3 for g in gains(out / "elbow_scaled").values()), "F_max is not the scaled one"
+    fits = {"the literature's": Fit(out / "elbow"), "times the gain": Fit(out / "elbow_scaled")}
+    for fit in fits.values():
+        assert not any(fit.interval.values()), "a shared force has no interval"
+    force = columns(out / "elbow_scaled/load2p75_T1/identified_forces.sto")
+    figures(out, "elbow_", "shared force",
+            lambda muscle: (force["time"], *(force[f"{muscle}_{x}"] for x in ("reference", "literature", "identified"))))
+    searches = [[name, *counts(fit.searches.values())] for name, fit in fits.items()]
+    return {
+        "elbow gains": markdown(["", *MUSCLES.values()], [["gain of F_max", *(f"{gain[m]:.2f}" for m in MUSCLES)]]),
+        "elbow searches": markdown(["F_max", "minima", "steps", "plain steps reach"], searches),
+        "elbow Table I": estimates(fits["times the gain"], "shortening"),
+        "elbow Table II": estimates(fits["times the gain"], "lengthening"),
+    }
+
+
+def put(page, tables, out):
+    """The tables between their lines of the page, and the figures that the page shows beside it."""
+    text = page.read_text(encoding="utf-8")
+    for name, lines in tables.items():
+        begin, end = f"<!-- printed: {name} -->\n", f"<!-- end of {name} -->"
+        before, rest = text.split(begin)
+        text = before + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1]
+    page.write_text(text, encoding="utf-8")
+    for name in re.findall(r"\(published_(\w+\.svg)\)", text):
+        if (out / name).exists():
+            shutil.copy(out / name, page.parent / f"published_{name}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("out", type=Path)
-    parser.add_argument("--persons", type=int, default=5)
+    parser.add_argument("--page", type=Path)
     options = parser.parse_args()
     options.out.mkdir(parents=True)
-    recording, fit = assumptions(options.program, options.out, options.persons)
-    print("\nThe first person, all assumptions hold, forces known")
-    print(table(fit, "shortening", "Table I: parameters estimated with C_1"))
-    print(table(fit, "lengthening", "Table II: parameters estimated with C_2"))
-    held = {m: {name: recording.truth[m, name] for name in HELD} for m in MUSCLES}
-    run = recording.folder / "run/learned"
-    figures(fit, run, recording.folder / "rec/truth/learned_force.sto", held, "", options.out, "the person's force")
-    data = os.environ.get("MYOID_DATA", "")
-    if data and (Path(data) / "elbow-emg").is_dir():
-        elbow(options.program, options.out, Path(data))
+    errors, recording, fit = fail(options.program, options.out)
+    tables = {"Table I": estimates(fit, "shortening"), "Table II": estimates(fit, "lengthening"),
+              "median errors in percent": errors}
+    figures(options.out, "", "the person's force", courses_of_person(recording, fit))
+    data = Path(os.environ.get("MYOID_DATA") or HERE / "../../../shared/data").resolve()
+    if (data / "elbow-emg").is_dir():
+        tables |= elbow(options.program, options.out, data, recording.folder / "rec/model.osim")
     else:
-        print("\nNo elbow-emg in the folder MYOID_DATA: the recording is left out")
+        print(f"There is no {data}/elbow-emg: the recording is left out")
+    for name, lines in tables.items():
+        print("", name, "", *lines, sep="\n")
+    if options.page:
+        put(options.page, tables, options.out)
 
 
 if __name__ == "__main__":
