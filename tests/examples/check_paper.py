@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 # Numbers of the page's prose that are no results.
-GIVEN = [r"Figures? \d+( to \d+)?", r"Activation 1\b", r"below 0\.001 %", r"`[^`]*`", r"\$[^$]*\$", r"\]\([^)]*\)"]
+GIVEN = [r"Figures? \d+( to \d+)?", r"Activation 1\b", r"\(0: below 0\.001 %\)", r"`[^`]*`", r"\$[^$]*\$", r"\]\([^)]*\)"]
 PRINTED = re.compile(r"<!-- printed: (.+) -->\n(.*?)<!-- end of \1 -->", re.DOTALL)
 
 
