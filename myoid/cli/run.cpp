@@ -117,7 +117,8 @@ void print_gates(const std::vector<report::Gate>& gates) {
 void print_paper(const identification::IdentificationResult& paper) {
   say("\nmethod paper: minima of the published criterion, on forces that nobody measured: no intervals\n");
   const std::vector<report::Table> tables = paper_tables(paper);
-  for (const report::Table& table : tables | std::views::take(2)) {
+  for (const report::Table& table : tables) {
+    if (table.id == "published_searches") continue;  // below, as sentences
     say("{}\n", table.title);
     for (const std::string& column : table.columns) say("{:<12} ", column);
     say("\n");

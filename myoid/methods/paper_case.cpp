@@ -166,7 +166,7 @@ math::LeastSquaresResult search_as_published(const PaperCase& samples,
 MinimumSearch search_for_minimum(const PaperCase& samples, const Eigen::VectorXd& start, const Progress& progress) {
   const auto found_by = [&](const CriterionSearch& search) {
     math::LeastSquaresResult found =
-        criterion_end(samples, start, search, "the criterion falls as {} grows without limit: it has no minimum");
+        criterion_end(samples, start, search, "the criterion falls as {} grows without limit");
     double idle = 0.0;  // cost of a muscle that makes no force
     for (const MuscleSample& s : samples.samples) idle += 0.5 * s.force_n * s.force_n;
     if (std::isfinite(found.cost) && found.cost > 0.999 * idle) {
