@@ -51,8 +51,8 @@ struct ParameterSlots {
 /// parameter that does not exist.
 void apply_rules(const std::vector<ParameterRule>& rules, const OwnerNames& names, ParameterSlots& of_study);
 
-/// Returns the standard deviation of a muscle's tendon slack length that its prior and the rules state [m]; 0 if none, or
-/// if the length is held without error.
+/// Returns the standard deviation of a muscle's tendon slack length that its prior and the rules state [m]; 0 if none,
+/// or if the length is held without error.
 [[nodiscard]] double held_slack_sd_m(const StudyData& data, std::size_t muscle);
 
 }  // namespace myoid::identification

@@ -15,11 +15,11 @@
 #include "myoid/intervals/estimate_rows.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/posterior/draws.h"
 #include "myoid/posterior/exploration.h"
-#include "myoid/intervals/verdicts.h"
 #include "myoid/posterior/voluntary_torque.h"
 
 namespace myoid::identification {

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 
 #include "myoid/intervals/result.h"
-#include "myoid/posterior/likelihood.h"
 #include "myoid/intervals/verdicts.h"
+#include "myoid/posterior/likelihood.h"
 
 namespace myoid::identification {
 

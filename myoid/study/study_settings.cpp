@@ -246,11 +246,12 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
                    "approximation; 1000 take some ten times as long. 0: none.",
            .limits = within(0, 100000)});
   v.flag("gain", identify.gain, {.says = "The uncertainty of the EMG's normalization widens the intervals."});
-  v.count("starts", identify.starts,
-          {.says = "Method `paper`: above 1, searches from Sobol points over ± 2 standard deviations of the priors, too. "
-                   "The numbers are still those of the first start; a table of where the searches ended goes to the "
-                   "report and parameters.json (`searches`).",
-           .limits = within(1, 1000)});
+  v.count(
+      "starts", identify.starts,
+      {.says = "Method `paper`: above 1, searches from Sobol points over ± 2 standard deviations of the priors, too. "
+               "The numbers are still those of the first start; a table of where the searches ended goes to the "
+               "report and parameters.json (`searches`).",
+       .limits = within(1, 1000)});
   v.choice("eccentric", identify.eccentric,
            {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (of f_v, lengthening "
                     "over shortening), `smooth` (ratio 1, no kink), `automatic` (the ratio where it has a prior)."});

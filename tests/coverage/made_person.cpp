@@ -14,8 +14,8 @@
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/envelope.h"
 #include "myoid/identification/muscle_law.h"
-#include "myoid/identification/parameters.h"
 #include "myoid/identification/parameter_slots.h"
+#include "myoid/identification/parameters.h"
 #include "myoid/math/random.h"
 #include "myoid/posterior/density.h"
 
