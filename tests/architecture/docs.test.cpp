@@ -95,7 +95,7 @@ TEST(Documentation, WordsAreCounted) {
 }
 
 /// Ratchets: these numbers only ever go down, and no page joins the exceptions. The goal is 60,000 words.
-constexpr std::size_t kMostWords = 84'045, kMostOfAPage = 2'500, kMostOfACell = 25;
+constexpr std::size_t kMostWords = 82'375, kMostOfAPage = 2'500, kMostOfACell = 25;
 const std::map<std::string, std::size_t> kLongPages{
     {"evidence.md", 4'168}, {"identification.md", 4'907}, {"posterior.md", 3'669}};
 const std::map<std::string, std::size_t> kLongCells{{"0022-size-of-the-model-error.md", 26},
