@@ -94,7 +94,7 @@ def held_efforts(program, data):
 def tendons(program, data):
     for slack in ("0.223", "0.247"):
         with tempfile.TemporaryDirectory() as folder:
-            judge = left_out.Fit(program, pathlib.Path(folder), "posterior")
+            judge = left_out.Fit(program, pathlib.Path(folder))
             real = judge.left_out
 
             def with_slack(muscles, *more, slack=slack, real=real):
