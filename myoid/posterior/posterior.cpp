@@ -15,11 +15,12 @@
 #include "myoid/intervals/estimate_rows.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/posterior/draws.h"
 #include "myoid/posterior/exploration.h"
-#include "myoid/intervals/verdicts.h"
+#include "myoid/posterior/learned_sizes.h"
 #include "myoid/posterior/voluntary_torque.h"
 
 namespace myoid::identification {
@@ -320,6 +321,7 @@ void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationRes
 /// Puts the greatest voluntary torques before the muscles' numbers.
 void add_voluntary(const Reporting& of,
                    const Density& density,
+                   const NoiseValues& of_widths,
                    const EstimatorOptions& options,
                    IdentificationResult& result) {
   NumberFacts fit;
@@ -328,11 +330,11 @@ void add_voluntary(const Reporting& of,
   fit.r2 = result.r2;
   fit.model_error = result.model_error;
   const Eigen::MatrixXd off = of.given.z.colwise() - of.given.z.rowwise().mean();
-  VoluntaryTorques torques =
-      voluntary_torques(of.data, options, {density.likelihood(), result.solution, result.noise, result.covariance},
-                        {of.given.density->likelihood(), of.given.value, of.given.noise,
-                         off * off.transpose() / static_cast<double>(off.cols())},
-                        fit);
+  VoluntaryTorques torques = voluntary_torques(
+      of.data, options, {density.likelihood(), result.solution, result.noise, of_widths, result.covariance},
+      {of.given.density->likelihood(), of.given.value, of.given.noise, of.given.noise,
+       off * off.transpose() / static_cast<double>(off.cols())},
+      fit);
   result.estimates.insert(result.estimates.begin(), std::make_move_iterator(torques.estimates.begin()),
                           std::make_move_iterator(torques.estimates.end()));
   result.voluntary = std::move(torques.curves);
@@ -379,13 +381,19 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   const Exploration explored = explore(data, options);
   const std::vector<Candidate>& candidates = explored.modes;
   const Candidate& best = candidates.front();
-  const Sample& drawn = explored.sample;
+  Sample drawn = explored.sample;
 
   IdentificationResult result;
   fill_fit(best, drawn, data, result);
   // A fit whose numbers are not reported needs no second interval.
   const Given given =
       options.marginals ? given_geometry(best, drawn, options.progress) : not_asked_for(result.solution);
+  const LearnedSizes sizes = learned_sizes(best, drawn);
+  // Draws of the sampler are from the density over all sizes.
+  if (options.posterior_draws == 0) {
+    stretch(sizes.wider, best.density->parameters(), drawn);
+    result.covariance = sizes.wider.asDiagonal() * result.covariance * sizes.wider.asDiagonal();
+  }
   const std::vector<SourceShares> shares = source_shares(best);
   const std::vector<double> active_span_m = active_length_spans_m(data, result.delay_s);
   const Reporting of{data,
@@ -401,7 +409,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
                      options.unseen.strength};
   add_estimates(of, result);
   if (options.marginals && options.predictions && !options.measured_is_force)
-    add_voluntary(of, *best.density, options, result);
+    add_voluntary(of, *best.density, sizes.noise, options, result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, best.density->unlikeness(), result);
   if (best.mode.converged) result.diagnoses = signatures(result.estimates);

@@ -5,16 +5,17 @@
 #include <Eigen/Core>
 
 #include "myoid/intervals/result.h"
-#include "myoid/posterior/likelihood.h"
 #include "myoid/intervals/verdicts.h"
+#include "myoid/posterior/likelihood.h"
 
 namespace myoid::identification {
 
 /// One reading of the posterior (Believed), normal about its middle.
 struct VoluntaryReading {
   const Likelihood& likelihood;
-  Eigen::VectorXd z;  ///< The unknowns' middle.
-  NoiseValues noise;
+  Eigen::VectorXd z;           ///< The unknowns' middle.
+  NoiseValues noise;           ///< At the mode.
+  NoiseValues of_widths;       ///< Of the covariance of x (LearnedSizes).
   Eigen::MatrixXd covariance;  ///< Of z.
 };
 
