@@ -66,25 +66,21 @@ inline constexpr std::string_view kPublished = "judgment from the spread between
 inline constexpr std::string_view kNuisance = "judgment; left out, the fit takes it for a property of the muscles";
 
 // A muscle's parameters, about the starting values.
-inline constexpr Belief kMaxForce =
-    belief("max_isometric_force", kModels, 0.25, logarithm, "N")
-        .used(kAlways)
-        .from(
-            "two public models of a leg and two of an arm differ by ln 0.30 and ln 0.55 about their mean ratio, 0.21 "
-            "and 0.39 to each (`tests/coverage/public_models.py`)");
-inline constexpr Belief kFiberLength =
-    belief("optimal_fiber_length", kModels, 0.15, fiber_length, "m")
-        .used(kAlways)
-        .from(
-            "two public models of a leg and two of an arm differ by ln 0.22 and ln 0.20 about their mean ratio, 0.15 "
-            "and 0.14 to each (`tests/coverage/public_models.py`)");
+inline constexpr Belief kMaxForce = belief("max_isometric_force", kModels, 0.25, logarithm, "N")
+                                        .used(kAlways)
+                                        .from(
+                                            "two public models of a leg and two of an arm: ln 0.21 and ln 0.39 per "
+                                            "model (`tests/coverage/public_models.py`)");
+inline constexpr Belief kFiberLength = belief("optimal_fiber_length", kModels, 0.15, fiber_length, "m")
+                                           .used(kAlways)
+                                           .from(
+                                               "two public models of a leg and two of an arm: ln 0.15 and ln 0.14 per "
+                                               "model (`tests/coverage/public_models.py`)");
 inline constexpr Belief kWidth =
     belief("force_length_width", kModels, 0.12, fiber_length, "m").used(kAlways).from(kPublished);
 inline constexpr Belief kCurvature =
     belief("concentric_curvature", kModels, 0.30, logarithm, "")
-        .used(
-            "always; with `max_shortening_speed` free the spread of v_max adds, as a muscle's V_sh goes with the v_max "
-            "of its own source: √(0.30² + ((1 + V_sh) 0.20)²) = 0.39")
+        .used("always; with `max_shortening_speed` free the spread of v_max adds: √(0.30² + ((1 + V_sh) 0.20)²) = 0.39")
         .from(kPublished);
 inline constexpr Belief kProduct = belief("eccentric_curvature_product", kModels, 0.65, logarithm, "")
                                        .used("`eccentric = \"product\"`")
@@ -155,11 +151,10 @@ inline constexpr Belief kLeastEffort =
     belief("least share of its maximum that a muscle's greatest effort is", 0.05, 0.0, value, "")
         .used(
             "no maximal contraction was recorded: every ratio from there to 1 is as likely, ln(share) = ln 0.22 ± "
-            "0.86. Estimator `posterior`: the belief about `emg_gain`; `least_squares`: adds to that about F_max, "
-            "which is then the force at the largest EMG")
+            "0.86; the belief about `emg_gain`")
         .from(
-            "antagonists of resisted movements reach 5 to 20 % of their maximum (Kellis 1998), the muscles of walking "
-            "10 to 80 % of a manual test's (Perry and Burnfield 2010)");
+            "antagonists reach 5 to 20 % of their maximum (Kellis 1998), muscles of walking 10 to 80 % (Perry and "
+            "Burnfield 2010)");
 inline constexpr Belief kEmgNoise =
     belief("noise of an EMG envelope, over that expected from its bandwidth", 1.0, 0.3, logarithm, "")
         .judged("where every channel's bandwidth is known");
@@ -178,44 +173,41 @@ inline constexpr Belief kStrengthRatio =
         .used("by more than this an exchange of two electrodes must improve the fit")
         .from("each differs by 30 % between published sets");
 
-// Quantities that residuals hardly determine: estimator `posterior`.
-inline constexpr std::string_view kPosterior = "estimator `posterior`";
+// Quantities that residuals hardly determine.
+inline constexpr std::string_view kPosterior = "every fit of a torque or force";
 inline constexpr Belief kTorqueNoise =
     belief("error of the torque, over its root mean square", 0.05, 1.5, logarithm, "").judged(kPosterior);
 inline constexpr Belief kTorqueNoiseTime =
     belief("time after which the error of the torque is another", 0.3, 0.5, logarithm, "s")
         .used(kPosterior)
         .from(
-            "judgment: of skin, filters and a muscle model that errs with the posture; errors that last are those of "
-            "offset, scale and moment arms, which are unknowns of their own");
+            "judgment: of skin, filters and a muscle model that errs with the posture; errors that last are unknowns "
+            "of their own");
 inline constexpr Belief kTrialTorqueNoise =
     belief("torque error of a trial over all", 1.0, 1.0, logarithm, "").judged(kPosterior);
 inline constexpr Belief kStrength =
     belief("strength of a person, over the model's: a factor of F_max that all muscles share", 1.0, 0.38, logarithm, "")
-        .used("estimator `posterior`, beside the spread of each muscle's F_max")
+        .used("beside the spread of each muscle's F_max")
         .from(
-            "the muscles of ten arms have 1.4 to 4.4 L (Holzbaur 2007): ln 0.37; two public models of a leg and two of "
-            "an arm differ by ln 0.45 and ln 0.81 on average, ln 0.32 and ln 0.57 to each "
+            "the muscles of ten arms (Holzbaur 2007): ln 0.37; public models: ln 0.32 and ln 0.57 per model "
             "(`tests/coverage/public_models.py`)");
 inline constexpr Belief kIndependentRows =
     belief("rows of a trial, 0.22 s each, that count as independent evidence, per joint", 16.0, 0.0, value, "")
         .used(kPosterior)
-        .from(
-            "judgment: a movement that is repeated repeats the EMG's and the model's errors, which the density takes "
-            "to be independent (coarsening, Miller and Dunson 2019)");
+        .from("judgment: repetitions repeat the EMG's and the model's errors (coarsening, Miller and Dunson 2019)");
 inline constexpr Belief kUnlikeness =
     belief("spread of a person's muscles about the model's, over the spreads stated above", 1.0, 0.3, logarithm, "")
-        .used("estimator `posterior`, of the spreads that are judgments")
+        .used("of the spreads that are judgments")
         .from(
             "a standard deviation from n people or cadavers is known to 1/sqrt(2 (n - 1)): 0.16 to 0.35 for n of 20 to "
             "5");
 inline constexpr Belief kRiseAndFall =
     belief("half of the difference between the times in which activation falls and rises", 0.0, 0.018, value, "s")
-        .used("estimator `posterior`, about none: the root mean square is the spread")
+        .used("about none: the root mean square is the spread")
         .from("15 ms rising, 50 ms falling (Thelen 2003)");
 inline constexpr std::string_view kMomentArmSource =
-    "of 40 moment arms, two public models differ by ln 0.13 in size and by 0.17 in this slope (robust), by 0.26 and "
-    "0.25 (root mean square): 0.09 to 0.18 and 0.12 to 0.18 to each (`tests/coverage/public_models.py`)";
+    "of 40 moment arms, two public models: 0.09 to 0.18 per model in size, 0.12 to 0.18 in slope "
+    "(`tests/coverage/public_models.py`)";
 inline constexpr Belief kMomentArm =
     belief("size of a muscle's moment arms, over the model's", 1.0, 0.15, logarithm, "")
         .used(kPosterior)
@@ -229,7 +221,7 @@ inline constexpr Belief kTorqueScale = belief("scale of the torque, over the tru
                                            .from("judgment: calibration of a dynamometer, inertia of the segments");
 inline constexpr Belief kTendonStretch =
     belief("strain at F_max of a tendon that the study takes to be rigid", 0.049, 0.02, value, "")
-        .used("estimator `posterior`, about no strain: the root mean square, 0.053, is the spread")
+        .used("about no strain: the root mean square, 0.053, is the spread")
         .from("4.9 % is the strain of Millard's tendon (2013); the spread is judgment");
 inline constexpr Belief kCrossTalk = belief("share of another electrode's envelope in an envelope", 0.0, 0.1, value, "")
                                          .used(kPosterior)
@@ -241,16 +233,16 @@ inline constexpr Belief kGainDrift =
 inline constexpr Belief kVoluntaryEffort =
     belief("force of a maximal voluntary contraction, over that of a completely active muscle", 1.0, 0.06, value, "")
         .used(
-            "estimator `posterior`, about 1: the root mean square is the spread; not where a study states "
+            "about 1: the root mean square is the spread; not where a study states "
             "`mvc_effort_sd`")
         .from("voluntary activation of healthy people is 0.9 to 1 (Gandevia 2001)");
 inline constexpr Belief kUnknownEmgNoise =
     belief("noise of an EMG envelope, over that of a bandwidth of 150 Hz", 1.0, 1.0, logarithm, "")
-        .judged("estimator `posterior` where no bandwidth is known");
+        .judged("where no bandwidth is known");
 
 }  // namespace beliefs
 
-/// The spreads of estimator `posterior` that a study may state for its person, model and
+/// The spreads that a study may state for its person, model and
 /// instruments (`[beliefs]`). At 0 the quantity is exact.
 struct UnseenSpreads {
   double moment_arm = beliefs::kMomentArm.sd;  ///< Spread of the logarithm.

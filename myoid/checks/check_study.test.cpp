@@ -66,8 +66,8 @@ TEST(CheckStudy, ASettingOfAnEarlierVersionIsSaidToHaveNoEffect) {
       return r.severity == Severity::warning && r.says.find("has no effect") != std::string::npos;
     });
   };
-  for (const char* setting : {"estimator = \"least_squares\"", "priors = false", "force_loop = true", "loss = \"huber\"",
-                              "bootstrap = 0", "profile = false", "max_rate_hz = 50"})
+  for (const char* setting : {"estimator = \"least_squares\"", "priors = false", "force_loop = true",
+                              "loss = \"huber\"", "bootstrap = 0", "profile = false", "max_rate_hz = 50"})
     EXPECT_TRUE(said(std::string("[identify]\n") + setting + "\n")) << setting;
   EXPECT_FALSE(said(""));
 }

@@ -115,12 +115,10 @@ void print_folds(const std::vector<identification::Fold>& folds,
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
   say("\n{:<34}{:>12}{:>14}{:>10}   {}\n", "left out of the fit, then predicted",
-      o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2",
-      "starting values, one gain: R2");
+      o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2", "starting values, one gain: R2");
   for (const identification::Fold& fold : folds) {
-    say("{:<34}{:>12.4g}{:>14.1f}{:>10}   {}\n",
-        several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial, fold.identified.rmse_nm(),
-        100.0 * fold.identified.nrmse_range(), identification::r2_text(fold.identified.r2()),
+    say("{:<34}{:>12.4g}{:>14.1f}{:>10}   {}\n", several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial,
+        fold.identified.rmse_nm(), 100.0 * fold.identified.nrmse_range(), identification::r2_text(fold.identified.r2()),
         identification::r2_text(fold.literature.r2()));
   }
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())

@@ -24,8 +24,8 @@ constexpr ChoiceNames choice_names(OutcomeKind) { return kOutcomeNames; }
 /// The end of one person's job. A job that was killed has no outcome.
 struct Outcome {
   OutcomeKind kind = OutcomeKind::done;
-  std::string message;   ///< Empty where all went well.
-  std::string build;     ///< `build_identity` of the program.
+  std::string message;  ///< Empty where all went well.
+  std::string build;    ///< `build_identity` of the program.
   std::vector<InputFile> inputs;
 };
 

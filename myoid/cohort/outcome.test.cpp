@@ -17,10 +17,7 @@ using testing::HasSubstr;
 TEST(Outcome, IsReadBackAndADamagedOneCountsAsNone) {
   const test::TemporaryFolder folder;
   EXPECT_FALSE(read_outcome(folder.path()));
-  write_outcome({.kind = OutcomeKind::gate_failed,
-                 .message = "said \"no\"",
-                 .build = "b",
-                 .inputs = {{"a.trc", "12"}}},
+  write_outcome({.kind = OutcomeKind::gate_failed, .message = "said \"no\"", .build = "b", .inputs = {{"a.trc", "12"}}},
                 folder.path());
   const auto outcome = read_outcome(folder.path());
   ASSERT_TRUE(outcome);
@@ -37,10 +34,8 @@ TEST(Outcome, IsCurrentOnlyForTheSameProgramAndBytes) {
   const test::TemporaryFolder folder;
   const auto study = folder / "study.toml";
   recording::write_file(study, "abc");
-  Outcome outcome{.kind = OutcomeKind::done,
-                  .message = {},
-                  .build = build_identity(),
-                  .inputs = {{study.string(), sha256("abc")}}};
+  Outcome outcome{
+      .kind = OutcomeKind::done, .message = {}, .build = build_identity(), .inputs = {{study.string(), sha256("abc")}}};
   EXPECT_TRUE(is_current(outcome, study));
   EXPECT_FALSE(is_current(outcome, folder / "other.toml")) << "another study";
   Outcome other = outcome;

@@ -66,8 +66,7 @@ Outcome computed(const CohortOptions& o, const fs::path& study, const fs::path& 
   RunResult result = run(options);
   result.study.times.clear();  // the same bytes however long the job takes
   write_run(result, folder);
-  Outcome outcome{
-      .kind = OutcomeKind::done, .message = {}, .build = {}, .inputs = result.provenance.inputs};
+  Outcome outcome{.kind = OutcomeKind::done, .message = {}, .build = {}, .inputs = result.provenance.inputs};
   judge(result, outcome);
   return outcome;
 }

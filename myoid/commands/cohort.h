@@ -18,11 +18,11 @@ namespace myoid::commands {
 /// Many persons, each with a study: `run` for each, then all results side by side.
 struct CohortOptions {
   Call call;
-  std::string manifest;                                    ///< Table of the persons, or folder of a BIDS data set.
-  std::string study;                                       ///< BIDS: the study of every person; empty: code/study.toml.
-  std::vector<std::string> persons;                        ///< Names or labels; empty: all persons.
-  bool overwrite = false;  ///< Also into folders with other content than a cohort's results.
-  std::size_t jobs = 0;    ///< Persons computed at the same time; 0: as many as threads.
+  std::string manifest;              ///< Table of the persons, or folder of a BIDS data set.
+  std::string study;                 ///< BIDS: the study of every person; empty: code/study.toml.
+  std::vector<std::string> persons;  ///< Names or labels; empty: all persons.
+  bool overwrite = false;            ///< Also into folders with other content than a cohort's results.
+  std::size_t jobs = 0;              ///< Persons computed at the same time; 0: as many as threads.
   /// Receives the end of each person at once; may be empty. Called by one thread at a time.
   std::function<void(const cohort::PersonOutcome&)> heard;
 };

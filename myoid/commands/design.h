@@ -12,13 +12,13 @@ namespace myoid::commands {
 /// Options of the choice of movements to record next.
 struct DesignOptions {
   Call call;
-  std::string study;  ///< study.toml; or `model`.
-  std::string model;  ///< The built-in arm: "arm4".
-  bool wire = false;  ///< For arm4: the brachialis has a wire electrode of its own.
-  std::string after;  ///< Folder of a run whose results count as known; empty: none.
-  std::string criterion = "D";                             ///< D or A.
-  bool dynamometer = true;                                 ///< Isokinetic movements are possible.
-  DesignStudyOptions design;                               ///< Its seed, criterion and `earlier` follow from the above.
+  std::string study;            ///< study.toml; or `model`.
+  std::string model;            ///< The built-in arm: "arm4".
+  bool wire = false;            ///< For arm4: the brachialis has a wire electrode of its own.
+  std::string after;            ///< Folder of a run whose results count as known; empty: none.
+  std::string criterion = "D";  ///< D or A.
+  bool dynamometer = true;      ///< Isokinetic movements are possible.
+  DesignStudyOptions design;    ///< Its seed, criterion and `earlier` follow from the above.
 };
 
 struct DesignResult {

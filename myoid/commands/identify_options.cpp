@@ -114,12 +114,12 @@ void visit_files(IdentifyOptions& o, SettingVisitor& v) {
       "torques", o.files.torques,
       {.says = "The joint torque that the muscles provide together [N m].", .otherwise = "none; `torque` needs them"});
   v.texts("coordinate", o.files.coordinates,
-          {.says = "Columns of the torque file, with or without `_moment`. Several joints are fitted at once: "
-                   "`--moment-arms` then has the first trial's files in this order, then the next trial's.",
+          {.says = "Columns of the torque file, with or without `_moment`. Several joints are fitted at once; "
+                   "`--moment-arms` follows their order within each trial.",
            .otherwise = "the only column"});
   v.texts("motion", o.files.motions,
-          {.says = "Joint angles (`.mot`, `.sto`; columns as `--coordinate`, or the only one), differentiated by the "
-                   "quintic spline through them: for the stiffness and viscosity of the joint itself.",
+          {.says = "Joint angles (`.mot`, `.sto`; columns as `--coordinate`, or the only one), differentiated, for the "
+                   "stiffness and viscosity of the joint itself.",
            .otherwise = "none: the joint's own torque is a constant"});
   v.number("lowpass", o.files.motion_cutoff_hz,
            {.says = "The angles of `--motion` are smoothed, −3 dB at this frequency.",
@@ -132,21 +132,18 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
   static constexpr std::string_view kMethods[] = {"torque", "force", "paper"};
   static constexpr std::string_view kLags[] = {"automatic", "delay", "shared"};
   v.text("method", o.method,
-         {.says = "`torque`: all muscles against the joint's torque; `force`: each muscle, both branches at once, "
-                  "against its own force; `paper`: each branch alone, as published.",
+         {.says = "`torque`: all muscles against the joint's torque; `force`: each muscle against its own force; "
+                  "`paper`: each branch alone, as published.",
           .words = kMethods});
   v.number("delay", o.delay_s,
            {.says = "The EMG delay is held at this (`force`, `torque`).",
             .limits = within(0.0, 0.3, "s"),
             .otherwise = "estimated"});
-  v.text(
-      "lag", o.lag,
-      {.says =
-           "How muscles follow their EMG (`force`, `torque`). `delay`: the activation is the envelope of `emg_delay` "
-           "ago; `shared`: the mean delay is split into a pure delay and the lags of excitation and activation, which "
-           "damp fast changes; `automatic`: both, by their evidence ([how](../theory/identification.md)).",
-       .otherwise = "`automatic` for `torque`, else `delay`",
-       .words = kLags});
+  v.text("lag", o.lag,
+         {.says = "How muscles follow their EMG (`force`, `torque`): `delay`: by `emg_delay`; `shared`: by a delay and "
+                  "lags; `automatic`: both, by their evidence ([how](../theory/identification.md)).",
+          .otherwise = "`automatic` for `torque`, else `delay`",
+          .words = kLags});
   v.texts("free", o.free_more,
           {.says = "Further parameters to identify, of all muscles, channels or the joint, by comma: "
                    "`emg_shape,joint_inertia`, beside [those of every fit](#what-is-identified).",
@@ -176,16 +173,16 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
            .limits = within(1, 1000),
            .otherwise = "1; of `--compare-solvers` 3"});
   v.text("folds", o.folds,
-         {.says = "The part that is left out of the fit and predicted (`force`, `torque`): a `trial`; a `block`, a "
-                  "fifth of every trial of 3.3 s or more with half a second on either side; or `none`.",
+         {.says = "What is left out of the fit and predicted: a `trial`; a `block`, a fifth of every trial of 3.3 s or "
+                  "more; or `none`.",
           .words = kFolds});
   v.text("scales", o.scales,
          {.says = "Of method `torque`: muscles that share an electrode share one scale of every parameter of the law "
-                  "(`electrode`), because one EMG cannot tell them apart, or each muscle has its own (`muscle`).",
+                  "(`electrode`), or have their own (`muscle`).",
           .words = kScales});
   v.texts("validate", o.files.held_back,
-          {.says = "Trials that are not fitted but predicted (`torque`), each by its number, its file of lengths, or "
-                   "that file's name without ending. Written as [`predict`](predict.md) writes them.",
+          {.says = "Trials that are predicted (`torque`), not fitted: by number, file of lengths, or its name without "
+                   "ending. Written as by [`predict`](predict.md).",
            .otherwise = "none"});
 }
 

@@ -33,8 +33,7 @@ TEST(IdentifyOptions, WhatTheMethodDoesNotUseIsSaid) {
               ElementsAre(HasSubstr("--compare-solvers"), HasSubstr("--starts"), HasSubstr("--torques")));
   o.method = "paper";
   o.posterior_draws = 400;
-  EXPECT_THAT(without_effect(o),
-              ElementsAre(HasSubstr("--posterior-draws"), HasSubstr("--torques")));
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--posterior-draws"), HasSubstr("--torques")));
   o.posterior_draws = 0;
   o.beliefs = "study.toml";
   EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--beliefs"), HasSubstr("--torques")));

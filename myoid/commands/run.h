@@ -24,10 +24,10 @@ inline const std::vector<std::string_view> kRunFiles{"report.",     "run.json", 
 /// Options of the whole pipeline, from a study's recordings to muscle parameters.
 struct RunOptions {
   Call call;
-  std::string study;                                       ///< study.toml
-  std::vector<identification::Method> methods;             ///< In place of the study's; empty: the study's.
-  VideoChoice video;                                       ///< In place of the study's films.
-  std::optional<std::filesystem::path> store;              ///< Keeps stages between runs; empty: none.
+  std::string study;                            ///< study.toml
+  std::vector<identification::Method> methods;  ///< In place of the study's; empty: the study's.
+  VideoChoice video;                            ///< In place of the study's films.
+  std::optional<std::filesystem::path> store;   ///< Keeps stages between runs; empty: none.
 };
 
 struct RunResult {

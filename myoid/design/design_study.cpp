@@ -227,14 +227,13 @@ struct Expected {
     std::vector<ParameterEstimate> estimates;
     for (const Eigen::Index j : targets) {
       const Unknown& f = free[static_cast<std::size_t>(j)];
-      estimates.push_back(
-          expected_estimate(f,
-                            {.mean = known.mean[j],
-                             .sd = sd[j],
-                             .prior_sd = f.prior.sd > 0.0 ? identification::prior_spread(f, strength_sd) : prior_sd[j],
-                             .model_error = earlier ? earlier->model_error : 0.0,
-                             .found = found_by(earlier, f),
-                             .ratio = ratio(j, sd)}));
+      estimates.push_back(expected_estimate(
+          f, {.mean = known.mean[j],
+              .sd = sd[j],
+              .prior_sd = f.prior.sd > 0.0 ? identification::prior_spread(f, strength_sd) : prior_sd[j],
+              .model_error = earlier ? earlier->model_error : 0.0,
+              .found = found_by(earlier, f),
+              .ratio = ratio(j, sd)}));
     }
     return estimates;
   }
@@ -339,8 +338,7 @@ DesignStudyResult design_study(const Study& study, const model::BodyModel& model
   result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
-  const Expected expected{
-      free, known, problem.targets, choice.prior_sd, torque.unseen.strength, options.earlier};
+  const Expected expected{free, known, problem.targets, choice.prior_sd, torque.unseen.strength, options.earlier};
   result.beforehand = expected.beforehand();
   std::vector<const Effort*> chosen;
   for (const identification::DesignStep& step : choice.steps) {

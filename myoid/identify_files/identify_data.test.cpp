@@ -297,7 +297,8 @@ TEST(IdentifyData, ViscosityInertiaAndStiffnessComeBackFromTheJointsMotion) {
   for (const char* name : {"joint_viscosity", "joint_inertia", "joint_stiffness"})
     data.rules.push_back({.parameter = name, .free = true});
   // The spline errs near its ends, over 5 s: the data are near the model, not on it.
-  for (identification::MuscleSetup& muscle : data.muscles) muscle.priors = identification::literature_priors(muscle.start);
+  for (identification::MuscleSetup& muscle : data.muscles)
+    muscle.priors = identification::literature_priors(muscle.start);
   const identification::IdentificationResult fit =
       identification::identify_torque(data, {.predictions = false, .marginals = false});
   ASSERT_EQ(fit.values.joints.size(), 1u);

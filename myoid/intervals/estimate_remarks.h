@@ -12,8 +12,8 @@
 
 namespace myoid::identification {
 
-/// Returns of every muscle the range of its musculotendon lengths in the calibration trials while it is active (above 2 %
-/// of the greatest EMG), without a tenth of a second at either end [m]. Activation acts `delay_s` after the EMG.
+/// Returns of every muscle the range of its musculotendon lengths in the calibration trials while it is active (above 2
+/// % of the greatest EMG), without a tenth of a second at either end [m]. Activation acts `delay_s` after the EMG.
 [[nodiscard]] std::vector<double> active_length_spans_m(const StudyData& data, double delay_s);
 
 /// Returns |z - prior mean| / prior sd, in the solver's scale.

@@ -176,8 +176,8 @@ struct IdentificationResult {
   std::vector<muscle::HillParameters<double>> muscles;
   ModelValues values;          ///< All numbers of the model with the estimates (methods force, torque).
   EmgLag lag = EmgLag::delay;  ///< The law by which the muscles follow their EMG.
-  double delay_s = 0.0;      ///< Delay of the first channel.
-  Eigen::VectorXd solution;  ///< In the solver's scale (method torque).
+  double delay_s = 0.0;        ///< Delay of the first channel.
+  Eigen::VectorXd solution;    ///< In the solver's scale (method torque).
   /// Covariance of the free parameters in the solver's scale (logarithms where logarithmic).
   Eigen::MatrixXd covariance;
   std::vector<std::string> free_parameters;  ///< Names of the rows of `covariance`.

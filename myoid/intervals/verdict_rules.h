@@ -32,9 +32,9 @@ struct VerdictRules {
   [[nodiscard]] bool possible(double width) const {
     return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
   }
-  double least_r2 = 0.50;        ///< A fit that explains less of the torque identifies nothing.
-  double on_bound = 0.001;       ///< Share of the possible range: an interval that ends nearer to a bound is cut off.
-  double no_delay_s = 1e-6;      ///< Limit up to which a delay on its bound counts as 0.
+  double least_r2 = 0.50;    ///< A fit that explains less of the torque identifies nothing.
+  double on_bound = 0.001;   ///< Share of the possible range: an interval that ends nearer to a bound is cut off.
+  double no_delay_s = 1e-6;  ///< Limit up to which a delay on its bound counts as 0.
   double active = 0.02, least_s = 0.1;  ///< A muscle acts above this activation, and has done so only after this time.
 };
 

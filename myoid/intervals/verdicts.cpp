@@ -78,8 +78,8 @@ std::string widths_text(const NumberFacts& facts) {
 
 /// Returns the reason of a finding beside which no width matters; else empty.
 std::string without_width(Finding finding, const NumberFacts& facts) {
-  const std::string failed =
-      facts.failure.empty() ? "the search for the posterior's mode did not end" : "the fit did not converge: " + facts.failure;
+  const std::string failed = facts.failure.empty() ? "the search for the posterior's mode did not end"
+                                                   : "the fit did not converge: " + facts.failure;
   switch (finding) {
     case Finding::not_converged:
       return failed;
@@ -191,8 +191,10 @@ std::string reason_of(Finding finding, const NumberFacts& facts) {
   if (is_far(facts)) text += fmt::format("; {:.1f} standard deviations away from its prior", *facts.prior_distance);
   if (finding == Finding::impossible) text = facts.impossible + "; " + text;
   if (finding == Finding::given_strength)
-    text = "if F_max is the value at which it was held: its error goes into every other number, and method force finds "
-           "it along with them; " + text;
+    text =
+        "if F_max is the value at which it was held: its error goes into every other number, and method force finds "
+        "it along with them; " +
+        text;
   if (finding == Finding::narrow_if_given) text = "compare sessions of this person by it, but not persons: " + text;
   if (finding == Finding::readings_apart)
     text = "the person's interval and the one given geometry and sensors exclude each other; " + text;

@@ -12,12 +12,12 @@ namespace myoid::identification {
 /// recording have one reading: `given` and its interval are the person's.
 struct NumberFacts {
   bool converged = true;
-  std::string failure;                        ///< Reason why the search did not end at a minimum.
-  bool determined = true;                     ///< False: it lies in a direction that the data leave open.
-  std::string no_effect;                      ///< Reason why nothing in the data depends on the number.
-  std::string bad_company;                    ///< Another number of the same fit that no muscle can have.
-  bool shared_force = false;                  ///< An optimizer shared the force that was fitted; nobody measured it.
-  bool given_strength = false;                ///< F_max is held at the user's value.
+  std::string failure;          ///< Reason why the search did not end at a minimum.
+  bool determined = true;       ///< False: it lies in a direction that the data leave open.
+  std::string no_effect;        ///< Reason why nothing in the data depends on the number.
+  std::string bad_company;      ///< Another number of the same fit that no muscle can have.
+  bool shared_force = false;    ///< An optimizer shared the force that was fitted; nobody measured it.
+  bool given_strength = false;  ///< F_max is held at the user's value.
   bool one_reading = false;
   bool approximate = false;                   ///< The interval comes from the normal approximation.
   bool nuisance_gain = false;                 ///< The gain of an EMG channel: a scale that F_max shares.

@@ -243,8 +243,7 @@ TEST(Verdicts, OneReadingNamesNoOther) {
 }
 
 TEST(Verdicts, ANumberWithoutEffectOrBesideAnImpossibleOneIsNotIdentifiable) {
-  for (const auto& [set, words] :
-       std::vector<std::pair<std::function<void(NumberFacts&)>, std::string>>{
+  for (const auto& [set, words] : std::vector<std::pair<std::function<void(NumberFacts&)>, std::string>>{
            {[](NumberFacts& f) { f.determined = false; }, "cannot tell them apart"},
            {[](NumberFacts& f) { f.no_effect = "V_ml is 1"; }, "V_ml is 1"},
            {[](NumberFacts& f) { f.bad_company = "l_sh"; }, "the same fit puts l_sh where no muscle can be"}}) {

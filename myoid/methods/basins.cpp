@@ -11,11 +11,8 @@ constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
 
 }  // namespace
 
-BasinTable find_basins(const math::LocalSearch& search,
-                       const StartBox& box,
-                       int starts,
-                       Eigen::Index samples,
-                       const Progress& progress) {
+BasinTable find_basins(
+    const math::LocalSearch& search, const StartBox& box, int starts, Eigen::Index samples, const Progress& progress) {
   BasinTable table;
   math::MultistartOptions options;
   options.starts = starts_in(box, starts);

@@ -36,17 +36,17 @@ struct Fold {
   std::vector<ParameterEstimate> parameters;
   EmgLag lag = EmgLag::delay;
   bool converged = true;
-  Score fitted;            ///< Score of the same parameters on the fitted trials.
-  Score identified;        ///< Score of the fit to the others.
-  Score band;              ///< Score with both torques below the fit's own cut-off.
-  Score literature;        ///< Score of literature parameters with the one gain that fits the others best.
-  Score regression;        ///< Score of the torque's regression on activation times moment arm of every
-                           ///< muscle.
-  Score constant;          ///< Score of the mean torque of the others.
-  double gain = 1.0;       ///< Gain of the literature's parameters.
-  double lag_s = 0.0;      ///< Lag of the identified prediction.
-  double covered = 0.0;    ///< Share of the samples within the prediction's 95 % band.
-  UnseenEffort unseen;     ///< Effort beyond that of the fitted trials.
+  Score fitted;          ///< Score of the same parameters on the fitted trials.
+  Score identified;      ///< Score of the fit to the others.
+  Score band;            ///< Score with both torques below the fit's own cut-off.
+  Score literature;      ///< Score of literature parameters with the one gain that fits the others best.
+  Score regression;      ///< Score of the torque's regression on activation times moment arm of every
+                         ///< muscle.
+  Score constant;        ///< Score of the mean torque of the others.
+  double gain = 1.0;     ///< Gain of the literature's parameters.
+  double lag_s = 0.0;    ///< Lag of the identified prediction.
+  double covered = 0.0;  ///< Share of the samples within the prediction's 95 % band.
+  UnseenEffort unseen;   ///< Effort beyond that of the fitted trials.
   /// Trials one after another; the standard deviation is empty where it is not known.
   Eigen::VectorXd time_s, measured_nm, predicted_nm, predicted_sd_nm, literature_nm;
 };

@@ -56,14 +56,12 @@ class PlainFit {
   [[nodiscard]] math::LeastSquaresResult search(const Eigen::VectorXd& start,
                                                 double step_tolerance,
                                                 double cost_tolerance) const {
-    return math::minimize({.residual_count = rows_,
-                           .evaluate = [this](const auto& z, auto& r, auto* j) { residual(z, r, j); },
-                           .lower = bounds(&muscle::Range::lower),
-                           .upper = bounds(&muscle::Range::upper)},
-                          start,
-                          {.step_tolerance = step_tolerance,
-                           .cost_tolerance = cost_tolerance,
-                           .progress = {{}, progress_.stop}});
+    return math::minimize(
+        {.residual_count = rows_,
+         .evaluate = [this](const auto& z, auto& r, auto* j) { residual(z, r, j); },
+         .lower = bounds(&muscle::Range::lower),
+         .upper = bounds(&muscle::Range::upper)},
+        start, {.step_tolerance = step_tolerance, .cost_tolerance = cost_tolerance, .progress = {{}, progress_.stop}});
   }
 
   [[nodiscard]] bool leaves_at_most(double share, const math::LeastSquaresResult& found) const {
@@ -99,7 +97,7 @@ class PlainFit {
   }
 
  private:
-  [[nodiscard]] Eigen::VectorXd bounds(double muscle::Range::* end) const {
+  [[nodiscard]] Eigen::VectorXd bounds(double muscle::Range::*end) const {
     Eigen::VectorXd of_all(map_.size());
     for (Eigen::Index j = 0; j < of_all.size(); ++j) of_all[j] = map_.free()[static_cast<std::size_t>(j)].bounds.*end;
     return of_all;

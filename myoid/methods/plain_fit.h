@@ -22,12 +22,12 @@ inline constexpr double kNoiseFreeRate_hz = 200.0;
 ///
 ///   C(z) = 1/2 sum_i (T^_i(z) - T_i)^2
 ///
-/// over the samples of the calibration trials, up to kNoiseFreeRate_hz, without weights, priors, gains and low-pass; the
-/// envelopes are the drives. Levenberg-Marquardt runs from 12 starts, the given one and points near it at several EMG
-/// delays, on 500 samples or 10 for each unknown, then once on all samples from a point that meets these few. Returns
-/// the result if the sum of squared residuals is at most 1e-12 of the data's, else nothing: then the data have noise, or
-/// do not follow the model. Both readings of a number are equal. The covariance is s^2 (J'J)^-1 (math/covariance.h).
-/// Throws InvalidInput for data that do not fit together.
+/// over the samples of the calibration trials, up to kNoiseFreeRate_hz, without weights, priors, gains and low-pass;
+/// the envelopes are the drives. Levenberg-Marquardt runs from 12 starts, the given one and points near it at several
+/// EMG delays, on 500 samples or 10 for each unknown, then once on all samples from a point that meets these few.
+/// Returns the result if the sum of squared residuals is at most 1e-12 of the data's, else nothing: then the data have
+/// noise, or do not follow the model. Both readings of a number are equal. The covariance is s^2 (J'J)^-1
+/// (math/covariance.h). Throws InvalidInput for data that do not fit together.
 [[nodiscard]] std::optional<IdentificationResult> fit_exactly(const StudyData& data, const EstimatorOptions& options);
 
 /// Returns the first exact fit of the data without nuisances (nuisances.h); with the v_max of the muscles in

@@ -86,9 +86,7 @@ TEST(SolverContest, TellsItsProgressAndStopsWhenAsked) {
         source.request_stop();
       }
     };
-    const auto run = [&] {
-      return compare_paper_solvers(forces.data, 0, true, options);
-    };
+    const auto run = [&] { return compare_paper_solvers(forces.data, 0, true, options); };
     EXPECT_THROW((void)run(), Interrupted);
     EXPECT_EQ(told, 7);
   }

@@ -19,16 +19,14 @@ using TorqueOptions = EstimatorOptions;
 ///   T^(t) = sum_i r_i F_i(g a_i(t - d), l_i, v_i; x_i)
 ///
 /// The unknowns are F_max, l0, l_sh, V_sh, P and V_ml of each muscle (positive ones as logarithms), the EMG delay d, a
-/// gain g per EMG channel, and further numbers that `StudyData::rules` free. Estimates, intervals and verdicts are those
-/// of one posterior (posterior/posterior.h). Verdicts are capped by `caps_of_torque`. Throws InvalidInput for data that
-/// do not fit together. A search that fails does not throw: read `termination`.
+/// gain g per EMG channel, and further numbers that `StudyData::rules` free. Estimates, intervals and verdicts are
+/// those of one posterior (posterior/posterior.h). Verdicts are capped by `caps_of_torque`. Throws InvalidInput for
+/// data that do not fit together. A search that fails does not throw: read `termination`.
 [[nodiscard]] IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options = {});
 
 /// Returns the exact fit of data without noise (exact_fit) with its predictions; empty if there is none.
 [[nodiscard]] std::optional<IdentificationResult> identify_exactly(
-    const StudyData& data,
-    const TorqueOptions& options = {},
-    const std::vector<std::string>& speed_may_be_free = {});
+    const StudyData& data, const TorqueOptions& options = {}, const std::vector<std::string>& speed_may_be_free = {});
 
 /// Identifies from data that may be free of noise: `identify_exactly` if it finds a fit, else `identify_torque`
 /// with the v_max of the muscles in `speed_may_be_free` as unknowns, and without the nuisances (nuisances.h) where the

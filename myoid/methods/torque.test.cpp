@@ -230,8 +230,7 @@ TEST(IdentifyTorque, HeldParametersStayAndOthersTakeTheirBounds) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .with_priors = true});
   study.data.muscles[1].fixed = {"concentric_curvature", "force_length_width"};
   study.data.muscles[2].bounds["optimal_fiber_length"] = {0.165, 0.175};
-  const IdentificationResult result =
-      identify_torque(study.data, {.muscles = {"BRA", "BRD"}, .delay_s = 0.05});
+  const IdentificationResult result = identify_torque(study.data, {.muscles = {"BRA", "BRD"}, .delay_s = 0.05});
   EXPECT_EQ(result.free_parameters.size(), 4U + 6U);
   EXPECT_EQ(result.muscles[0].max_isometric_force_n, study.data.muscles[0].start.max_isometric_force_n);
   EXPECT_EQ(result.muscles[1].concentric_curvature, study.data.muscles[1].start.concentric_curvature);

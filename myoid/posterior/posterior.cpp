@@ -66,6 +66,21 @@ Eigen::MatrixXd gauss_newton_covariance(const Density& density, const Eigen::Vec
   return precision.ldlt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
+/// Returns x with tendons as long as their priors say and fibers longer by what the tendons lose: the same torque.
+Eigen::VectorXd with_tendons_of_the_model(const Density& density, const Eigen::VectorXd& x) {
+  const ParameterMap& map = density.parameters();
+  Eigen::VectorXd z = density.z_of(x);
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const Unknown& tendon = map.free()[static_cast<std::size_t>(j)];
+    if (!tendon.is(Scope::muscle, kSlack)) continue;
+    const Eigen::Index fiber = map.find(Scope::muscle, kFiberLength, tendon.targets.front().owner);
+    if (fiber >= 0 && map.free()[static_cast<std::size_t>(fiber)].targets.size() == 1)
+      z[fiber] += z[j] - tendon.prior.mean;
+    z[j] = tendon.prior.mean;
+  }
+  return density.x_of(z, density.noise_of(x));
+}
+
 /// The second reading of z: value, 95 % interval and draws if geometry and sensors were exact.
 struct Given {
   Eigen::VectorXd value, low, high;
@@ -82,7 +97,7 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   Density& density = *of_given;
   const Eigen::VectorXd of_person = gauss_newton_covariance(density, best.mode.x).diagonal().cwiseMax(0.0).cwiseSqrt();
   density.believe(Believed::geometry_and_sensors_exact);
-  const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRoughPromise);
+  const Mode mode = find_mode(density, {.x = with_tendons_of_the_model(density, best.mode.x)}, progress, kRoughPromise);
   const Eigen::MatrixXd covariance = gauss_newton_covariance(density, mode.x);
   const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const std::vector<Unknown>& free = density.parameters().free();
@@ -223,6 +238,8 @@ ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::si
   facts.given = value(of.given.value[at]);
   facts.low_given = value(of.given.low[at]);
   facts.high_given = value(of.given.high[at]);
+  // Exact in the second reading, which then determines nothing of it.
+  if (p.is(Scope::muscle, kSlack)) facts.low_given = facts.high_given = facts.given;
   judge_row(of, unknown, draws, target.owner, {value(p.bounds.lower), value(p.bounds.upper)}, e, facts);
   return e;
 }

@@ -116,12 +116,13 @@ Table folds_table(const StudyResult& result) {
       fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
       fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
           "NRMSE is RMSE over the range. The prediction is that of a fit without this part (fold_parameters.csv); in "
-          "band: share of the samples within the prediction's 95 % band. Below 1.5 Hz both torques are compared without faster changes, which in the "
+          "band: share of the samples within the prediction's 95 % band. Below 1.5 Hz both torques are compared "
+          "without faster changes, which in the "
           "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. Baselines, RMSE in N m "
           "and R2 in brackets: the literature's parameters with the one gain that fits the others best; torque "
           "regressed on EMG times moment arm; the others' mean torque.",
-      {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz",
-       "VAF", "in band", "lag [ms]", "literature x gain", "regression", "constant"}};
+      {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "VAF", "in band",
+       "lag [ms]", "literature x gain", "regression", "constant"}};
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
   for (const identification::Fold& f : result.folds) {
     const bool stands_out =
@@ -129,8 +130,7 @@ Table folds_table(const StudyResult& result) {
     const std::string title = title_of(result, f.trial, f.joint);
     std::vector<Cell> row =
         score_cells(stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"} : Cell{title},
-                    f.identified, std::max(identification::kVerdictRules.least_r2, f.literature.r2()),
-                    f.band);
+                    f.identified, std::max(identification::kVerdictRules.least_r2, f.literature.r2()), f.band);
     row.insert(row.end(), {{fmt::format("{:.3f}", f.identified.vaf())},
                            {share_text(f.covered)},
                            {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
@@ -143,15 +143,14 @@ Table folds_table(const StudyResult& result) {
 }
 
 Table held_back_table(const StudyResult& result, const identification::IdentificationResult& method) {
-  Table table{
-      "validation_trials",
-      "Trials held back for validation",
-      "Joint torque predicted with the muscles identified on the calibration trials.",
-      {"trial", "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"}};
+  Table table{"validation_trials",
+              "Trials held back for validation",
+              "Joint torque predicted with the muscles identified on the calibration trials.",
+              {"trial", "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"}};
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
-    table.rows.push_back(score_cells({title_of(result, t.trial, t.joint)}, t.score,
-                                     identification::kVerdictRules.least_r2, t.band));
+    table.rows.push_back(
+        score_cells({title_of(result, t.trial, t.joint)}, t.score, identification::kVerdictRules.least_r2, t.band));
     table.rows.back().push_back(
         {share_text(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))});
   }

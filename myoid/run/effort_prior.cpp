@@ -10,9 +10,7 @@ namespace myoid {
 
 bool from_maximal_effort(const EmgSpec& emg) { return emg.has_mvc || emg.kind == EmgKind::activation; }
 
-bool effort_is_unknown(const Study& study) {
-  return !from_maximal_effort(study.emg) && study.identify.gain;
-}
+bool effort_is_unknown(const Study& study) { return !from_maximal_effort(study.emg) && study.identify.gain; }
 
 Prior any_effort() {
   // Mean and spread of a logarithm that is uniform from ln(least) to 0.

@@ -105,7 +105,8 @@ TEST(TorqueOptions, TheStudyAndTheCommandLineFindTheSameNumbersInTheSameData) {
   study.emg.has_mvc = true;
   const identification::EstimatorOptions of_run = torque_options(study, {}, {});
   const identification::EstimatorOptions of_identify = identification::estimator_options({}, {}, {});
-  const test::ElbowStudy elbow = test::elbow_study({.trials = 2, .seconds = 10.0, .delay_s = 0.05, .with_priors = true});
+  const test::ElbowStudy elbow =
+      test::elbow_study({.trials = 2, .seconds = 10.0, .delay_s = 0.05, .with_priors = true});
   const auto run = identification::identify_torque(elbow.data, of_run);
   const auto identify = identification::identify_torque(elbow.data, of_identify);
   ASSERT_EQ(run.estimates.size(), identify.estimates.size());

@@ -171,7 +171,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
                             [&](const Progress& progress) { return study_fit(study, input, result.emg, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
   StudyValidation validation;
-  if (study.identify.cross_validate && wants_torque(study) && !torque_of(fit)->exact)
+  if (study.identify.cross_validate && wants_torque(study))
     validation = stages.run("validation", 0.85, 0.95, [&](const Progress& progress) {
       return study_validation(fit_source(result), input, *torque_of(fit), progress);
     });

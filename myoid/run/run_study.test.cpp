@@ -88,25 +88,10 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
     EXPECT_GT(recording::read_storage(out / trial / name).data.sample_count(), 10) << name;
   }
   const recording::CsvTable table = recording::read_csv_table(out / "parameters.csv");
-  const std::vector<std::string> columns{"muscle",
-                                         "parameter",
-                                         "unit",
-                                         "method",
-                                         "case",
-                                         "initial",
-                                         "estimate",
-                                         "std_error",
-                                         "ci_low",
-                                         "ci_high",
-                                         "given_estimate",
-                                         "given_ci_low",
-                                         "given_ci_high",
-                                         "prior_mean",
-                                         "prior_sd",
-                                         "shrinkage",
-                                         "at_bound",
-                                         "verdict",
-                                         "reason"};
+  const std::vector<std::string> columns{"muscle",         "parameter",    "unit",          "method",     "case",
+                                         "initial",        "estimate",     "std_error",     "ci_low",     "ci_high",
+                                         "given_estimate", "given_ci_low", "given_ci_high", "prior_mean", "prior_sd",
+                                         "shrinkage",      "at_bound",     "verdict",       "reason"};
   EXPECT_EQ(table.names, columns);
   EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
   EXPECT_TRUE(std::filesystem::exists(out / "parameters.json"));

@@ -53,6 +53,9 @@ StudyValidation study_validation(const FitSource& source,
       of_fold.options.begin_at = options.begin_at;
       options = identification::of_a_fold(std::move(of_fold.options));
     }
+    if (whole.exact) {
+      if (auto exact = identification::identify_exactly(split, options)) return std::move(*exact);
+    }
     return identification::identify_torque(split, options);
   };
   StudyValidation found;

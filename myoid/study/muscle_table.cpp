@@ -80,8 +80,8 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
   v.table("start", !muscle.start.empty(), {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
           [&muscle](SettingVisitor& inside) { visit_start(muscle.start, inside); });
   v.texts("fixed", muscle.fixed,
-          {.says = "Parameters that are held. `max_shortening_speed` is held only where it is named here: unknown, it "
-                   "is free with the literature's spread, which the intervals of V_sh then carry.",
+          {.says = "Parameters that are held. Unless it is named here, `max_shortening_speed` is free, with the "
+                   "literature's spread.",
            .words = kHillNames});
 }
 

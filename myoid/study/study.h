@@ -236,8 +236,8 @@ struct PhasesSpec {
 struct IdentifySpec {
   std::vector<identification::Method> methods{identification::Method::paper, identification::Method::torque};
   std::vector<std::string> muscles;  ///< Empty: all.
-  int posterior_draws = 0;  ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
-  bool gain = true;         ///< EMG gain per channel as a nuisance with a tight prior.
+  int posterior_draws = 0;           ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
+  bool gain = true;                  ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
   int next_movements = 4;  ///< Movements to suggest for the next recording; 0: none.
   identification::FoldKind folds = identification::FoldKind::trial;

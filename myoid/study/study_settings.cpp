@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/study/muscle_table.h"
+#include "myoid/study/study_ids.h"
 #include "myoid/study/trial_table.h"
 #include "myoid/study/trial_up.h"
 
@@ -46,9 +47,8 @@ namespace {
 void visit_coordinates(ModelSpec& model, SettingVisitor& v) {
   std::vector<std::string> names = study_coordinates(model);
   v.texts("coordinate", names,
-          {.says = "The joint whose torque the muscles share; or several that the same muscles cross, "
-                   "`[\"knee_angle_r\", \"ankle_angle_r\"]`: method `torque` fits all their torques at once, force "
-                   "sharing balances them all, and each is validated."});
+          {.says = "The joint whose torque the muscles share, or [several](#several-joints) that the same muscles "
+                   "cross: `[\"knee_angle_r\", \"ankle_angle_r\"]`."});
   v.must(!names.empty(), "coordinate", "expected the name of a joint coordinate");
   for (auto it = names.begin(); it != names.end(); ++it)
     v.must(std::find(names.begin(), it, *it) == it, "coordinate", fmt::format("'{}' is named twice", *it));
@@ -108,9 +108,8 @@ void visit(MarkerSpec& markers, SettingVisitor& v) {
   static constexpr std::string_view kUps[] = {"auto", "x", "y", "z"};
   std::string up = markers.up == kUpOfTheFile ? "auto" : std::string(1, markers.up);
   v.text("up", up,
-         {.says =
-              "The laboratory's vertical, of markers and force plates; it is turned onto the model's, against its "
-              "gravity. `auto`: [as each `.c3d` file says](c3d.md#which-way-is-up), the model's for files that do not.",
+         {.says = "The laboratory's vertical, of markers and force plates, turned onto the model's. `auto`: [as each "
+                  "`.c3d` file says](c3d.md#which-way-is-up), else the model's.",
           .words = kUps});
   markers.up = up == "auto" ? kUpOfTheFile : up.front();
   v.texts_by_name("rename", markers.rename, {.says = "Marker name of the file = that of the model."});
@@ -154,7 +153,7 @@ void visit(EmgSpec& emg, SettingVisitor& v) {
                   "(check.md))."});
   v.flag("whitening", emg.whitening,
          {.says = "Raw EMG is [whitened](../theory/emg.md#whitening) before it is rectified, in all channels or in "
-                  "none, as the recording allows; the report says which, and why. `false`: in none."});
+                  "none, as the recording allows. `false`: in none."});
   v.number("highpass_hz", emg.highpass_hz, {.says = "High-pass of raw EMG.", .limits = above_zero("Hz")});
   v.number("lowpass_hz", emg.lowpass_hz,
            {.says = "Low-pass of the rectified EMG, −3 dB of both passes together.", .limits = above_zero("Hz")});
@@ -246,14 +245,15 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
                    "approximation; 1000 take some ten times as long. 0: none.",
            .limits = within(0, 100000)});
   v.flag("gain", identify.gain, {.says = "The uncertainty of the EMG's normalization widens the intervals."});
-  v.count("starts", identify.starts,
-          {.says = "Method `paper`: above 1, searches from Sobol points over ± 2 standard deviations of the priors, too. "
-                   "The numbers are still those of the first start; a table of where the searches ended goes to the "
-                   "report and parameters.json (`searches`).",
-           .limits = within(1, 1000)});
+  v.count(
+      "starts", identify.starts,
+      {.says = "Method `paper`: above 1, searches from Sobol points over ± 2 standard deviations of the priors, too. "
+               "The numbers are still those of the first start; a table of where the searches ended goes to the "
+               "report and parameters.json (`searches`).",
+       .limits = within(1, 1000)});
   v.choice("eccentric", identify.eccentric,
-           {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (of f_v, lengthening "
-                    "over shortening), `smooth` (ratio 1, no kink), `automatic` (the ratio where it has a prior)."});
+           {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (lengthening over "
+                    "shortening), `smooth` (ratio 1), `automatic` (the ratio where it has a prior)."});
   v.flag("normalised", identify.normalised, {.says = "l_mˢʰ and v_max keep their ratio to l_m⁰."});
   v.either("muscle_law", identify.model_muscles,
            {.says = "`paper`: neither pennation nor passive force; `model`: as the model's muscles have them.",
@@ -265,15 +265,12 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
 /// Visits [identify]: the law by which a muscle follows its EMG.
 void visit_lag(IdentifySpec& identify, SettingVisitor& v) {
   v.flag("dynamics", identify.dynamics,
-         {.says = "A third way, not beside `lag`: the envelope becomes activation by the two lags of the source "
-                  "paper's equation (1), and `emg_delay` is the delay left beside them. `[[parameter]]` of "
-                  "`excitation_time`, `activation_time`, `deactivation_time` needs it."});
+         {.says = "A third way, not beside `lag`: activation follows the envelope by [two "
+                  "lags](#how-activation-follows-emg), and `emg_delay` is the delay left beside them."});
   const bool stated =
       v.choice("lag", identify.lag,
-               {.says = "`delay`: the activation is the envelope of `emg_delay` ago; `shared`: the delay is the mean "
-                        "of a pure one and the lags of excitation and activation, which damp fast changes; "
-                        "`automatic`: the one that the recording prefers ([how](../theory/identification.md); method "
-                        "`force` has one muscle at a time and takes `delay`).",
+               {.says = "`delay`: the envelope of `emg_delay` ago; `shared`: a pure delay and lags; `automatic`: the "
+                        "one that the recording prefers ([how](#how-activation-follows-emg)).",
                 .words = choice_names(identify.lag).first<3>(),  // `dynamics` is the fourth
                 .silent = identify.dynamics});
   v.must(!identify.dynamics || !stated, "lag",
@@ -286,8 +283,8 @@ void visit_data(IdentifySpec& identify, SettingVisitor& v) {
   v.flag("cross_validate", identify.cross_validate,
          {.says = "A part of the data is left out of the fit and predicted, each part in turn."});
   v.choice("folds", identify.folds,
-           {.says = "The part that is left out: a trial; all trials of one `condition`; `block`: a fifth of every "
-                    "trial with half a second on either side."});
+           {.says = "What is left out: a trial; all trials of one `condition`; `block`: a fifth of every trial with "
+                    "half a second on either side."});
   v.count("next_movements", identify.next_movements,
           {.says = "Movements to suggest for the [next recording](design.md), from this one's result; 0: none.",
            .limits = within(0, 50)});

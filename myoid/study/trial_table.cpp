@@ -12,24 +12,20 @@ namespace myoid {
 
 void visit(SyncSpec& sync, SettingVisitor& v) {
   constexpr SettingLimits kDrift = within(-1e5, 1e5, "ppm");
-  v.number("offset_s", sync.offset_s, sync.estimate,
-           {.says = "Seconds to add to the EMG's times. `estimate`: found so that the EMG leads the motion by 60 ± 54 "
-                    "ms, as people's does, ± a quarter of the movement's period (0.2 to 0.3 s), since activation goes "
-                    "with velocity as well as with torque: better than nothing, no match for a trigger.",
-            .limits = any_number("s"),
-            .word = "estimate"});
+  v.number(
+      "offset_s", sync.offset_s, sync.estimate,
+      {.says = "Seconds to add to the EMG's times. `estimate`: [found from the motion](#sync), as far as that goes.",
+       .limits = any_number("s"),
+       .word = "estimate"});
   v.number("offset_sd_s", sync.offset_sd_s,
            {.says = "Its standard deviation, if you know it.", .limits = above_zero("s"), .otherwise = "not stated"});
   v.number("drift_ppm", sync.drift_ppm,
            {.says = "How much too slowly the EMG's clock counts, in microseconds per second from its time 0 on (50: a "
                     "minute of it lasts 60.003 s).",
             .limits = kDrift});
-  v.text(
-      "emg_trigger", sync.emg_trigger,
-      {.says =
-           "Record of the same instants, or of the same signal, in the EMG's recording as in the motion's: a channel, "
-           "or the label of events (C3D, EDF+). Offset and drift follow from the two, with their errors, by as many "
-           "edges as there are; edges that one recording missed are found by the intervals of the others."});
+  v.text("emg_trigger", sync.emg_trigger,
+         {.says = "Record of the same instants, or of the same signal, in the EMG's recording: a channel, or the label "
+                  "of events (C3D, EDF+)."});
   v.text("motion_trigger", sync.motion_trigger,
          {.says = "The same of the motion's recording: a channel, `NAME.x`, `.y`, `.z` of a marker, the label of "
                   "events, or `start`, its first frame."});
@@ -57,8 +53,8 @@ void visit(SyncSpec& sync, SettingVisitor& v) {
 void visit(PlateSpec& plates, SettingVisitor& v) {
   v.path("file", plates.file, {.says = "The `.c3d` with the force plates.", .otherwise = "that of the markers"});
   const bool given = v.texts("bodies", plates.bodies,
-                             {.says = "The body that stands on plate 1, 2, … (`\"\"`: none). `auto`: each contact goes "
-                                      "to the body whose marker is nearest to its center of pressure, and is said.",
+                             {.says = "The body that stands on plate 1, 2, … (`\"\"`: none). `auto`: of each contact "
+                                      "the body whose marker is nearest, which a note names.",
                               .word = "auto"});
   const auto empty = [](const std::string& body) { return body.empty(); };
   v.must(!given || plates.bodies.empty() || !std::ranges::all_of(plates.bodies, empty), "bodies",
@@ -91,10 +87,8 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
          "give either 'markers' or 'motion', not both: the motion is computed from the markers");
   v.path("emg", trial.emg, {.says = kEmgFiles, .otherwise = "required, but for `static` and `passive`"});
   v.path("external_torque", trial.external_torque,
-         {.says = "File (`.sto`, `.mot`, a table) with `<coordinate>_moment` [N m], where a dynamometer took part: the "
-                  "torque that the "
-                  "surroundings exert on the body, positive in the coordinate's direction. The muscles provide inverse "
-                  "dynamics minus it. A coordinate without a column is acted on by nothing."});
+         {.says = "File (`.sto`, `.mot`, a table) with `<coordinate>_moment` [N m]: the [torque of the "
+                  "surroundings](#measured-torques) on the body, as of a dynamometer."});
   v.path("external_loads", trial.external_loads,
          {.says = "Measured forces on bodies: OpenSim's ExternalLoads file (`.xml`), as [`convert`](convert.md) writes "
                   "it for force plates."});
@@ -112,12 +106,9 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
 }
 
 void visit_use(TrialSpec& trial, SettingVisitor& v) {
-  v.choice(
-      "use", trial.use,
-      {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; `mvc` sets activation 1; "
-               "`passive`, with the torque of a dynamometer: the joint's resting torque with the weight of limb and "
-               "instrument, subtracted everywhere else (EMG, where given, must stay below 2 % of the maximal "
-               "contraction); `static` is computed up to the torque and the shared forces, and is not fitted."});
+  v.choice("use", trial.use,
+           {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; `mvc` sets activation "
+                    "1; [`passive` and `static`](#trials-that-are-not-fitted) are not fitted."});
   v.must(trial.use == Use::mvc || trial.markers || trial.motion, "name",
          fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one", trial.name));
   v.must(trial.use == Use::static_pose || trial.use == Use::passive || trial.emg, "name",
@@ -144,16 +135,13 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
   visit_files(trial, v);
   visit_use(trial, v);
   v.number("held_mass_kg", trial.held_mass_kg,
-           {.says = "Mass in the hand; 0: the person held nothing. Without it, and without forces of the surroundings "
-                    "(`external_loads`, `force_plates`, `load_cell`, `external_torque`), the "
-                    "[gate](check.md#quality-gates-of-run) "
-                    "\"External loads stated\" stays at caution.",
+           {.says = "Mass in the hand; 0: the person held nothing. Without it and without measured forces [a "
+                    "gate](check.md#quality-gates-of-run) stays at caution.",
             .limits = within(0.0, 100.0, "kg"),
             .otherwise = "not stated; nothing is computed to be held"});
   v.stretches("exclude", trial.exclude.windows, trial.exclude.foreign_contacts,
-              {.says = "Times, in seconds of the motion, that are predicted, but neither fitted nor scored, and from "
-                       "which no activation 1 is taken: `[[0.66, 0.78], [2.1, 2.4]]`. `foreign_contacts`: also the "
-                       "times that [check](check.md) finds to be those of another foot on a plate.",
+              {.says = "Times, in seconds of the motion, that are [predicted only](#trials-that-are-not-fitted): "
+                       "`[[0.66, 0.78], [2.1, 2.4]]`. `foreign_contacts`: also those of another foot on a plate.",
                .otherwise = "none",
                .word = "foreign_contacts"});
   v.text(

@@ -311,8 +311,7 @@ std::string summary_text(const TwinStudyResult& result) {
 }
 
 std::string predictions_text(const TwinStudyResult& result) {
-  std::string predictions =
-      "seed,trial,rmse_nm,nrmse_range,r2,band_rmse_nm,band_nrmse_range,band_r2\n";
+  std::string predictions = "seed,trial,rmse_nm,nrmse_range,r2,band_rmse_nm,band_nrmse_range,band_r2\n";
   for (const TwinPrediction& p : result.predictions) {
     predictions += fmt::format("{},{}", p.seed, recording::csv_cell(p.trial));
     for (const identification::Score* s : {&p.law, &p.band})

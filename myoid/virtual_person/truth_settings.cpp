@@ -62,7 +62,7 @@ void visit_sensors(SensorTruth& sensors, SettingVisitor& v) {
                     "included.",
             .limits = within(-0.5, 2.0)});
   v.flag("emg_noise", sensors.emg_noise,
-         {.says = "The amplitudes of the EMG wander at random and tell nothing of the muscles."});
+         {.says = "The amplitudes of the EMG wander at random, without regard to the muscles."});
   v.number("torque_scale", sensors.torque_scale,
            {.says = "The dynamometer shows scale · torque + offset.", .limits = within(0.5, 2.0)});
   v.number("torque_offset_nm", sensors.torque_offset_nm,

@@ -1,4 +1,4 @@
-// Timings of the hot paths, one per frame, sample or fit. Figures and command: docs/performance.md.
+// Timings of the hot paths, one per frame, sample or fit. Figures and command: docs/data/timings.txt.
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 //
 //   opensim_speed [--program MYOID] [--runs N] [--case NAME] [FOLDER]
 //
-// Prints the rows of docs/performance.md: seconds of the whole process by the clock, best of N,
+// Prints docs/data/opensim-speed.txt: seconds of the whole process by the clock, best of N,
 // and of the processor; what a frame takes of the latter, (whole - the same set-up cut to one
 // frame) / (frames - 1); OpenSim's seconds by the clock, and their ratio to our processor time.
 // Then the floor of each model: what poses, velocities and inverse dynamics cost alone.

@@ -1,5 +1,5 @@
 // Reading and conversion of large files, made in the temporary folder: bytes of input a second, and
-// the most memory that it takes, as a multiple of the file's size. Figures: docs/performance.md.
+// the most memory that it takes, as a multiple of the file's size. Figures: docs/data/timings.txt.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Ten simulated seconds of the four-muscle arm. Figures and command: docs/performance.md.
+// Ten simulated seconds of the four-muscle arm. Figures and command: docs/data/timings.txt.
 #include <benchmark/benchmark.h>
 
 #include "myoid/simulation/forward_simulation.h"

@@ -1,4 +1,4 @@
-// Exact paths of every public model, the table of docs/theory/model.md, a row per model:
+// Exact paths of every public model, summarized in docs/data/exact-paths.txt, a row per model:
 //
 //   exact_paths [--postures N] [--worst N] [MODEL.osim...]
 //

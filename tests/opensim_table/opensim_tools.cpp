@@ -1,5 +1,5 @@
 // Runs every set-up file of the shared data set by run_tool and compares the files it leaves with
-// those of OpenSim 4.5.2; the table of docs/opensim-tools.md, one row per file:
+// those of OpenSim 4.5.2; prints docs/data/opensim-tools.txt, one row per file:
 //
 //   opensim_tools [--case NAME] [--columns] [FOLDER]
 //

@@ -116,10 +116,9 @@ TEST_F(HelpFiles, OtherShellsReadTheirCompletions) {
     EXPECT_EQ(said(folder, "zsh -n " + (folder / "help/zsh/_myoid").string()), "");
   }
   if (!installed("fish")) GTEST_SKIP() << "there is no fish (zsh was asked if it is there)";
-  EXPECT_THAT(
-      said(folder, "cd / && XDG_CONFIG_HOME=" + folder.path().string() + " fish -c 'source " +
-                       (folder / "help/fish/myoid.fish").string() + "; complete -C \"myoid run --method p\"'"),
-      HasSubstr("paper"));
+  EXPECT_THAT(said(folder, "cd / && XDG_CONFIG_HOME=" + folder.path().string() + " fish -c 'source " +
+                               (folder / "help/fish/myoid.fish").string() + "; complete -C \"myoid run --method p\"'"),
+              HasSubstr("paper"));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 """usage: remarks_of_recordings.py PROGRAM SOURCE
 
 Runs `myoid check` on every public recording and on the studies of the examples, counts the remarks by their code, and
-compares the table with that of docs/remarks.md; MYOID_PRINT_PAGES=1 writes it. Whether a remark is right is judged by
+compares the table with docs/data/remarks.txt; MYOID_PRINT_PAGES=1 writes it. Whether a remark is right is judged by
 hand, in judgments.py, with a reason for each case. A remark that nobody judged fails the test. The recordings are those
 of $MYOID_DATA, else of ../shared/data beside SOURCE; exit code 77 where there are none.
 """
@@ -23,7 +23,6 @@ ENDINGS = {".c3d", ".trc", ".csv", ".txt", ".edf", ".bdf", ".anc", ".emt", ".tsv
 # Results of OpenSim and 431 files of one rat's muscle in a machine are no recordings of a laboratory of movement.
 LEFT_OUT = ("opensim/", "opensim-refused/", "rat-gastrocnemius/", "round3/opensim/", "round3/stage_commands/")
 STUDIES = ("elbow_emg/study.toml", "elbow_emg/study_landmarks.toml", "box_lift/study.toml", "upper_limb/study.toml")
-BEGIN, END = "<!-- printed: remarks -->", "<!-- end of remarks -->"
 
 
 def codes(source):
@@ -100,17 +99,12 @@ def main(program, source):
             raised.setdefault(code, []).append((file, remark["level"], bool(right)))
     if open_cases:
         sys.exit(f"{len(open_cases)} remarks are not judged in judgments.py:\n" + "\n".join(open_cases))
-    page = source / "docs" / "remarks.md"
-    text = page.read_text(encoding="utf-8")
-    begin, end = text.index(BEGIN) + len(BEGIN), text.index(END)
-    printed = "\n" + table(codes(source), raised, len(jobs)) + "\n"
-    if os.environ.get("MYOID_PRINT_PAGES") != "1" and not text[begin:end].strip():
-        print(f"skipped: docs/remarks.md has no table yet; MYOID_PRINT_PAGES=1 writes it:\n{printed}")
-        sys.exit(77)
+    page = source / "docs" / "data" / "remarks.txt"
+    printed = table(codes(source), raised, len(jobs)) + "\n"
     if os.environ.get("MYOID_PRINT_PAGES") == "1":
-        page.write_text(text[:begin] + printed + text[end:], encoding="utf-8")
-    elif text[begin:end] != printed:
-        sys.exit(f"docs/remarks.md differs from what the program raises; MYOID_PRINT_PAGES=1 writes it:\n{printed}")
+        page.write_text(printed, encoding="utf-8")
+    elif page.read_text(encoding="utf-8") != printed:
+        sys.exit(f"docs/data/remarks.txt differs from the program; MYOID_PRINT_PAGES=1 writes it:\n{printed}")
     print(printed)
 
 
