@@ -56,6 +56,10 @@ bool usually_free(int field, const MuscleSetup& setup, const EstimatorOptions& o
   if (field == kProduct) return slope_ratio == 0.0;
   if (field == kSlopeRatio)
     return slope_ratio > 0.0 && !product_is_held(setup) && options.eccentric != Eccentric::smooth;
+  // A tendon that nobody measured is an unknown about the model's length. An error of 10 % moves l0 by half of itself,
+  // too far for a column of the unseen quantities, which is linear.
+  if (field == kSlack)
+    return options.priors && setup.start.tendon_slack_length_m > 0.0 && setup.priors.contains("tendon_slack_length");
   return field <= kPlateau;
 }
 
@@ -140,7 +144,9 @@ void apply_rule(const ParameterRule& rule, ParameterSlot& slot, ParameterSlots& 
   slot.start_is_given = slot.start_is_given || rule.value;
   const bool is_ratio = slot.field->scope == muscle && slot.field->field == kSlopeRatio;
   if (is_ratio && (rule.free || rule.value)) use_slope_ratio(slot, of_study);
+  const bool is_slack = slot.field->scope == muscle && slot.field->field == kSlack;
   if (rule.free) slot.free = *rule.free;
+  if (is_slack && rule.value && !rule.free && !rule.prior_sd) slot.free = false;  // measured
   if (rule.lower || rule.upper)
     bound(slot, {rule.lower.value_or(slot.bounds.lower), rule.upper.value_or(slot.bounds.upper)});
   set_prior(rule, slot);
@@ -207,24 +213,6 @@ void apply_rules(const std::vector<ParameterRule>& rules, const OwnerNames& name
       }
     }
   }
-}
-
-double held_slack_sd_m(const StudyData& data, std::size_t muscle) {
-  constexpr const char* kSlackName = "tendon_slack_length";
-  const MuscleSetup& setup = data.muscles[muscle];
-  double sd_m = 0.0;
-  if (const auto known = setup.priors.find(kSlackName); known != setup.priors.end())
-    sd_m = known->second.sd * (known->second.logarithmic ? setup.start.tendon_slack_length_m : 1.0);
-  if (contains(setup.fixed, kSlackName)) sd_m = 0.0;
-  for (const ParameterRule& rule : data.rules) {
-    if (rule.parameter != kSlackName || !covers(rule.owners, setup.name)) continue;
-    if (rule.prior_sd) {
-      sd_m = *rule.prior_sd;
-    } else if (rule.value || !rule.free.value_or(true)) {
-      sd_m = 0.0;
-    }
-  }
-  return sd_m;
 }
 
 }  // namespace myoid::identification

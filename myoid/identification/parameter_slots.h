@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,9 +49,5 @@ struct ParameterSlots {
 /// Applies the study's rules in order; later ones win. Throws InvalidInput for an owner or
 /// parameter that does not exist.
 void apply_rules(const std::vector<ParameterRule>& rules, const OwnerNames& names, ParameterSlots& of_study);
-
-/// Returns the standard deviation of a muscle's tendon slack length that its prior and the rules state [m]; 0 if none,
-/// or if the length is held without error.
-[[nodiscard]] double held_slack_sd_m(const StudyData& data, std::size_t muscle);
 
 }  // namespace myoid::identification

@@ -23,6 +23,8 @@ constexpr bool is_size_of_kind(Eigen::Index field) { return field > kModelErrorS
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
+constexpr double kExactLength_m = 1e-4;  // error of a tendon that is taken to be exact
+
 constexpr double kFarthestScore = 30.0;  // beyond, the tail of a normal distribution is nearly 0
 
 /// A size s at the normal score x, over the spread of its half normal prior, and d ln s / dx.
@@ -51,7 +53,7 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
   lower_.resize(p);
   range_.resize(p);
   prior_mean_.setZero(p);
-  precision_ = prior_precision(free, strength_sd_);
+  take_precision();
   for (Eigen::Index j = 0; j < p; ++j) {
     const Unknown& of = free[static_cast<std::size_t>(j)];
     lower_[j] = of.bounds.lower;
@@ -77,7 +79,23 @@ void Density::refer_to(const Eigen::VectorXd& x) {
   if (!unlike_.uncertain()) return;
   const Eigen::MatrixXd of_data = likelihood_.information(z, noise_of(x)).information;
   unlikeness_ = unlike_.expected(of_data, (of_data + precision_) * (z - prior_mean_));
-  precision_ = prior_precision(parameters().free(), strength_sd_, unlikeness_);
+  take_precision();
+}
+
+void Density::believe(Believed believed) {
+  likelihood_.believe(believed);
+  believed_ = believed;
+  take_precision();
+}
+
+void Density::take_precision() {
+  const std::vector<Unknown>& free = parameters().free();
+  precision_ = prior_precision(free, strength_sd_, unlikeness_);
+  if (believed_ == Believed::nothing_exact) return;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    if (!free[j].is(Scope::muscle, kSlack)) continue;
+    precision_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j)) = 1.0 / (kExactLength_m * kExactLength_m);
+  }
 }
 
 double Density::prior(const Eigen::VectorXd& off, Eigen::VectorXd& gradient) const {

@@ -35,7 +35,8 @@ class Density {
 
   /// Makes x the reference: takes the unseen quantities (Likelihood) and lambda at x.
   void refer_to(const Eigen::VectorXd& x);
-  void believe(Believed believed) { likelihood_.believe(believed); }
+  /// With geometry exact the tendons have the lengths of the model, too: their priors become narrow.
+  void believe(Believed believed);
   /// Integrates the priors over lambda from now on.
   void integrate_unlikeness() { integrates_ = unlike_.uncertain(); }
 
@@ -75,7 +76,10 @@ class Density {
   /// Returns ln p(z) and its gradient, for the deviations of z from the priors' means.
   double prior(const Eigen::VectorXd& off, Eigen::VectorXd& gradient) const;
 
+  void take_precision();
+
   double strength_sd_ = 0.0, unlikeness_ = 1.0;
+  Believed believed_ = Believed::nothing_exact;
   bool integrates_ = false;
   Likelihood likelihood_;
   Unlikeness unlike_;

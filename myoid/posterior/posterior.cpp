@@ -20,6 +20,7 @@
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/posterior/draws.h"
 #include "myoid/posterior/exploration.h"
+#include "myoid/posterior/learned_sizes.h"
 #include "myoid/posterior/voluntary_torque.h"
 
 namespace myoid::identification {
@@ -65,6 +66,21 @@ Eigen::MatrixXd gauss_newton_covariance(const Density& density, const Eigen::Vec
   return precision.ldlt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
+/// Returns x with tendons as long as their priors say and fibers longer by what the tendons lose: the same torque.
+Eigen::VectorXd with_tendons_of_the_model(const Density& density, const Eigen::VectorXd& x) {
+  const ParameterMap& map = density.parameters();
+  Eigen::VectorXd z = density.z_of(x);
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const Unknown& tendon = map.free()[static_cast<std::size_t>(j)];
+    if (!tendon.is(Scope::muscle, kSlack)) continue;
+    const Eigen::Index fiber = map.find(Scope::muscle, kFiberLength, tendon.targets.front().owner);
+    if (fiber >= 0 && map.free()[static_cast<std::size_t>(fiber)].targets.size() == 1)
+      z[fiber] += z[j] - tendon.prior.mean;
+    z[j] = tendon.prior.mean;
+  }
+  return density.x_of(z, density.noise_of(x));
+}
+
 /// The second reading of z: value, 95 % interval and draws if geometry and sensors were exact.
 struct Given {
   Eigen::VectorXd value, low, high;
@@ -81,7 +97,7 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   Density& density = *of_given;
   const Eigen::VectorXd of_person = gauss_newton_covariance(density, best.mode.x).diagonal().cwiseMax(0.0).cwiseSqrt();
   density.believe(Believed::geometry_and_sensors_exact);
-  const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRoughPromise);
+  const Mode mode = find_mode(density, {.x = with_tendons_of_the_model(density, best.mode.x)}, progress, kRoughPromise);
   const Eigen::MatrixXd covariance = gauss_newton_covariance(density, mode.x);
   const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const std::vector<Unknown>& free = density.parameters().free();
@@ -222,6 +238,8 @@ ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::si
   facts.given = value(of.given.value[at]);
   facts.low_given = value(of.given.low[at]);
   facts.high_given = value(of.given.high[at]);
+  // Exact in the second reading, which then determines nothing of it.
+  if (p.is(Scope::muscle, kSlack)) facts.low_given = facts.high_given = facts.given;
   judge_row(of, unknown, draws, target.owner, {value(p.bounds.lower), value(p.bounds.upper)}, e, facts);
   return e;
 }
@@ -320,6 +338,7 @@ void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationRes
 /// Puts the greatest voluntary torques before the muscles' numbers.
 void add_voluntary(const Reporting& of,
                    const Density& density,
+                   const NoiseValues& of_widths,
                    const EstimatorOptions& options,
                    IdentificationResult& result) {
   NumberFacts fit;
@@ -328,11 +347,11 @@ void add_voluntary(const Reporting& of,
   fit.r2 = result.r2;
   fit.model_error = result.model_error;
   const Eigen::MatrixXd off = of.given.z.colwise() - of.given.z.rowwise().mean();
-  VoluntaryTorques torques =
-      voluntary_torques(of.data, options, {density.likelihood(), result.solution, result.noise, result.covariance},
-                        {of.given.density->likelihood(), of.given.value, of.given.noise,
-                         off * off.transpose() / static_cast<double>(off.cols())},
-                        fit);
+  VoluntaryTorques torques = voluntary_torques(
+      of.data, options, {density.likelihood(), result.solution, result.noise, of_widths, result.covariance},
+      {of.given.density->likelihood(), of.given.value, of.given.noise, of.given.noise,
+       off * off.transpose() / static_cast<double>(off.cols())},
+      fit);
   result.estimates.insert(result.estimates.begin(), std::make_move_iterator(torques.estimates.begin()),
                           std::make_move_iterator(torques.estimates.end()));
   result.voluntary = std::move(torques.curves);
@@ -379,13 +398,19 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   const Exploration explored = explore(data, options);
   const std::vector<Candidate>& candidates = explored.modes;
   const Candidate& best = candidates.front();
-  const Sample& drawn = explored.sample;
+  Sample drawn = explored.sample;
 
   IdentificationResult result;
   fill_fit(best, drawn, data, result);
   // A fit whose numbers are not reported needs no second interval.
   const Given given =
       options.marginals ? given_geometry(best, drawn, options.progress) : not_asked_for(result.solution);
+  const LearnedSizes sizes = learned_sizes(best, drawn);
+  // Draws of the sampler are from the density over all sizes.
+  if (options.posterior_draws == 0) {
+    stretch(sizes.wider, best.density->parameters(), drawn);
+    result.covariance = sizes.wider.asDiagonal() * result.covariance * sizes.wider.asDiagonal();
+  }
   const std::vector<SourceShares> shares = source_shares(best);
   const std::vector<double> active_span_m = active_length_spans_m(data, result.delay_s);
   const Reporting of{data,
@@ -401,7 +426,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
                      options.unseen.strength};
   add_estimates(of, result);
   if (options.marginals && options.predictions && !options.measured_is_force)
-    add_voluntary(of, *best.density, options, result);
+    add_voluntary(of, *best.density, sizes.noise, options, result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, best.density->unlikeness(), result);
   if (best.mode.converged) result.diagnoses = signatures(result.estimates);

@@ -8,7 +8,6 @@
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/core/parallel.h"
 #include "myoid/identification/muscle_law.h"
-#include "myoid/identification/parameter_slots.h"
 
 namespace myoid::identification {
 namespace {
@@ -36,11 +35,11 @@ struct Collector {
   std::vector<Unseen::Slope> slopes_ = {};
   std::vector<std::vector<Eigen::ArrayXd>> by_slope_{runs_.size()};  ///< Per run, one for each slope.
 
-  void add_geometry(std::size_t k, bool priors) {
+  void add_geometry(std::size_t k) {
     for (int joint = 0; joint < recorded_.parts.joint_count(); ++joint) {
       if (recorded_.parts.crosses(k, joint)) add_moment_arm(k, joint);
     }
-    add_tendon(k, priors);
+    add_tendon(k);
   }
 
   void add_electrodes() {
@@ -221,18 +220,12 @@ struct Collector {
     });
   }
 
-  void add_tendon(std::size_t k, bool priors) {
+  void add_tendon(std::size_t k) {
     const int muscle = static_cast<int>(k);
-    const MuscleSetup& setup = data_.muscles[k];
-    const double slack_sd_m = priors && !is_free(Scope::muscle, kSlack, muscle) ? held_slack_sd_m(data_, k) : 0.0;
-    if (slack_sd_m > 0.0) {
-      add(setup.name + ".tendon_slack_length", Source::geometry, slack_sd_m);
-      for_runs(k, [](const OfMuscle& of, auto column) { column -= of.by_length; });
-    }
     const MuscleValues& now = values_.muscles[k];
     if (is_free(Scope::muscle, kTendonStrain, muscle) || !(now[kSlack] > 0.0)) return;
     const double elastic = now[kTendonStrain];
-    add(setup.name + ".tendon_strain", Source::geometry,
+    add(data_.muscles[k].name + ".tendon_strain", Source::geometry,
         elastic > 0.0 ? elastic * beliefs::kTendonStrain.sd : spreads_.tendon_strain);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       const Eigen::ArrayXd force = of.at.muscle(k).force_n.array() / now[kMaxForce];
@@ -363,7 +356,7 @@ Unseen unseen_quantities(const StudyData& data,
                          const std::vector<Stepped>& steps) {
   Collector collector{data, options.unseen, map, recorded, runs, values, at, steps};
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    collector.add_geometry(k, options.priors);
+    collector.add_geometry(k);
     collector.add_model_errors(k);
   }
   collector.center_lags();

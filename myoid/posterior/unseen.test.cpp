@@ -170,16 +170,6 @@ TEST(Unseen, ASlopeOfTheMomentArmIsTheIntegralOfItsLength) {
   }
 }
 
-TEST(Unseen, ATendonThatIsLongerMakesFibersShorter) {
-  StudyData data = two_trials();
-  for (MuscleSetup& muscle : data.muscles)
-    muscle.priors["tendon_slack_length"] =
-        Prior{.mean = muscle.start.tendon_slack_length_m, .sd = 0.1, .logarithmic = true};
-  const AtStart at(std::move(data));
-  expect_derivative(at, "BIC.tendon_slack_length", 1e-5,
-                    [](double by, TrialRun&, ModelValues& values) { values.muscles[0][kSlack] += by; });
-}
-
 TEST(Unseen, ATendonThatStretchesIsTheLawsWithASmallStrain) {
   const AtStart at(two_trials());
   // An elastic tendon has a positive strain only: the forward difference.

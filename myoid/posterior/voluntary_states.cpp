@@ -75,20 +75,23 @@ NormalTorque& NormalTorque::operator+=(const NormalTorque& other) {
 LinearReading::LinearReading(const Likelihood& likelihood,
                              const Eigen::VectorXd& z,
                              const NoiseValues& noise,
+                             const NoiseValues& of_widths,
                              const Eigen::MatrixXd& covariance)
     : likelihood_(likelihood),
       z_(z),
       noise_(noise),
+      of_widths_(of_widths),
       unseen_(likelihood.unseen_given(z, noise)),
       root_z_(root(covariance)),
-      root_unseen_(unseen_.covariance.llt().matrixL()) {}
+      root_unseen_(likelihood.unseen_given(z, of_widths).covariance.llt().matrixL()) {}
 
 NormalTorque LinearReading::torque(const TrialRun& run, int direction) const {
   const Likelihood::ActiveTorque at = likelihood_.active_torque(run, z_, noise_);
   NormalTorque torque{direction * (at.torque_nm + at.by_unseen * unseen_.mean), {}};
+  const Eigen::MatrixXd by_unseen = likelihood_.active_torque(run, z_, of_widths_).by_unseen;
   torque.by_chance.resize(at.torque_nm.size(), root_z_.cols() + root_unseen_.cols());
   torque.by_chance << direction * (at.by_z + at.by_unseen * unseen_.by_z) * root_z_,
-      direction * at.by_unseen * root_unseen_;
+      direction * by_unseen * root_unseen_;
   return torque;
 }
 

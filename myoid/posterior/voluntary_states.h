@@ -38,12 +38,13 @@ struct NormalTorque {
   NormalTorque& operator+=(const NormalTorque& other);
 };
 
-/// A posterior of z and x to the first order.
+/// A posterior of z and x to the first order: x has the expectation at `noise` and the covariance at `of_widths`.
 class LinearReading {
  public:
   LinearReading(const Likelihood& likelihood,
                 const Eigen::VectorXd& z,
                 const NoiseValues& noise,
+                const NoiseValues& of_widths,
                 const Eigen::MatrixXd& covariance);
   /// Returns the torque of the muscles that pull, times `direction`.
   [[nodiscard]] NormalTorque torque(const TrialRun& run, int direction) const;
@@ -51,7 +52,7 @@ class LinearReading {
  private:
   const Likelihood& likelihood_;
   Eigen::VectorXd z_;
-  NoiseValues noise_;
+  NoiseValues noise_, of_widths_;
   Likelihood::UnseenGiven unseen_;
   Eigen::MatrixXd root_z_, root_unseen_;  ///< Roots of both covariances.
 };

@@ -259,8 +259,8 @@ VoluntaryTorques voluntary_torques(const StudyData& data,
                        likelihood.parameters(),
                        likelihood.recorded().parts,
                        fit,
-                       {likelihood, of_person.z, of_person.noise, of_person.covariance},
-                       {given.likelihood, given.z, given.noise, given.covariance},
+                       {likelihood, of_person.z, of_person.noise, of_person.of_widths, of_person.covariance},
+                       {given.likelihood, given.z, given.noise, given.of_widths, given.covariance},
                        greatest_envelopes(likelihood, options.from_mvc)};
   for (int joint = 0; joint < static_cast<int>(likelihood.parameters().joints().size()); ++joint)
     torques.add_joint(joint);

@@ -13,8 +13,9 @@ namespace myoid::identification {
 /// One reading of the posterior (Believed), normal about its middle.
 struct VoluntaryReading {
   const Likelihood& likelihood;
-  Eigen::VectorXd z;  ///< The unknowns' middle.
-  NoiseValues noise;
+  Eigen::VectorXd z;           ///< The unknowns' middle.
+  NoiseValues noise;           ///< At the mode.
+  NoiseValues of_widths;       ///< Of the covariance of x (LearnedSizes).
   Eigen::MatrixXd covariance;  ///< Of z.
 };
 

@@ -84,7 +84,7 @@ VoluntaryTorques at_the_truth(const StudyData& data, const EstimatorOptions& opt
   noise[kTorqueSd] = std::log(0.1);
   noise[kTorqueTime] = std::log(0.3);
   noise[kModelErrorSize] = std::log(1e-4);
-  const VoluntaryReading reading{likelihood, z, noise, 1e-8 * Eigen::MatrixXd::Identity(z.size(), z.size())};
+  const VoluntaryReading reading{likelihood, z, noise, noise, 1e-8 * Eigen::MatrixXd::Identity(z.size(), z.size())};
   return voluntary_torques(data, options, reading, reading, {});
 }
 

@@ -134,7 +134,8 @@ class Posterior:
             f, l0 = v["max_isometric_force", k], v["optimal_fiber_length", k]
             w, vsh = v["force_length_width", k], v["concentric_curvature", k]
             vml, s = v["eccentric_plateau", k], v["eccentric_slope_ratio", k]
-            vmax, slack = held["max_shortening_speed"], held["tendon_slack_length"]
+            vmax = held["max_shortening_speed"]
+            slack = v.get(("tendon_slack_length", k), held["tendon_slack_length"])
             product = (vml - 1.0) * vsh / (s * (1.0 + vsh))
             time = np.clip(run.time - v["emg_delay", 0], *run.ends[k])
             a = v["emg_gain", k] * np.maximum(run.drive[k](time), 0.0)

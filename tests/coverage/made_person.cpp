@@ -14,7 +14,6 @@
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/envelope.h"
 #include "myoid/identification/muscle_law.h"
-#include "myoid/identification/parameter_slots.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/math/random.h"
 #include "myoid/posterior/density.h"
@@ -86,7 +85,7 @@ struct Geometry {
 
 /// The unseen numbers of one muscle.
 struct MuscleErrors {
-  double arm = 0.0, arm_slope = 0.0, slack_m = 0.0, strain = 0.0;
+  double arm = 0.0, arm_slope = 0.0, strain = 0.0;
   double shortest = 1e9, longest = -1e9, fastest = 1e-9;  ///< Recorded.
   std::array<double, 7> model{};                          ///< Strength, three of length, effort, speed, lag.
   [[nodiscard]] double place(double l) const { return 2.0 * (l - shortest) / (longest - shortest) - 1.0; }
@@ -219,7 +218,6 @@ class Maker {
       e.longest += 0.5 * more;
       e.arm = beliefs::kMomentArm.sd * random_.normal();
       e.arm_slope = size(kArmSlopeSize) * beliefs::kMomentArmSlope.sd * random_.normal();
-      e.slack_m = held_slack_sd_m(person_.data, k) * random_.normal();
       e.strain = std::hypot(beliefs::kTendonStretch.value, beliefs::kTendonStretch.sd) * random_.normal();
       for (double& x : e.model) x = s * random_.normal();
       e.model[3] *= 0.5;
@@ -246,7 +244,6 @@ class Maker {
     const double length =
         l + e.arm * (l - 0.5 * (e.shortest + e.longest)) + e.arm_slope * 0.25 * span * (x * x - 1.0 / 3.0);
     const double velocity = trial.velocity_mps(i, k) * grown;
-    values[kSlack] += e.slack_m;
     double force = tension_n(a.value, length, velocity, values);
     // The tendon that is held rigid stretches: the fixed point of force and strain.
     for (int pass = 0; pass < 8; ++pass) {
