@@ -94,7 +94,7 @@ inline constexpr Belief kSpeed = belief("max_shortening_speed", kModels, 0.20, l
                                      .from(kPublished);
 inline constexpr Belief kTendonSlack =
     belief("tendon_slack_length", kModels, 0.10, logarithm, "m")
-        .used("held at the model's; the spread goes into the interval of l_m⁰, unless the length is stated as measured")
+        .used("an unknown, unless the length is stated as measured; exact in the reading given geometry")
         .from(
             "of 25 leg muscles with tendons above 0.1 m, gait2392 (Delp 1990) and Rajagopal (2016) differ by a robust "
             "ln 0.13, 0.09 to each");

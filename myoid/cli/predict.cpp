@@ -27,7 +27,7 @@ void add_predict(CLI::App& app, Context& context) {
   CLI::App& command =
       *app.add_subcommand("predict",
                           "Torque and muscle forces, with 95 % bands, of trials that took no part in a run's fit.\n"
-                          "By the posterior the bands are of the person, by least squares given geometry and sensors.\n"
+                          "The bands are of the person.\n"
                           "Example: myoid predict results --trials fast_lift --out predicted");
   const auto out = std::make_shared<std::string>();
   const auto o = std::make_shared<commands::PredictOptions>();

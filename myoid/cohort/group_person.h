@@ -18,7 +18,7 @@ struct GroupNumber {
   std::string verdict;
   double estimate = 0.0;
   std::optional<double> low, high;                     ///< 95 % interval of the person.
-  std::optional<double> given, given_low, given_high;  ///< The same given geometry and sensors; empty by least squares.
+  std::optional<double> given, given_low, given_high;  ///< The same given geometry and sensors; may be empty.
   std::optional<double> truth;                         ///< In a virtual recording.
 };
 

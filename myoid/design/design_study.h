@@ -56,11 +56,10 @@ struct DesignStudyResult {
 
 /// Chooses movements to record so that the targets become identifiable. The choice is Bayesian D- or A-optimal over a
 /// catalogue, for persons drawn from the priors (or from an earlier run's posterior), with the information that the
-/// study's estimator takes from a recording: least squares by its model, weights and effective number of samples, and
-/// the posterior by its likelihood, in which moment arms, tendons, electrodes and the scale of the torque are unknown,
-/// too. Fatigue follows the three-compartment model at the elbow's published rates: a movement that alone would tire a
-/// muscle beyond the budget is left out, and rests are put before movements that need them. The plan is empty if no
-/// movement is within the muscles' strength. Throws InvalidInput for unknown targets.
+/// posterior takes from a recording by its likelihood, in which moment arms, tendons, electrodes and the scale of the
+/// torque are unknown, too. Fatigue follows the three-compartment model at the elbow's published rates: a movement that
+/// alone would tire a muscle beyond the budget is left out, and rests are put before movements that need them. The plan
+/// is empty if no movement is within the muscles' strength. Throws InvalidInput for unknown targets.
 [[nodiscard]] DesignStudyResult design_study(const Study& study, const DesignStudyOptions& options = {});
 /// Chooses movements with the study's model, read by the caller.
 [[nodiscard]] DesignStudyResult design_study(const Study& study,

@@ -21,7 +21,7 @@ struct PlannedErrors {
 };
 
 /// The information of a movement about the unknowns z and the unseen quantities x, by the
-/// likelihood of the estimator `posterior`.
+/// likelihood of the posterior.
 ///
 ///   M = [L J, L S W]' A^-1 [L J, L S W],   unknowns and quantities, square
 ///

@@ -38,7 +38,7 @@ struct Exploration {
 };
 
 /// Finds the modes of the posterior and draws from it. Searches begin at the starting values and at others about them
-/// (three, EstimatorOptions::multistart; none without `marginals`), with a pure delay and with lags where the choice is
+/// (three; none without `marginals`), with a pure delay and with lags where the choice is
 /// open. A mode weighs by its evidence; modes of less than 2 % are left out. The unseen quantities (unseen.h) are taken
 /// at the mode of the previous pass until the mode stays. The draws are from the density with
 /// EstimatorOptions::posterior_draws (sampler.h), else from its marginals (marginals.h) or, without

@@ -43,7 +43,7 @@ myoid_model* myoid_open(const char* results, const char* study, char* error, siz
 /* The same by the second reading, given geometry and sensors: values and bands as if the study's moment arms, tendons
  * and sensors were exact, for use with the same model, electrodes and dynamometer. parameters.json holds the covariance
  * of the person's reading; here each unknown's standard deviation is scaled by the ratio of the widths of its two
- * intervals. Of a run by least squares, which has this reading alone, both functions open the same model. */
+ * intervals. Of exact data both readings are the same. */
 myoid_model* myoid_open_given(const char* results, const char* study, char* error, size_t size);
 
 void myoid_close(myoid_model* model);

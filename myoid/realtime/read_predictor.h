@@ -9,8 +9,7 @@ namespace myoid {
 /// The two readings of a run's numbers (docs/guide/verdicts.md#readings).
 enum class Reading {
   person,                      ///< The person's numbers, whose intervals hold errors of geometry and sensors, too.
-  geometry_and_sensors_exact,  ///< The numbers if moment arms, tendons and sensors were exact; of least squares, all
-                               ///< are.
+  geometry_and_sensors_exact,  ///< The numbers if moment arms, tendons and sensors were exact.
 };
 
 /// Reads the method torque of a finished run: parameters, covariance and gains from

@@ -117,7 +117,7 @@ struct OfSession {
   double sd = 0.0;
 };
 
-/// Returns the number given geometry and sensors; empty by least squares. Of a number that is searched for by its
+/// Returns the number given geometry and sensors; empty without one. Of a number that is searched for by its
 /// logarithm the middle of the interval is that of ln.
 std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
   if (!e.given_ci_low || !e.given_ci_high) return std::nullopt;
@@ -327,8 +327,8 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   std::ranges::move(unlike.other, std::back_inserter(comparison.unlike));
   if (a.posterior != b.posterior)
     comparison.unlike.push_back(
-        "one is by the posterior, the other by least squares, whose F_max and intervals do not mean the same: run both "
-        "sessions with one estimator");
+        "one is by the posterior, the other of exact data or by the estimator of an earlier version, whose F_max and "
+        "intervals do not mean the same: run both sessions again");
   for (const Key& key : a.order) {
     const auto other = b.estimates.find(key);
     if (other == b.estimates.end())

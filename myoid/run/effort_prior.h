@@ -13,7 +13,7 @@ namespace myoid {
 [[nodiscard]] bool from_maximal_effort(const EmgSpec& emg);
 
 /// Returns true if the share of the maximum that a channel's greatest EMG is counts as an unknown,
-/// the channel's gain: there is no maximal contraction, and the estimator `posterior` can carry a
+/// the channel's gain: there is no maximal contraction, and the posterior can carry a
 /// share that nothing but beliefs tells apart from F_max.
 [[nodiscard]] bool effort_is_unknown(const Study& study);
 
@@ -23,7 +23,7 @@ namespace myoid {
 [[nodiscard]] Prior any_effort();
 
 /// Returns the spread of a maximal contraction's force about that of a completely active muscle,
-/// for the estimator `posterior` (UnseenSpreads::effort): 0 where the gain carries the spread,
+/// (UnseenSpreads::effort): 0 where the gain carries the spread,
 /// because the study states it or no effort is maximal.
 [[nodiscard]] double unseen_effort(const Study& study);
 

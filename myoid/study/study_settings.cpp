@@ -357,8 +357,7 @@ void visit(Study& study, SettingVisitor& v) {
   v.table("sharing", study.sharing, {.says = "Force sharing, for method `paper`."});
   v.table("phases", study.phases, {.says = "Warm-up and fatigue."});
   v.table("identify", study.identify, {.says = "The identification."});
-  v.table("beliefs", study.beliefs,
-          {.says = "What is believed about errors that residuals hardly show: estimator `posterior`."});
+  v.table("beliefs", study.beliefs, {.says = "What is believed about errors that residuals hardly show."});
   v.tables("muscle", study.muscles, {.says = "A muscle, or group, to identify."});
   v.tables("trial", study.trials, {.says = "A recording."});
   v.tables("parameter", study.parameters, {.says = "A wish for a parameter; later tables win."});

@@ -75,7 +75,7 @@ struct TwinSummary {
   int with_interval = 0;
   double coverage = 0.0;    ///< Share of the 95 % intervals that hold the truth.
   double half_width = 0.0;  ///< Median, in the unit of the error.
-  /// The same of the reading given geometry and sensors; NaN by least squares.
+  /// The same of the reading given geometry and sensors; NaN by method `paper`.
   double given_median_error = 0.0, given_coverage = 0.0, given_half_width = 0.0;
   double shrinkage = 0.0;                                                ///< Median.
   std::array<int, std::size(identification::kVerdictNames)> verdicts{};  ///< As identification::Verdict.

@@ -1,4 +1,4 @@
-/// Simulation-based calibration of the estimator `posterior` (Talts, Betancourt, Simpson, Vehtari
+/// Simulation-based calibration of the posterior (Talts, Betancourt, Simpson, Vehtari
 /// and Gelman, 2018): the truth, drawn from the priors, has a uniform rank among the posterior's
 /// draws. `calibration --help` prints the options.
 
