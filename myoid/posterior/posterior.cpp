@@ -188,6 +188,9 @@ void judge_row(const Reporting& of,
   facts.low = *e.ci_low;
   facts.high = *e.ci_high;
   const double touches = kVerdictRules.on_bound * (bounds.upper - bounds.lower);
+  // An interval whose mass lies on a bound is one-sided.
+  if (*e.ci_low - bounds.lower < touches) e.ci_low = facts.low = bounds.lower;
+  if (bounds.upper - *e.ci_high < touches) e.ci_high = facts.high = bounds.upper;
   const bool cut = facts.low - bounds.lower < touches || bounds.upper - facts.high < touches;
   e.at_bound = cut;
   facts.at_bound = cut && !p.is(Scope::channel, kDelay);  // no delay is a delay
@@ -282,6 +285,21 @@ void add_estimates(const Reporting& of, IdentificationResult& result) {
   }
 }
 
+/// Compares the muscles with their priors, about the strength that they share, and names that strength once.
+void compare_with_priors(const ParameterMap& map,
+                         const StudyData& data,
+                         double strength_sd,
+                         IdentificationResult& result) {
+  constexpr double kUnusual = 2.0;  // standard deviations of persons
+  const double strength = common_strength(map.free(), result.solution, strength_sd);
+  result.prior_distances = prior_distances(about_strength(map.free(), strength), result.solution, data);
+  if (std::abs(strength) <= kUnusual * strength_sd) return;
+  result.warnings.push_back(
+      fmt::format("all muscles together are {:.2g} times as strong as the model's: is the model scaled to this person, "
+                  "and is the unit of the torque right?",
+                  std::exp(strength)));
+}
+
 void fill_fit(const Candidate& best, const Sample& sample, const StudyData& data, IdentificationResult& result) {
   const Density& density = *best.density;
   const ParameterMap& map = density.parameters();
@@ -318,7 +336,6 @@ void fill_fit(const Candidate& best, const Sample& sample, const StudyData& data
     if (!joint.empty())
       result.r2 = std::min(result.r2, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
   }
-  result.prior_distances = prior_distances(map.free(), result.solution, data);
 }
 
 /// Keeps at most kKeptDraws draws as values, evenly spaced among all draws.
@@ -402,6 +419,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
 
   IdentificationResult result;
   fill_fit(best, drawn, data, result);
+  compare_with_priors(best.density->parameters(), data, options.unseen.strength, result);
   // A fit whose numbers are not reported needs no second interval.
   const Given given =
       options.marginals ? given_geometry(best, drawn, options.progress) : not_asked_for(result.solution);

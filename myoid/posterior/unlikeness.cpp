@@ -54,6 +54,25 @@ Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double strengt
   return precision;
 }
 
+double common_strength(const std::vector<Unknown>& free, const Eigen::VectorXd& z, double strength_sd) {
+  if (!(strength_sd > 0.0)) return 0.0;
+  double precision = 1.0 / (strength_sd * strength_sd), pull = 0.0;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const Unknown& of = free[j];
+    if (!of.is(Scope::muscle, kMaxForce) || !is_literature(of)) continue;
+    precision += of.prior_precision();
+    pull += of.prior_precision() * (z[static_cast<Eigen::Index>(j)] - of.prior.mean);
+  }
+  return pull / precision;
+}
+
+std::vector<Unknown> about_strength(std::vector<Unknown> free, double log_strength) {
+  for (Unknown& of : free) {
+    if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) of.prior.mean += log_strength;
+  }
+  return free;
+}
+
 Unlikeness::Unlikeness(const std::vector<Unknown>& free, double strength_sd) : free_(free), strength_sd_(strength_sd) {
   const double sd = beliefs::kUnlikeness.sd;
   log_lambda_.setLinSpaced(kGrid, kLeast * sd, kMost * sd);

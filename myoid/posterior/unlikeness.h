@@ -24,6 +24,14 @@ namespace myoid::identification {
                                               double strength_sd,
                                               double unlikeness = 1.0);
 
+/// Returns ln of the person's strength over the model's, that all F_max with the literature's prior share: its
+/// expectation given z, sum (d_i / s_i^2) / (sum 1 / s_i^2 + 1 / c^2), d_i the deviation of ln F_i from its prior's
+/// mean.
+[[nodiscard]] double common_strength(const std::vector<Unknown>& free, const Eigen::VectorXd& z, double strength_sd);
+
+/// Returns the unknowns with the priors of F_max about this strength, each with the muscle's own spread.
+[[nodiscard]] std::vector<Unknown> about_strength(std::vector<Unknown> free, double log_strength);
+
 /// The factor lambda on all prior spreads that are judgments: this person's deviation from the literature over the
 /// literature's spread. If all muscles of a person deviate by two spreads, that is one coincidence, not twenty. ln
 /// lambda has a normal prior (beliefs::kUnlikeness). Given lambda, z has its normal prior within its bounds.

@@ -82,6 +82,21 @@ double over_log_lambda(const Function& f) {
   return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(f, -1.2, 1.5, 8, 1e-12);
 }
 
+TEST(CommonStrength, IsTheMeanOfANormalPosteriorAndLeavesTheMusclesTheirOwn) {
+  // Three muscles three times as strong as the model's, with own spreads of 0.25 about a person's of 0.38: by Bayes the
+  // mean is ln 3 (3 / 0.25^2) / (3 / 0.25^2 + 1 / 0.38^2).
+  const ParameterField& field = parameter_field("max_isometric_force");
+  std::vector<Unknown> free(4, number_of(field, 0.25));
+  free[3].prior_is_given = true;  // known of this person
+  const Eigen::VectorXd z = Eigen::VectorXd::Constant(4, 0.1 + std::log(3.0));
+  const double strength = common_strength(free, z, 0.38);
+  EXPECT_NEAR(strength, std::log(3.0) * 48.0 / (48.0 + 1.0 / (0.38 * 0.38)), 1e-12);
+  const std::vector<Unknown> own = about_strength(free, strength);
+  EXPECT_NEAR(own[0].prior.mean, 0.1 + strength, 1e-12);
+  EXPECT_NEAR(own[3].prior.mean, 0.1, 1e-12);
+  EXPECT_EQ(common_strength(free, z, 0.0), 0.0);
+}
+
 TEST(Unlikeness, TheIntegratedPriorIsThatOfAQuadrature) {
   for (const double farthest : {1.5, 50.0}) {
     const Unlikeness unlike(judged_numbers(farthest), 0.4);
