@@ -300,7 +300,7 @@ void compare_with_priors(const ParameterMap& map,
                   std::exp(strength)));
 }
 
-void fill_fit(const Candidate& best, const Sample& sample, const StudyData& data, IdentificationResult& result) {
+void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult& result) {
   const Density& density = *best.density;
   const ParameterMap& map = density.parameters();
   const NoiseValues noise = density.noise_of(best.mode.x);
@@ -418,7 +418,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   Sample drawn = explored.sample;
 
   IdentificationResult result;
-  fill_fit(best, drawn, data, result);
+  fill_fit(best, drawn, result);
   compare_with_priors(best.density->parameters(), data, options.unseen.strength, result);
   // A fit whose numbers are not reported needs no second interval.
   const Given given =
