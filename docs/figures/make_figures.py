@@ -38,12 +38,14 @@ class Picture:
     script: str = ""  # a step before the picture
 
 
-# Moves the first slider of the workbench, the optimal fiber length, to the literature's value [m].
+# Moves the first slider of the workbench, the optimal fiber length, to the low end of its interval [m].
 MOVE_LENGTH = """
 const slider = document.querySelector('#learn input[type=range]');
-slider.value = 0.1224;
+slider.value = 0.101;
 slider.dispatchEvent(new Event('input'));
 """
+
+UNFOLD = "document.querySelector('{}').closest('.folds').classList.remove('folded')"
 
 PICTURES = [
     Picture("report_top.webp", "demo", height=1010),
@@ -53,12 +55,13 @@ PICTURES = [
     Picture("motion_page.webp", "walk", "t=0.6&view=oblique", height=800),
     Picture("box_lift.webp", "box_lift", "trial=lift&t=2.3&view=oblique", begin="#workbench", height=755),
     Picture("elbow_numbers.webp", "elbow_emg", height=1010),
+    Picture("elbow_strength.webp", "elbow_emg", begin="figure#voluntary_torque",
+            end="figure#voluntary_torque", width=800, script=UNFOLD.format("#voluntary")),
     Picture("elbow_workbench.webp", "elbow_emg", "trial=load2p75_T3&t=11", begin="#workbench", height=1042),
     Picture("elbow_what_if.webp", "elbow_emg", "trial=load2p75_T3&t=11", begin="#learn", end="#learn",
             script=MOVE_LENGTH),
     Picture("elbow_quality.webp", "elbow_emg", begin="#quality", height=610),
-    Picture("elbow_next.webp", "elbow_emg", begin="#next", height=410, width=800,
-            script="document.querySelector('#next').closest('.folds').classList.remove('folded')"),
+    Picture("elbow_next.webp", "elbow_emg", begin="#next", height=410, width=800, script=UNFOLD.format("#next")),
 ]  # fmt: skip
 
 

@@ -50,20 +50,31 @@ def run_all(program, checkout, commands):
     return printed
 
 
-def same_words(line):
+def words(line):
     """The words of a line of output that are no numbers."""
     return [word for word in line.split() if not any(character.isdigit() for character in word)]
 
 
+def now_printed(line, lines):
+    """The line of `lines` that stands where `line` stood: with the same words, else with the most of its first words (two
+    or more); none where there is no such line."""
+    same = [other for other in lines if words(other) and words(other) == words(line)]
+    if same:
+        return same[0]
+    alike = {other: len(os.path.commonprefix([other.split(), line.split()])) for other in lines}
+    likest = max(alike, key=alike.get, default=None)
+    return likest if likest and alike[likest] >= 2 else None
+
+
 def with_lines(text, commands, printed):
-    """The page with the lines that the commands print now, each in the place of the one with the same words."""
+    """The page with the lines that the commands print now, each in the place of its old one."""
     for command, shown in commands:
         lines = {" ".join(line.split()): line for line in printed[name_of(command)].splitlines()}
         for line in shown:
-            now = [other for other in lines if other.split()[:2] == line.split()[:2] or same_words(other) == same_words(line)]
+            now = now_printed(line, lines)
             if line not in lines and now:
                 old = next(full for full in text.splitlines() if " ".join(full.split()) == line)
-                text = text.replace(old, lines[now[0]])
+                text = text.replace(old, lines[now])
     return text
 
 

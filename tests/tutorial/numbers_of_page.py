@@ -7,6 +7,7 @@ shown output and no list of given facts. `rewritten` returns the page with the p
 
 import csv
 import json
+import math
 import re
 
 WORDS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
@@ -54,6 +55,16 @@ class Results:
         values = [fold[part][key] for fold in self.parameters(run)["leave_one_trial_out"]]
         return min(values), max(values)
 
+    def voluntary(self, run, owner):
+        """The row of a muscle or of a joint's muscles in the table of greatest voluntary torques, as the report has it."""
+        with open(self.folder / run / "tables" / "voluntary_torque.csv", encoding="utf-8") as file:
+            return next(line for line in csv.DictReader(file) if line["muscle or joint"].startswith(owner))
+
+    def true(self, muscle, parameter):
+        with open(self.folder / "tutorial_person" / "truth.csv", encoding="utf-8") as file:
+            rows = csv.DictReader(line for line in file if not line.startswith("#"))
+            return next(r["value"] for r in rows if (r["muscle"], r["parameter"]) == (muscle, parameter))
+
     def found(self, run, pattern):
         match = re.search(pattern, self.printed[run])
         if match is None:
@@ -61,46 +72,59 @@ class Results:
         return match.groups()
 
 
-ELBOW, POSTERIOR, PERSON = "tutorial_results", "elbow_posterior", "tutorial_person_results"
+ELBOW, PERSON, PREDICTION = "tutorial_results", "tutorial_person_results", "tutorial_prediction"
+DEGREES = 180 / math.pi
+FLEXORS, FLEXORS_ANGLE = "voluntary_torque_positive", "voluntary_torque_angle_positive"
 
 
 def minus(text):
     return text.replace("-", "−")
 
 
-def scaled(estimate, scale, form):
-    return [form.format(scale * estimate[key]) for key in ("estimate", "ci_low", "ci_high")]
+def scaled(estimate, keys, scale, form):
+    return [form.format(scale * estimate[key]) for key in keys]
 
 
 def verdict(estimate):
     return estimate["verdict"].replace("_", " ")
 
 
-def row(muscle, parameter, scale, form):
-    """The numbers of one row of the last table, with both verdicts."""
+VALUE, INTERVAL, GIVEN_INTERVAL = ["estimate"], ["ci_low", "ci_high"], ["given_ci_low", "given_ci_high"]
+BOTH_READINGS = VALUE + INTERVAL + GIVEN_INTERVAL
+
+
+def row(run, owner, parameter, scale=1.0, form="{:.0f}", literature=False):
+    """The numbers of one row of a table: value, intervals of both readings, the literature's where asked for, verdict."""
 
     def values(r):
-        one, other = r.number(ELBOW, muscle, parameter), r.number(POSTERIOR, muscle, parameter)
-        return [*scaled(one, scale, form), verdict(one), *scaled(other, scale, form), verdict(other)]
+        estimate = r.number(run, owner, parameter)
+        return [*scaled(estimate, BOTH_READINGS, scale, form), *(expected(estimate, scale, form) if literature else []),
+                verdict(estimate)]  # fmt: skip
 
     return values
 
 
-def force(muscle):
-    """A force at the largest EMG, by both estimators; the posterior's reason states it."""
+def with_truth(number, truth):
+    """A row's numbers and the person's true value."""
+    return lambda r: [*number(r), truth(r)]
 
-    def values(r):
-        one = r.number(ELBOW, muscle, "max_isometric_force")
-        reason = r.number(POSTERIOR, muscle, "max_isometric_force")["reason"]
-        low, high = re.search(r"pulls ([\d.e+]+) to ([\d.e+]+) N at the largest EMG", reason).groups()
-        return [*scaled(one, 1.0, "{:.0f}"), verdict(one), f"{float(low):.0f}", f"{float(high):.0f}"]
 
-    return values
+def true_parameter(muscle, parameter):
+    return lambda r: f"{float(r.true(muscle, parameter)):.0f}"
+
+
+def true_torque(owner, column):
+    return lambda r: r.voluntary(PERSON, owner)[column]
 
 
 def counts(r):
     found = r.verdicts(ELBOW)
     return [word(found[0]), str(sum(found)), word(found[1])]
+
+
+def flexors(r):
+    torque, angle = r.number(ELBOW, "elbow_flexion", FLEXORS), r.number(ELBOW, "elbow_flexion", FLEXORS_ANGLE)
+    return [*scaled(torque, VALUE + INTERVAL, 1.0, "{:.1f}"), *scaled(angle, VALUE, DEGREES, "{:.0f}")]
 
 
 def fold_scores(r):
@@ -109,67 +133,16 @@ def fold_scores(r):
     return [f"{low:.2f}", f"{high:.2f}", minus(f"{worst:.2f}"), f"{best:.2f}"]
 
 
-def other_minima(r):
-    alike, all_starts = r.found(ELBOW, r"(\d+) of (\d+) other starts of the search end at a minimum")
-    biceps, own_biceps = r.found(ELBOW, r"BIC max_isometric_force ([\d.]+) instead of ([\d.]+)")
-    brachialis, own_brachialis = r.found(ELBOW, r"BRA max_isometric_force ([\d.]+) instead of ([\d.]+)")
-    return [all_starts, alike, *(f"{float(x):.0f}" for x in (biceps, own_biceps, brachialis, own_brachialis))]
-
-
-def widths_by_posterior(r):
-    found = r.verdicts(POSTERIOR)
-    return [word(found[0]), str(sum(found)), word(found[1])]
-
-
 def errors(r):
     low, high = r.folds(ELBOW, ("rmse_nm", "identified"))
     worst = r.folds(ELBOW, ("rmse_nm", "literature_with_gain"))
     return [f"{low:.2f}", f"{high:.2f}", f"{worst[0]:.2f}", f"{worst[1]:.2f}"]
 
 
-def scores_of_both(r):
-    texts = []
-    for run in (ELBOW, POSTERIOR):
-        for key, form in (("r2", "{:.2f}"), ("rmse_nm", "{:.2f}")):
-            texts += [form.format(x) for x in r.folds(run, (key, "identified"))]
-    return texts
-
-
 def expected(estimate, scale, form):
-    """The literature's range: two standard deviations of the prior, as a factor where the number cannot be negative."""
+    """The literature's 95 %."""
     mean, sd = estimate["prior_mean"], estimate["prior_sd"]
     return [form.format(scale * (mean - 1.96 * sd)), form.format(scale * (mean + 1.96 * sd))]
-
-
-def length_with_literature(muscle):
-    def values(r):
-        posterior = r.number(POSTERIOR, muscle, "optimal_fiber_length")
-        return [*scaled(posterior, 100.0, "{:.1f}")[1:], *expected(posterior, 100.0, "{:.1f}")]
-
-    return values
-
-
-def delay_row(r):
-    texts = []
-    for run in (ELBOW, POSTERIOR):
-        estimate = next(e for e in r.torque(run)["estimates"] if e["parameter"] == "emg_delay")
-        texts += [*scaled(estimate, 1000.0, "{:.0f}"), verdict(estimate)]
-    return texts
-
-
-def narrower(r):
-    width = [e["ci_high"] - e["ci_low"]
-             for e in (r.number(run, "BRD", "optimal_fiber_length") for run in (ELBOW, POSTERIOR))]  # fmt: skip
-    own = r.number(ELBOW, "BRD", "optimal_fiber_length")
-    return [f"{100 * own['estimate']:.1f}", own["verdict"], f"{width[1] / width[0]:.1f}"]
-
-
-def person(r):
-    estimate = r.number(PERSON, "BIC", "max_isometric_force")
-    with open(r.folder / "tutorial_person" / "truth.csv", encoding="utf-8") as file:
-        truth = next(row for row in csv.DictReader(line for line in file if not line.startswith("#"))
-                     if (row["muscle"], row["parameter"]) == ("BIC", "max_isometric_force"))  # fmt: skip
-    return [f"{estimate['ci_low']:.0f}", f"{estimate['ci_high']:.0f}", f"{float(truth['value']):.0f}"]
 
 
 def planned(r):
@@ -179,58 +152,64 @@ def planned(r):
 
 
 def moved(r):
-    estimate = r.number(ELBOW, "BIC", "optimal_fiber_length")
-    return [f"{100 * estimate['estimate']:.1f}", f"{100 * estimate['initial']:.1f}"]
-
-
-def strengths(r):
-    found = {verdict(r.number(POSTERIOR, muscle, "max_isometric_force")) for muscle in ("BIC", "BRA", "BRD", "TRI")}
-    return [" and ".join(sorted(found))]
+    return scaled(r.number(ELBOW, "BIC", "optimal_fiber_length"), ["estimate", "ci_low"], 100.0, "{:.1f}")
 
 
 def variance_gone(r):
-    return [f"{100 * r.number(POSTERIOR, 'BRD', 'optimal_fiber_length')['shrinkage']:.0f}"]
+    return [f"{100 * r.number(ELBOW, muscle, 'optimal_fiber_length')['shrinkage']:.0f}" for muscle in ("BRD", "BIC")]
+
+
+def cautions(r):
+    """How many gates ask for caution; a gate that failed contradicts the page."""
+    if re.search(r"^FAILED", r.printed[ELBOW], re.MULTILINE):
+        raise SystemExit("a gate of the recording failed; the page says that none did")
+    return [word(len(re.findall(r"^caution  ", r.printed[ELBOW], re.MULTILINE)))]
 
 
 def held_back(r):
-    return r.found("tutorial_prediction", r"held_back_2kg\s.*?(\d+) %")
+    return r.found(PREDICTION, r"held_back_2kg\s.*?(\d+) %")
+
+
+def length(muscle, parameter="optimal_fiber_length"):
+    return row(ELBOW, muscle, parameter, 100.0, "{:.1f}", literature=True)
 
 
 CLAIMS = [
-    ("**{} number of {} is identified**, {} more are known with a wide interval", counts),
+    ("together make **{} N m ({} to {}) at {}°**", flexors),
+    ("**{} of {} numbers is identified**, {} are known with a wide interval", counts),
     ("with R² from {} to {}. The literature's muscles reach {} to {}, even", fold_scores),
-    ("optimal length of the biceps went from {} to {} cm", moved),
-    ("Of {} other starts of the search {} end at a minimum that is as good, with {} N instead of {} N for the biceps and "
-     "{} N instead of {} N for the brachialis", other_minima),
-    ("interval from {} to {} %.", planned),
+    ("optimal length of the biceps went from {} cm down to the low end of its interval, {} cm", moved),
+    ("median interval would fall from {} to {} % only", planned),
     ("with a 95 % band that holds {} % of it", held_back),
-    ("biceps from {} to {} N; the truth is {} N", person),
-    ("which identifies {} of the {} numbers and calls {} weak", widths_by_posterior),
-    ("| optimal length of brachioradialis [cm] | {} ({} to {}), {} | {} ({} to {}), {} |",
-     row("BRD", "optimal_fiber_length", 100.0, "{:.1f}")),
-    ("| optimal length of biceps [cm] | {} ({} to {}), {} | {} ({} to {}), {} |",
-     row("BIC", "optimal_fiber_length", 100.0, "{:.1f}")),
-    ("| EMG delay [ms] | {} ({} to {}), {} | {} ({} to {}), {} |", delay_row),
-    ("| force of biceps at the largest EMG [N] | {} ({} to {}), {} | {} to {} |", force("BIC")),
-    ("| force of brachialis [N] | {} ({} to {}), {} | {} to {} |", force("BRA")),
-    ("| force of brachioradialis [N] | {} ({} to {}), {} | {} to {} |", force("BRD")),
-    ("| force of triceps [N] | {} ({} to {}), {} | {} to {} |", force("TRI")),
-    ("| F_max of the muscles at their maximum | – | {} |", strengths),
-    ("takes {} % off the variance of what was known", variance_gone),
-    ("| trials left out: R², RMSE [N m] | {} to {}, {} to {} | {} to {}, {} to {} |", scores_of_both),
+    ("| greatest voluntary torque of the flexors [N m] | {} ({} to {}) | {} to {} | {} | {} |",
+     with_truth(row(PERSON, "elbow_flexion", FLEXORS), true_torque("elbow flexion, Biceps", "true N m"))),
+    ("| the angle of that torque [°] | {} ({} to {}) | {} to {} | {} | {} |",
+     with_truth(row(PERSON, "elbow_flexion", FLEXORS_ANGLE, DEGREES),
+                true_torque("elbow flexion, Biceps", "true angle (°)"))),
+    ("| F_max of the biceps [N] | {} ({} to {}) | {} to {} | {} | {} |",
+     with_truth(row(PERSON, "BIC", "max_isometric_force"), true_parameter("BIC", "max_isometric_force"))),
+    ("None failed, {} ask for caution", cautions),
+    ("| torque of the flexors at the largest EMG [N m] | {} ({} to {}) | {} to {} | – | {} |",
+     row(ELBOW, "elbow_flexion", FLEXORS, form="{:.1f}")),
+    ("| its angle [°] | {} ({} to {}) | {} to {} | – | {} |", row(ELBOW, "elbow_flexion", FLEXORS_ANGLE, DEGREES)),
+    ("| optimal length of brachioradialis [cm] | {} ({} to {}) | {} to {} | {} to {} | {} |", length("BRD")),
+    ("| optimal length of biceps [cm] | {} ({} to {}) | {} to {} | {} to {} | {} |", length("BIC")),
+    ("| width of brachioradialis [cm] | {} ({} to {}) | {} to {} | {} to {} | {} |",
+     length("BRD", "force_length_width")),
+    ("| EMG delay [ms] | {} ({} to {}) | {} to {} | {} to {} | {} |",
+     row(ELBOW, "subject", "emg_delay", 1000.0, literature=True)),
+    ("| largest force of the biceps, F_max [N] | {} ({} to {}) | {} to {} | – | {} |",
+     row(ELBOW, "BIC", "max_isometric_force")),
     ("with an error of {} to {} N m (root mean square) for trials that were not fitted. The literature's muscles with the "
      "best single gain err by {} to {} N m", errors),
-    ("brachioradialis lies between {} and {} cm (95 %, posterior; the literature says {} to {} cm)",
-     length_with_literature("BRD")),
-    ("biceps lies between {} and {} cm (the literature says {} to {} cm)", length_with_literature("BIC")),
-    ("{} cm with the narrow interval, although it is called {}: the posterior's is {} times as wide", narrower),
+    ("takes {} % off for the length of the brachioradialis, {} % for that of the biceps", variance_gone),
 ]  # fmt: skip
 
 
 def pattern_of(claim):
     """A pattern for the claim with any words in the place of its numbers, over line breaks."""
     parts = [r"\s+".join(re.escape(text) for text in part.split(" ")) for part in claim.split("{}")]
-    return re.compile(r"([−\w.]+(?: \w+)?(?: and prior dominated)?)".join(parts))
+    return re.compile(r"([−\w.]+(?: \w+)?)".join(parts))
 
 
 def filled(claim, values):
