@@ -15,6 +15,7 @@
 #include "myoid/math/decompositions.h"
 #include "myoid/math/random.h"
 #include "myoid/math/statistics.h"
+#include "myoid/posterior/unlikeness.h"
 
 namespace myoid {
 
@@ -31,7 +32,7 @@ std::pair<std::string, std::string> split_label(const std::string& label) {
 
 }  // namespace
 
-Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<EarlierRun>& earlier) {
+Knowledge knowledge_of(const std::vector<Unknown>& free, double strength_sd, const std::optional<EarlierRun>& earlier) {
   const auto p = static_cast<Eigen::Index>(free.size());
   Knowledge known{Eigen::VectorXd(p), Eigen::MatrixXd::Zero(p, p), {}};
   for (Eigen::Index j = 0; j < p; ++j) {
@@ -40,6 +41,11 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<Ear
     known.mean[j] = f.prior.sd > 0.0 ? f.prior.mean : f.start;
     known.covariance(j, j) = sd * sd;
   }
+  Eigen::MatrixXd precision = identification::prior_precision(free, strength_sd);
+  for (Eigen::Index j = 0; j < p; ++j) {
+    if (!(precision(j, j) > 0.0)) precision(j, j) = 1.0 / known.covariance(j, j);
+  }
+  known.covariance = precision.llt().solve(Eigen::MatrixXd::Identity(p, p));
   const Eigen::VectorXd sd_before = known.covariance.diagonal().cwiseSqrt();
   if (earlier) {
     std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
@@ -48,6 +54,10 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<Ear
       if (it == earlier->parameters.end()) continue;
       const Eigen::Index from = it - earlier->parameters.begin();
       if (std::isfinite(earlier->estimate[from])) pairs.emplace_back(j, from);
+    }
+    for (const auto& [a, from_a] : pairs) {
+      known.covariance.row(a).setZero();
+      known.covariance.col(a).setZero();
     }
     for (const auto& [a, from_a] : pairs) {
       const bool logarithmic = free[static_cast<std::size_t>(a)].field->logarithmic;

@@ -311,8 +311,7 @@ DesignStudyResult design_study(const Study& study, const model::BodyModel& model
     return result;
   }
   const std::vector<Unknown>& free = parameters->free();
-  Knowledge known = knowledge_of(free, options.earlier);
-  if (!options.earlier) join_strengths(free, torque.unseen.strength, known);
+  const Knowledge known = knowledge_of(free, torque.unseen.strength, options.earlier);
   const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, options.persons, options.seed);
 
   options.progress.tell(0.2, "information");

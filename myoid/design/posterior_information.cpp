@@ -5,8 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/posterior/density.h"
 #include "myoid/posterior/drive.h"
@@ -48,15 +46,6 @@ Eigen::MatrixXd PosteriorInformation::of(const TrialData& trial, const Eigen::Ve
   Likelihood likelihood(one, at, identification::Columns::at_reference, &session_);
   likelihood.believe(believed_);
   return likelihood.information_by_trial(z, noise_).front();
-}
-
-void join_strengths(const std::vector<identification::Unknown>& free, double strength_sd, Knowledge& known) {
-  Eigen::MatrixXd precision = identification::prior_precision(free, strength_sd);
-  for (Eigen::Index j = 0; j < precision.rows(); ++j) {
-    if (!(precision(j, j) > 0.0)) precision(j, j) = known.precision(j, j);
-  }
-  known.precision = precision;
-  known.covariance = precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
 }  // namespace myoid

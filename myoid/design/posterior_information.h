@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "myoid/design/design_knowledge.h"
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/posterior/likelihood.h"
@@ -52,8 +51,5 @@ class PosteriorInformation {
   identification::Recorded session_;
   std::vector<std::string> quantities_;
 };
-
-/// Gives the muscles' F_max the person's strength in common (identification::prior_precision).
-void join_strengths(const std::vector<identification::Unknown>& free, double strength_sd, Knowledge& known);
 
 }  // namespace myoid

@@ -83,8 +83,7 @@ TEST(PosteriorInformation, AStrongPersonIsStrongInEveryMuscle) {
   const StudyData data = three_trials();
   const identification::Likelihood likelihood(data, options_of(data));
   const std::vector<identification::Unknown>& free = likelihood.parameters().free();
-  Knowledge known = knowledge_of(free, std::nullopt);
-  join_strengths(free, 0.5, known);
+  const Knowledge known = knowledge_of(free, 0.5, std::nullopt);
   std::vector<Eigen::Index> strength;
   for (std::size_t j = 0; j < free.size(); ++j) {
     if (free[j].label.ends_with("max_isometric_force")) strength.push_back(static_cast<Eigen::Index>(j));

@@ -28,7 +28,7 @@ TEST(ActiveLengths, AreThoseOfAMuscleWhileItWasActive) {
   trial.length_m.topRows(50).col(0) = Eigen::VectorXd::LinSpaced(50, 0.1, 0.2);
   data.trials = {trial};
   // Without a tenth of a second at either end of half a second.
-  EXPECT_NEAR(active_length_spans_m(data, 0.0).at(0), 0.08, 0.005);
+  EXPECT_NEAR(active_length_spans_m(data, 0.0).at(0), 0.06, 0.005);
   trial.length_m.topRows(50).setConstant(0.1);
   trial.length_m.bottomRows(50).col(0) = Eigen::VectorXd::LinSpaced(50, 0.1, 0.2);  // while at rest
   data.trials = {trial};

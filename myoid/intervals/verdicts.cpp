@@ -124,6 +124,7 @@ Finding of_person(const NumberFacts& facts) {
 /// Returns true if the number is narrow with geometry and sensors exact, and by the recording, not by its prior.
 bool narrow_if_given(const NumberFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
+  if (facts.one_reading) return false;
   const double half = half_given(facts);
   const bool told = !facts.contraction_given || *facts.contraction_given >= rules.half_shrinkage;
   return half > 0.0 && half <= identified_half(facts) && told && facts.model_error <= rules.model_error &&

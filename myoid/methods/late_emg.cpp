@@ -92,7 +92,8 @@ std::optional<LateEmg> late_emg_of_no_delay(const StudyData& data,
                                             const EstimatorOptions& options,
                                             const IdentificationResult& fit) {
   const auto is_none = [](const ParameterEstimate& e) {
-    return e.parameter == "emg_delay" && e.at_bound && e.estimate < beliefs::kEmgDelay.value;
+    return e.parameter == "emg_delay" && e.estimate < beliefs::kEmgDelay.value &&
+           (!e.ci_high || *e.ci_high - e.estimate > e.estimate);
   };
   if (std::ranges::none_of(fit.estimates, is_none)) return std::nullopt;
   return late_emg(data, fit, options.residual_cutoff_hz.value_or(0.0));

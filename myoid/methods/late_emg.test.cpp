@@ -28,6 +28,7 @@ TEST(LateEmg, OfAllTrialsOrOfOneIsNoAbsentDelay) {
     const ParameterEstimate& delay = delay_of(all);
     EXPECT_EQ(delay.verdict, Verdict::not_identifiable) << seed << ": " << delay.estimate << ' ' << delay.reason;
     EXPECT_NE(delay.reason.find("late clock"), std::string::npos) << delay.reason;
+    ASSERT_FALSE(all.warnings.empty());
     EXPECT_EQ(all.warnings.back(), "emg_delay: " + delay.reason);
     const StudyData data = recording(0.3, seed, 1);
     const auto one = late_emg(data, identify_torque(data), 0.0);
@@ -38,16 +39,12 @@ TEST(LateEmg, OfAllTrialsOrOfOneIsNoAbsentDelay) {
 }
 
 TEST(LateEmg, IsNoneWhereMusclesPullWithTheirEmg) {
-  int none = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const StudyData data = recording(0.004, seed);  // within the error allowed to a delay
     const IdentificationResult fit = identify_torque(data);
     const ParameterEstimate& delay = delay_of(fit);
-    if (!delay.at_bound) continue;
-    ++none;
     EXPECT_EQ(delay.reason.find("late clock"), std::string::npos) << seed << ": " << delay.reason;
   }
-  EXPECT_GE(none, 6);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ std::vector<View> views_of(const StudyData& data, const std::string& joint) {
                      of.moment_arm_m(kept, Eigen::all)});
   };
   for (const TrialData& trial : data.trials) {
+    if (!trial.calibration) continue;
     add(trial, trial.joint, trial);
     for (const JointData& other : trial.more_joints) add(trial, other.name, other);
   }

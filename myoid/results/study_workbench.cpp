@@ -342,10 +342,12 @@ void add_remarks(const StudyResult& result,
 /// Adds the inputs of the muscles' law, with the activation that the fit uses.
 void add_drives(const StudyResult& result,
                 const IdentificationResult& fit,
-                const identification::TrialData& data,
+                const identification::TrialFit& fitted,
+                identification::TrialData data,
                 TrialPlots& plots,
                 WorkbenchTrial& shown) {
   if (fit.values.muscles.size() != result.fit_input.data.muscles.size()) return;
+  if (!fitted.drive.empty()) data.activation = fitted.drive;
   const identification::Prediction prediction =
       identification::predict(result.fit_input.data, data, fit.values, fit.lag);
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
@@ -375,7 +377,7 @@ WorkbenchTrial shown_trial(const StudyResult& result,
   if (fit != nullptr && data != all.end()) {
     plots.clock(data->time_s);
     fitted = trial_of(*fit, trial.spec.name);
-    if (fitted != nullptr) add_drives(result, *fit, *data, plots, shown);
+    if (fitted != nullptr) add_drives(result, *fit, *fitted, *data, plots, shown);
   }
   add_angles(result, trial, plots);
   add_torques(result, fit, trial, plots);

@@ -111,11 +111,11 @@ def rms(values):
 def quick(make):
     good = True
     for fitted in ((70, 90, 120), (70, 95, 120)):
-        error = rms([e for of in make(False).predicted(fitted, "posterior").values() for e, _ in of])
+        error = rms([e for of in make(False).predicted(fitted).values() for e, _ in of])
         print(f"{fitted}: {error:.1f} N m root mean square between the fitted angles, below 20 is expected")
         good = good and error < 20.0
     # 20 degrees beyond, with torques that never change: no exactness may be read into them.
-    error = max(abs(e) for of in make(True).predicted((95, 105, 120), "posterior").values() for e, _ in of)
+    error = max(abs(e) for of in make(True).predicted((95, 105, 120)).values() for e, _ in of)
     print(f"constants: errors up to {error:.0f} N m, below the greatest torque of 330 N m is expected")
     return good and error < 330.0
 

@@ -107,7 +107,7 @@ TEST_F(HelpFiles, BashCompletesCommandsOptionsAndWords) {
   EXPECT_EQ(completed("myoid upd", 1), "update-file\n");
   EXPECT_EQ(completed("myoid run --met", 2), "--method\n");
   EXPECT_EQ(completed("myoid run --method p", 3), "paper\n");
-  EXPECT_EQ(completed("myoid run --method ''", 3), "force\npaper\ntorque\n");
+  EXPECT_EQ(completed("myoid run --method ''", 3), "paper\nforce\ntorque\n");
   EXPECT_EQ(completed("myoid run study", 2), "\n") << "names of files are bash's own";
 }
 

@@ -172,10 +172,11 @@ TEST(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSees
     }
     return std::pair{0.0, 0.0};
   };
-  constexpr double kByUltrasound_m = 0.075;
+  // Ultrasound reads a fascicle's length to a tenth (95 %).
+  constexpr double kByUltrasound_m = 0.075, kReading_m = 0.0075;
   const auto [low, high] = interval("", "");
-  EXPECT_LT(low, kByUltrasound_m);
-  EXPECT_GT(high, kByUltrasound_m);
+  EXPECT_LT(low, kByUltrasound_m + kReading_m);
+  EXPECT_GT(high, kByUltrasound_m - kReading_m);
   // Stated as measured, it is taken at its word.
   const auto [sure_low, sure_high] = interval(",tendon_slack_length_fixed", ",true");
   // 1 mm hardly shows beside what the recording leaves open. The posterior's approximation knows

@@ -418,8 +418,6 @@ std::string share_inside(int path,
 }
 
 TEST_F(WorkbenchPage, ThePosteriorsContoursHoldTheirSharesOfItsDraws) {
-  EXPECT_THAT(js("myoid.learn.caption.textContent").get<std::string>(),
-              testing::AllOf(HasSubstr("normal distribution"), HasSubstr("least squares")));
   myoid::recording::write_file(*folder_ / "two.toml",
                                "level = \"L1\"\n[[trial]]\nname = \"mvc\"\nkind = \"mvc\"\ndirection = \"both\"\n"
                                "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n");

@@ -194,10 +194,10 @@ def test_identify_from_the_files_of_the_run(result, tmp_path):
     assert (tmp_path / "out/parameters.csv").read_bytes() == (tmp_path / "cli/parameters.csv").read_bytes()
     assert {"BIC", "TRI"} <= set(fitted.parameters["muscle"]) and fitted.found["message"]
     # Both free the same numbers of the muscles; one lift is too little to tell
-    # what stands beside them, and muscles.csv does not state v_max as known.
+    # what stands beside them, and muscles.csv does not state v_max and tendon as known.
     beside = {"emg_exponent", "length_activation", "joint_torque_offset", "joint_stiffness", "joint_viscosity"}
     free = [{row["parameter"] for row in found.parameters} for found in (result, fitted)]
-    assert free[0] - beside == free[1] - {"max_shortening_speed"} and beside & free[0]
+    assert free[0] - beside == free[1] - {"max_shortening_speed", "tendon_slack_length"} and beside & free[0]
     assert all(row["given_estimate"] is not None for row in fitted.parameters)
     with pytest.raises(myoid.InvalidInput, match="run.json"):
         fitted.run  # noqa: B018

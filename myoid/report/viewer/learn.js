@@ -226,7 +226,7 @@ export class Learn {
     this.map.innerHTML = out;
     this.map.setAttribute('aria-label', `${a.name} and ${b.name} of ${m.name}: correlation ${text(m.correlation[this.pair[0]][this.pair[1]] || 0, 2)} after the recording.`);
     const kinds = draws ? `Points: ${draws[0].length} draws from the posterior. Contours: the 50 % and 95 % of them where they are densest.`
-      : 'Contours: 50 % and 95 % of a normal distribution of the logarithms, by standard errors and correlation of the least squares.';
+      : 'Contours: 50 % and 95 % of a normal distribution of the logarithms, by standard errors and correlation of the fit.';
     this.caption.textContent = `□ literature, + identified, ○ where you are. ${regions.length ? kinds : 'One of the two numbers was held: there is no contour.'}`;
   }
 
