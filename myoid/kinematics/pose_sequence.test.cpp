@@ -135,7 +135,7 @@ recording::MarkerSeries made_markers(const model::BodyModel& m,
   series.time_s = Eigen::VectorXd::LinSpaced(q.rows(), 0.0, 0.01 * static_cast<double>(q.rows() - 1));
   series.positions_m.resize(q.rows(), static_cast<Eigen::Index>(3 * m.markers.size()));
   const auto off = [&](double size) -> Vec3 {
-    return size * Vec3(draw(random, -1, 1), draw(random, -1, 1), draw(random, -1, 1));
+    return size * Vec3{draw(random, -1, 1), draw(random, -1, 1), draw(random, -1, 1)};
   };
   std::vector<Vec3> skin;
   for (const model::Marker& of : m.markers) {

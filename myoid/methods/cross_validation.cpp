@@ -12,7 +12,6 @@
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/math/decompositions.h"
 #include "myoid/methods/prediction.h"
-#include "myoid/posterior/drive.h"
 
 namespace myoid::identification {
 namespace {

@@ -41,6 +41,11 @@ void add_predictions(const StudyData& data, const TorqueOptions& options, Identi
 
 }  // namespace
 
+EstimatorOptions remembering_drives(EstimatorOptions options) {
+  if (!options.drives) options.drives = std::make_shared<DriveMemory>();
+  return options;
+}
+
 std::vector<VerdictCap> caps_of_torque(const StudyData& data,
                                        const TorqueOptions& options,
                                        IdentificationResult& result) {

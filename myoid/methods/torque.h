@@ -24,6 +24,9 @@ using TorqueOptions = EstimatorOptions;
 /// data that do not fit together. A search that fails does not throw: read `termination`.
 [[nodiscard]] IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options = {});
 
+/// Returns the options with a memory of the drives behind the envelopes, which fits of one recording share.
+[[nodiscard]] EstimatorOptions remembering_drives(EstimatorOptions options);
+
 /// Returns the exact fit of data without noise (exact_fit) with its predictions; empty if there is none.
 [[nodiscard]] std::optional<IdentificationResult> identify_exactly(
     const StudyData& data, const TorqueOptions& options = {}, const std::vector<std::string>& speed_may_be_free = {});

@@ -324,8 +324,9 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
                                                  double cutoff_hz) {
   const Eigen::VectorXd values = recorded.column(channel);
   Key key{noise_sd, rest, cutoff_hz};
-  key.insert(key.end(), recorded.time_s().begin(), recorded.time_s().end());
+  // Trials share times, so that their values differ sooner.
   key.insert(key.end(), values.begin(), values.end());
+  key.insert(key.end(), recorded.time_s().begin(), recorded.time_s().end());
   {
     const std::lock_guard lock(mutex_);
     if (const auto known = drives_.find(key); known != drives_.end()) return known->second;
@@ -336,11 +337,6 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
                       : drive_behind(envelope, noise_sd, rest, error, cutoff_hz));
   const std::lock_guard lock(mutex_);
   return drives_.emplace(std::move(key), std::move(found)).first->second;
-}
-
-EstimatorOptions remembering_drives(EstimatorOptions options) {
-  if (!options.drives) options.drives = std::make_shared<DriveMemory>();
-  return options;
 }
 
 }  // namespace myoid::identification

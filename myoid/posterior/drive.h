@@ -74,7 +74,4 @@ class DriveMemory {
   std::map<Key, std::shared_ptr<const Drive>> drives_;
 };
 
-/// Returns the options with a memory of drives.
-[[nodiscard]] EstimatorOptions remembering_drives(EstimatorOptions options);
-
 }  // namespace myoid::identification

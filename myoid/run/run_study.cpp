@@ -11,6 +11,7 @@
 
 #include "myoid/checks/recording_findings.h"
 #include "myoid/core/error.h"
+#include "myoid/methods/torque.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/stage_store.h"
@@ -166,7 +167,8 @@ StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& st
 /// Runs the stages from the fit on.
 void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& stages) {
   const Study& study = result.source.study;
-  const FitInput& input = result.fit_input;
+  FitInput& input = result.fit_input;
+  input.options = identification::remembering_drives(std::move(input.options));
   StudyFit fit = stages.run("fit", 0.72, 0.8,
                             [&](const Progress& progress) { return study_fit(study, input, result.emg, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
@@ -182,6 +184,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
     if (method.method == "torque")
       method.warnings.insert(method.warnings.end(), validation.warnings.begin(), validation.warnings.end());
   }
+  input.options.drives.reset();
   result.fit = std::move(fit);
   result.folds = std::move(validation.folds);
   const std::vector<identification::VerdictCap> caps = verdict_caps(result, quality_gates(result));

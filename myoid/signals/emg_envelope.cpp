@@ -41,12 +41,24 @@ struct Extreme {
 /// mean away from it, counted from the extreme one on. Among equally strong windows the extreme one
 /// lies the farther from their mean, the more windows there are.
 Extreme extreme_level(std::vector<double> means, double margin, double side) {
-  // A heap gives the few windows at the extreme in order without a sort of all.
   const auto is_farther = [side](double a, double b) { return side * a > side * b; };
+  Extreme e{.level = *std::max_element(means.begin(), means.end(), is_farther), .count = 0};
+  // A heap gives the few windows at the extreme in order without a sort of all. Most windows lie far from it.
+  const auto near = [&, within = e.level * std::pow(1.0 + side * margin, 2.0)](double mean) {
+    return side * mean <= side * within;
+  };
+  const auto middle = std::partition(means.begin(), means.end(), near);
+  std::vector<double> others(middle, means.end());
+  means.erase(middle, means.end());
   std::make_heap(means.begin(), means.end(), is_farther);
-  Extreme e{.level = means.front(), .count = 0};
   double sum = 0.0;
-  const auto alike = [&] { return !means.empty() && side * means.front() <= side * e.level * (1.0 + side * margin); };
+  const auto alike = [&] {
+    if (means.empty()) {
+      means.swap(others);
+      std::make_heap(means.begin(), means.end(), is_farther);
+    }
+    return !means.empty() && side * means.front() <= side * e.level * (1.0 + side * margin);
+  };
   const auto take = [&] {
     sum += means.front();
     ++e.count;
