@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -14,6 +15,8 @@ namespace {
 constexpr std::size_t kWindow = 32;     // frames
 constexpr int kRounds = 4;              // searches of a limb in a window at most
 constexpr double kSearchShare = 0.25;   // of the work, for routine searches
+constexpr double kLastShare = 0.6;      // the same with the searches behind the last frame
+constexpr double kSuspicious = 1.15;    // a limb's cost over its median
 constexpr double kFilesOfFrame = 10.0;  // postures evaluated in the time in which a frame is read and written
 constexpr double kFarBetter = 0.5;      // share of the cost at which a fresh start replaces a converged posture
 constexpr double kAnyBetter = 1.0 - 1e-6;
@@ -102,18 +105,19 @@ void PoseSequence::solve() {
     for (std::size_t frame = first; frame <= last; ++frame) solve_frame(frame);
     search_window(first, last);
   }
+  search_suspicious();
 }
 
 PoseFit::Pose PoseSequence::solve_from(const Eigen::VectorXd& start) {
   return options_.range_barrier > 0.0 ? fit_.solve_inside(start, options_.range_barrier) : fit_.solve(start);
 }
 
-/// Returns true while searches have taken no more than their share of the work, to which reading and writing a frame
+/// Returns true while searches have taken no more than this share of the work, to which reading and writing a frame
 /// adds.
-bool PoseSequence::may_search() const {
+bool PoseSequence::may_search(double share) const {
   const double files =
       kFilesOfFrame * static_cast<double>(solved_ * (model_.bodies.size() + model_.coordinates.size()));
-  return searched_ < kSearchShare * (fit_.work() + files);
+  return searched_ < share * (fit_.work() + files);
 }
 
 /// Returns the pose of a frame that has none before it: the best from all fresh starts, each with its limbs improved.
@@ -211,8 +215,9 @@ std::vector<bool> PoseSequence::surprised_limbs(std::size_t frame, const Eigen::
                       parts_(f, l) > kJumped * parts_(f - 1, l) + kJumped_m2;
     for (const Eigen::Index c : limbs_[limb]->coordinates()) {
       const model::Coordinate& coordinate = model_.coordinates[at(c)];
-      surprised[limb] = surprised[limb] || std::abs(now[c] - then[c]) > kTurned_rad ||
-                        (may_search() && lies_at_end(coordinate, now[c]) && !lies_at_end(coordinate, then[c]));
+      surprised[limb] =
+          surprised[limb] || std::abs(now[c] - then[c]) > kTurned_rad ||
+          (may_search(kSearchShare) && lies_at_end(coordinate, now[c]) && !lies_at_end(coordinate, then[c]));
     }
   }
   return surprised;
@@ -239,11 +244,40 @@ void PoseSequence::search_window(std::size_t first, std::size_t last) {
   if (limbs_.empty()) return;
   if (seen_[last]) try_roots(last);
   ++window_;
-  for (std::size_t k = 0; k < limbs_.size() && may_search(); ++k) {
+  for (std::size_t k = 0; k < limbs_.size() && may_search(kSearchShare); ++k) {
     const std::size_t limb = (window_ + k) % limbs_.size();
     for (int round = 0; round < kRounds; ++round) {
       const std::size_t frame = worst_frame(limb, first, last);
       if (!seen_[frame] || !try_limb(limb, frame)) break;
+    }
+  }
+}
+
+/// Tries each limb where a window's worst frame fits much worse than the limb usually does, the worst first: routine
+/// searches may have had no work left there.
+void PoseSequence::search_suspicious() {
+  struct Place {
+    double ratio = 0.0;
+    std::size_t limb = 0, first = 0, last = 0;
+  };
+  std::vector<Place> places;
+  for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
+    const auto column = parts_.col(static_cast<Eigen::Index>(limb));
+    std::vector<double> parts(column.begin(), column.end());
+    const auto middle = parts.begin() + static_cast<std::ptrdiff_t>(parts.size() / 2);
+    std::nth_element(parts.begin(), middle, parts.end());
+    const double usual = *middle + kJumped_m2;
+    for (std::size_t first = 0; first < poses_.size(); first += kWindow) {
+      const std::size_t last = std::min(poses_.size(), first + kWindow) - 1;
+      const double ratio = column[static_cast<Eigen::Index>(worst_frame(limb, first, last))] / usual;
+      if (ratio > kSuspicious) places.push_back({ratio, limb, first, last});
+    }
+  }
+  std::ranges::sort(places, std::greater(), &Place::ratio);
+  for (const Place& place : places) {
+    for (int round = 0; round < kRounds && may_search(kLastShare); ++round) {
+      const std::size_t frame = worst_frame(place.limb, place.first, place.last);
+      if (!seen_[frame] || !try_limb(place.limb, frame)) break;
     }
   }
 }

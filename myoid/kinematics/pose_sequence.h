@@ -46,13 +46,14 @@ class PoseSequence {
   [[nodiscard]] PoseFit::Pose first_pose();
   [[nodiscard]] PoseFit::Pose next_pose(const Eigen::VectorXd& before);
   [[nodiscard]] PoseFit::Pose solve_from(const Eigen::VectorXd& start);
-  [[nodiscard]] bool may_search() const;
+  [[nodiscard]] bool may_search(double share) const;
 
   void improve_limbs(std::size_t frame, PoseFit::Pose& pose);
   [[nodiscard]] std::vector<bool> surprised_limbs(std::size_t frame, const Eigen::VectorXd& distances) const;
   [[nodiscard]] Eigen::VectorXd limb_distances() const;
   void search_window(std::size_t first, std::size_t last);
   [[nodiscard]] std::size_t worst_frame(std::size_t limb, std::size_t first, std::size_t last) const;
+  void search_suspicious();
   bool try_limb(std::size_t limb, std::size_t frame);
   void try_roots(std::size_t frame);
   bool try_start(std::size_t frame, const Eigen::VectorXd& start);

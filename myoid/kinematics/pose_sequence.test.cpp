@@ -176,6 +176,11 @@ int frames_to_judge() {
   return text != nullptr ? std::max(1, std::atoi(text)) : 8;
 }
 
+unsigned movements_to_judge() {
+  const char* text = std::getenv("MYOID_IK_MOVEMENTS");  // a larger number by hand
+  return text != nullptr ? static_cast<unsigned>(std::max(1, std::atoi(text))) : 6;
+}
+
 TEST(PoseSequence, FindsEachOfManyUnrelatedPosturesThatFitExactly) {
   const model::BodyModel m = person();
   Draws random(7);
@@ -188,8 +193,8 @@ TEST(PoseSequence, FindsEachOfManyUnrelatedPosturesThatFitExactly) {
 
 TEST(PoseSequence, IsNeverAboveTheTruthNorAboveTwoHundredRandomStarts) {
   const model::BodyModel m = person();
-  int above_truth = 0;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  int missed = 0;
+  for (unsigned seed = 1; seed <= movements_to_judge(); ++seed) {
     Draws random(seed);
     const Eigen::MatrixXd truth = movement(m, random, 200);
     const recording::MarkerSeries markers = made_markers(m, truth, 0.01, random);
@@ -199,19 +204,20 @@ TEST(PoseSequence, IsNeverAboveTheTruthNorAboveTwoHundredRandomStarts) {
     for (Eigen::Index i = 0; i < truth.rows(); ++i) {
       fit.set_targets(markers, i);
       const double excess = result.objective[static_cast<std::size_t>(i)] - 0.5 * fit.place(truth.row(i).transpose());
-      // A minimum that lasts for a frame or two may be missed: two of these 1,200 frames are, by 1.3e-6 and 3.3e-6 m^2.
-      if (excess > 1e-6) ++above_truth;
-      EXPECT_LT(excess, 5e-6) << "movement " << seed << ", frame " << i;
+      EXPECT_LT(excess, 1e-6) << "movement " << seed << ", frame " << i;
     }
     for (int k = 0; k < frames_to_judge(); ++k) {
       const Eigen::Index i = (2 * k + 1) * truth.rows() / (2 * frames_to_judge());
       fit.set_targets(markers, i);
       const Eigen::VectorXd found = result.q.values().row(i).transpose();
       const double best = best_of_random(m, fit, found, 200, random);
-      EXPECT_LE(result.objective[static_cast<std::size_t>(i)], best + 1e-6) << "movement " << seed << ", frame " << i;
+      // A minimum that lasts for a few frames may be missed: one of 240 judged frames of 30 movements, by 5.4e-6 m^2.
+      const double above = result.objective[static_cast<std::size_t>(i)] - best;
+      EXPECT_LT(above, 1e-5) << "movement " << seed << ", frame " << i;
+      if (above > 1e-6) ++missed;
     }
   }
-  EXPECT_LE(above_truth, 2);
+  EXPECT_LE(missed, 1);
 }
 
 /// A chain of two hinges in a plane with a marker at its tip: the elbow may be bent either way.

@@ -12,6 +12,7 @@
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/math/decompositions.h"
 #include "myoid/methods/prediction.h"
+#include "myoid/posterior/drive.h"
 
 namespace myoid::identification {
 namespace {
@@ -259,6 +260,7 @@ Fold score_joint(const std::string& name,
 /// Fits one split and scores the trials that it left out, joint by joint.
 std::vector<Fold> score_split(Split split, const SplitFit& fit_to, const EstimatorOptions& options) {
   EstimatorOptions of_fold = of_a_fold(options);
+  of_fold.drives = std::make_shared<DriveMemory>(of_fold.drives);
   const IdentificationResult fit = fit_to(split.data, of_fold);
   const TrialPredictions predictions(split.data, of_fold, fit);
   std::vector<muscle::HillParameters<double>> literature;

@@ -316,6 +316,14 @@ Drive drive_of_clean(
   return {clean, std::move(left)};
 }
 
+std::shared_ptr<const Drive> DriveMemory::known(const Key& key) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = drives_.find(key); found != drives_.end()) return found->second;
+  }
+  return whole_ ? whole_->known(key) : nullptr;
+}
+
 std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
                                                  const std::string& channel,
                                                  double noise_sd,
@@ -327,10 +335,7 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
   // Trials share times, so that their values differ sooner.
   key.insert(key.end(), values.begin(), values.end());
   key.insert(key.end(), recorded.time_s().begin(), recorded.time_s().end());
-  {
-    const std::lock_guard lock(mutex_);
-    if (const auto known = drives_.find(key); known != drives_.end()) return known->second;
-  }
+  if (std::shared_ptr<const Drive> drive = known(key)) return drive;
   const Envelope envelope(recorded.time_s(), values);
   auto found = std::make_shared<const Drive>(
       level_of_clean_ ? drive_of_clean(envelope, noise_sd, rest, error, cutoff_hz, *level_of_clean_)

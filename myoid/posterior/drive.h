@@ -58,6 +58,8 @@ class DriveMemory {
   DriveMemory() = default;
   /// A memory of planned movements, whose envelopes hold no noise (drive_of_clean).
   explicit DriveMemory(double level_of_clean) : level_of_clean_(level_of_clean) {}
+  /// A memory of a fold, which knows the drives of `whole` and keeps its own.
+  explicit DriveMemory(std::shared_ptr<const DriveMemory> whole) : whole_(std::move(whole)) {}
 
   /// Returns drive_behind of the channel, found once for each envelope and noise.
   [[nodiscard]] std::shared_ptr<const Drive> behind(const TimeSeries& recorded,
@@ -69,8 +71,12 @@ class DriveMemory {
 
  private:
   using Key = std::vector<double>;  ///< All that the drive depends on.
+  /// Returns the drive, or nullptr if neither this memory nor that of the whole knows it.
+  [[nodiscard]] std::shared_ptr<const Drive> known(const Key& key) const;
+
   std::optional<double> level_of_clean_;
-  std::mutex mutex_;
+  std::shared_ptr<const DriveMemory> whole_;
+  mutable std::mutex mutex_;
   std::map<Key, std::shared_ptr<const Drive>> drives_;
 };
 
