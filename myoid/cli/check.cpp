@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/counted.h"
 #include "myoid/core/json_text.h"
@@ -65,7 +66,7 @@ void add_check(CLI::App& app, Context& context) {
       .add_option("--up", o->up,
                   "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y or -z (default: "
                   "as the file says)")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
+      ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}));
   add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
   command.callback([&context, o] {
     o->call = context.call();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 
@@ -91,7 +92,7 @@ void add_cohort_options(CLI::App& command, commands::CohortOptions& options) {
   command
       .add_option("--jobs", options.jobs,
                   "Persons at a time (default: as many as threads; the files are the same for every number)")
-      ->check(CLI::Range(1, 1024));
+      ->check(between(1, 1024));
 }
 
 }  // namespace
@@ -143,13 +144,11 @@ void add_bids(CLI::App& app, Context& context) {
   const auto out = std::make_shared<std::string>();
   const auto level = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::CohortOptions>();
-  command.add_option("bids_dir", options->manifest, "Folder of the data set")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  command.add_option("bids_dir", options->manifest, "Folder of the data set")->required();
   command.add_option("output_dir", *out, "Folder of the results, a BIDS derivative")->required();
   command.add_option("analysis_level", *level, "participant or group")
       ->required()
-      ->check(CLI::IsMember({"participant", "group"}));
+      ->check(one_of({"participant", "group"}));
   command.add_option("--participant-label,--participant_label", options->persons,
                      "Labels without sub-, several (default: everybody)");
   command.add_option("--study", options->study, "The study of every person (default: code/study.toml of the data set)");

@@ -13,7 +13,9 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
+#include "myoid/cli/wrong_line.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
@@ -95,27 +97,7 @@ void limit_threads(Context& context) {
   (void)kept;
 }
 
-CLI::Validator number_check(const char* name, bool zero_too) {
-  return CLI::Validator(
-      [zero_too](const std::string& text) -> std::string {
-        const auto value = recording::parse_number(text);
-        if (value && std::isfinite(*value) && (*value > 0.0 || (zero_too && *value == 0.0))) return {};
-        return fmt::format("found '{}', expected a number {}", text, zero_too ? "of 0 or more" : "above 0");
-      },
-      name);
-}
-
 }  // namespace
-
-const CLI::Validator& above_zero() {
-  static const CLI::Validator check = number_check("POSITIVE", false);
-  return check;
-}
-
-const CLI::Validator& zero_or_more() {
-  static const CLI::Validator check = number_check("NONNEGATIVE", true);
-  return check;
-}
 
 void Context::log(std::string_view line) const {
   std::fflush(stdout);  // keeps the order of the two streams in one file
@@ -216,12 +198,14 @@ void add_compat_option(CLI::App& command, Context& context) {
   command
       .add_option("--compat", context.compat,
                   "Muscle paths: exact, or opensim to have OpenSim 4.5.2's with its defects")
-      ->check(CLI::IsMember({"exact", "opensim"}))
+      ->check(one_of({"exact", "opensim"}))
       ->capture_default_str();
 }
 
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used) {
   std::vector<CLI::Option*> idle;
+  command.get_help_ptr()->group(kCommonGroup);
+  command.option_defaults()->group(kCommonGroup);
   const auto unless = [&](bool has_effect, CLI::Option* option) {
     if (has_effect) return;
     option->group(kIdleGroup);
@@ -231,7 +215,7 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
          command
              .add_option("--threads", context.threads,
                          "Number of threads (default: all cores; the result is the same for every number)")
-             ->check(CLI::Range(0, 1024)));
+             ->check(between(0, 1024)));
   unless(used.seed,
          command.add_option("--seed", context.seed, "Seed of everything random (default 1)")->check(zero_or_more()));
   unless(used.json, command.add_flag("--json", context.json, "Result for machines on stdout"));
@@ -240,10 +224,11 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
   unless(used.range, command.add_option("--start", context.start_s, "First time that is used [s]"));
   unless(used.range, command.add_option("--end", context.end_s, "Last time that is used [s]"));
   unless(used.overwrite, command.add_flag("--overwrite", context.overwrite, "Replace existing results"));
+  command.option_defaults()->group("Options");
   command.parse_complete_callback([&context, idle, uses_threads = used.threads, name = command.get_name()] {
     if (context.start_s && context.end_s && !(*context.start_s < *context.end_s)) {
-      throw CLI::ValidationError(
-          "--end", fmt::format("expected a time after --start {}, found {}", *context.start_s, *context.end_s));
+      throw WrongCommandLine(
+          fmt::format("--end: expected a time after --start {}, found {}", *context.start_s, *context.end_s));
     }
     for (const CLI::Option* option : idle) {
       if (option->count() > 0)

@@ -9,13 +9,10 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json_fwd.hpp>
 #include <oneapi/tbb/global_control.h>
 
 #include "myoid/commands/call.h"
-#include "myoid/core/choice.h"
 #include "myoid/core/progress.h"
 #include "myoid/files/result_folder.h"
 
@@ -31,26 +28,6 @@ enum ExitCode : int {
   kSomeTrialsFailed = 5,
   kInterrupted = 130,
 };
-
-/// Checks of an option's number with a short sentence on the expected range. (CLI11's own checks
-/// print the largest double.)
-[[nodiscard]] const CLI::Validator& above_zero();
-[[nodiscard]] const CLI::Validator& zero_or_more();
-
-/// Returns the check of an option that takes the name of an enumerator (`choice_names`). (CLI11's
-/// own check lists the numbers of the enumerators, too.)
-template <typename Enumeration>
-[[nodiscard]] CLI::Validator one_of() {
-  const std::string names = fmt::format("{}", fmt::join(choice_names(Enumeration{}), ", "));
-  return CLI::Validator(
-      [names](std::string& word) {
-        const auto named = choice_named<Enumeration>(word);
-        if (!named) return fmt::format("{} is none of {}", word, names);
-        word = std::to_string(static_cast<int>(*named));
-        return std::string();
-      },
-      "{" + names + "}", "choice");
-}
 
 /// The common options of all commands, progress and log on stderr, and the way to stop.
 struct Context {
@@ -108,9 +85,10 @@ struct Context {
   [[nodiscard]] std::string contents_of_folders() const;
 };
 
-/// Group of the options that are accepted and do nothing: no help shows it. (An empty group, which
-/// CLI11 hides, would take the option's name out of error messages too.)
+/// Group of the options that are accepted and do nothing: no help shows it.
 inline constexpr const char* kIdleGroup = "without effect";
+/// Group of the options that all commands have.
+inline constexpr const char* kCommonGroup = "Common options";
 
 /// The common options that a command uses. Every command accepts all of them. The help leaves out
 /// an option without effect, and the program warns where it is given.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/file_format.h"
@@ -15,15 +16,17 @@ namespace {
 
 /// Adds the axes of the laboratory and its force plates.
 void add_laboratory_options(CLI::App& command, commands::ConvertOptions& o) {
+  command.option_defaults()->group("Laboratory");
   command
       .add_option("--up", o.up,
                   "Vertical axis of the laboratory, turned to y: x, y, z, -x, -y or -z (default: with force plates as "
                   "the file says, else nothing is turned)")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
+      ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--rotate", o.turns, "AXIS:DEGREES, repeated: further turns, one after another");
   command.add_option("--body", o.bodies, "Body of the model that stands on plate 1, 2, ...: writes ExternalLoads too");
   command.add_option("--least-force", o.least_force_n, "Below it a plate counts as unloaded [N] (default 10)")
       ->check(above_zero());
+  command.option_defaults()->group("Options");
 }
 
 }  // namespace
@@ -44,7 +47,7 @@ void add_convert(CLI::App& app, Context& context) {
       .add_option("--what", o->what,
                   "markers, channels, emg (voltages only) or plates; by default markers for .trc, plates for .mot from "
                   ".c3d, else channels")
-      ->check(CLI::IsMember({"markers", "channels", "emg", "plates"}));
+      ->check(one_of({"markers", "channels", "emg", "plates"}));
   add_laboratory_options(command, *o);
   command.add_option("--unit", o->unit, "Unit of EMG where the file does not say: V, mV, uV");
   command.add_option("--channel", o->channels, "Only this channel, repeated");

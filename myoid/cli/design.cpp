@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 
@@ -70,17 +71,17 @@ void add_choice_options(CLI::App& command, commands::DesignOptions& options) {
   command
       .add_option("--criterion", options.criterion,
                   "D: volume of the confidence ellipsoid, A: sum of relative variances")
-      ->check(CLI::IsMember({"D", "A"}))
+      ->check(one_of({"D", "A"}))
       ->capture_default_str();
   command.add_option("--movements", design.choice.movements, "How many to choose")
-      ->check(CLI::Range(1, 50))
+      ->check(between(1, 50))
       ->capture_default_str();
   command.add_option("--repeat", design.choice.most_of_each, "The same movement at most so often")
-      ->check(CLI::Range(1, 50))
+      ->check(between(1, 50))
       ->capture_default_str();
   command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")->check(above_zero());
   command.add_option("--fatigue", design.fatigued_share, "Share of a muscle that may be fatigued at any time")
-      ->check(CLI::Range(0.001, 1.0))
+      ->check(between(0.001, 1.0))
       ->capture_default_str();
   command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
       ->check(zero_or_more())
@@ -90,7 +91,7 @@ void add_choice_options(CLI::App& command, commands::DesignOptions& options) {
 /// Adds the persons and the noise of the expected recording.
 void add_recording_options(CLI::App& command, DesignStudyOptions& design) {
   command.add_option("--persons", design.persons, "Persons drawn from the priors, to average over")
-      ->check(CLI::Range(1, 1000))
+      ->check(between(1, 1000))
       ->capture_default_str();
   command
       .add_option("--torque-noise", design.torque_sd_nm,
@@ -98,7 +99,7 @@ void add_recording_options(CLI::App& command, DesignStudyOptions& design) {
       ->check(above_zero())
       ->capture_default_str();
   command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(between(0.0, 1.0))
       ->capture_default_str();
 }
 

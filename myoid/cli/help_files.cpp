@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/cli/context.h"
+#include "myoid/cli/command_help.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
@@ -15,91 +15,10 @@
 namespace myoid::cli {
 namespace {
 
-/// An option as the help files show it.
-struct HelpOption {
-  std::vector<std::string> names;  ///< "-h", "--help"; empty for a positional argument.
-  std::string value;               ///< "FILE", "{a,b}", the positional's name; empty for a flag.
-  std::vector<std::string> words;  ///< The words that the value may be; empty: any.
-  std::string says;
-  bool required = false;
-  bool several = false;
-};
-
-struct HelpCommand {
-  std::string name;
-  std::string says;     ///< First paragraph.
-  std::string example;  ///< Lines behind "Example:", with a line end each.
-  std::vector<HelpOption> options, positionals;
-
-  /// Returns the first sentence without its point.
-  [[nodiscard]] std::string title() const {
-    const std::string first = says.substr(0, says.find('\n'));
-    const std::size_t end = first.find(". ");
-    std::string text = first.substr(0, end);
-    if (text.ends_with('.')) text.pop_back();
-    return text;
-  }
-};
-
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
-}
-
-/// Returns the words a and b of "value in {a->0,b->1} OR {0,1}" and "{a,b}".
-std::vector<std::string> words_of(const std::string& type) {
-  const std::size_t begin = type.find('{');
-  const std::size_t end = type.find('}', begin);
-  std::vector<std::string> words;
-  if (begin == std::string::npos || end == std::string::npos) return words;
-  for (const std::string_view each : recording::split(std::string_view(type).substr(begin + 1, end - begin - 1), ','))
-    words.emplace_back(each.substr(0, each.find("->")));
-  return words;
-}
-
-std::string value_of(const std::string& type, const std::vector<std::string>& words) {
-  if (!words.empty()) return fmt::format("{{{}}}", fmt::join(words, ","));
-  const std::string kind = type.substr(0, type.find_first_of(":( "));
-  const bool number = kind.starts_with("INT") || kind.starts_with("UINT") || kind == "FLOAT" ||
-                      kind.starts_with("POSITIVE") || kind.starts_with("NONNEGATIVE");
-  return number ? "NUMBER" : kind.empty() ? "TEXT" : kind;
-}
-
-HelpOption help_of(const CLI::Option& option) {
-  HelpOption help;
-  const std::string type = option.get_type_name();
-  help.says = option.get_description();
-  help.required = option.get_required();
-  help.several = option.get_items_expected_max() > 1;
-  for (const std::string& name : option.get_snames()) help.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
-  help.words = words_of(type);
-  if (help.names.empty()) {
-    help.value = in_capitals(option.get_name(true));
-  } else if (option.get_items_expected_max() > 0) {
-    help.value = value_of(type, help.words);
-  }
-  return help;
-}
-
-HelpCommand help_of(const CLI::App& command) {
-  HelpCommand help;
-  help.name = command.get_name();
-  const std::string text = command.get_description();
-  const std::size_t example = text.find("Example: ");
-  help.says = text.substr(0, example == std::string::npos ? example : example - 1);
-  if (example != std::string::npos) {
-    const std::string_view lines = std::string_view(text).substr(example + 9);
-    for (const std::string_view line : recording::split(lines, '\n'))
-      help.example += fmt::format("{}\n", help.example.empty() ? line : recording::trim(line));
-  }
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_group() == kIdleGroup) continue;
-    HelpOption each = help_of(*option);
-    (each.names.empty() ? help.positionals : help.options).push_back(std::move(each));
-  }
-  return help;
 }
 
 std::string roff(std::string text) {
@@ -165,10 +84,17 @@ std::string command_page(const HelpCommand& command) {
   std::string text = roff_head("myoid-" + command.name) +
                      fmt::format(".SH NAME\nmyoid\\-{} \\- {}\n", roff_word(command.name), roff_word(command.title())) +
                      fmt::format(".SH SYNOPSIS\n{}\n.SH DESCRIPTION\n{}", synopsis, roff(command.says));
-  if (!command.example.empty()) text += fmt::format(".SH EXAMPLE\n.nf\n{}.fi\n", roff_word(command.example));
-  text += ".SH OPTIONS\n";
+  if (!command.examples.empty()) text += ".SH EXAMPLE\n.nf\n";
+  for (const std::string& example : command.examples) text += roff_word(shell_lines(example, 80));
+  if (!command.examples.empty()) text += ".fi\n";
+  if (!command.positionals.empty()) text += ".SH ARGUMENTS\n";
   for (const HelpOption& each : command.positionals) text += option_roff(each);
-  for (const HelpOption& each : command.options) text += option_roff(each);
+  text += ".SH OPTIONS\n";
+  for (const std::string& group : command.groups()) {
+    text += fmt::format(".SS {}\n", roff_word(group));
+    for (const HelpOption& each : command.options)
+      if (each.group == group) text += option_roff(each);
+  }
   return text + kExitCodes + ".SH SEE ALSO\n.BR myoid (1)\n";
 }
 
@@ -178,8 +104,10 @@ std::string program_page(const CLI::App& app, const std::vector<HelpCommand>& co
                      "myoid\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n"
                      ".SH DESCRIPTION\n" +
                      roff(app.get_description()) + ".SH COMMANDS\n";
-  std::string also;
+  std::string also, group;
   for (const HelpCommand& command : commands) {
+    if (command.group != group) text += fmt::format(".SS {}\n", roff_word(command.group));
+    group = command.group;
     text += fmt::format(".TP\n.B {}\n{}.\n", roff_word(command.name), roff_word(command.title()));
     also += fmt::format("{}.BR myoid\\-{} (1)", also.empty() ? "" : ",\n", roff_word(command.name));
   }
@@ -214,13 +142,14 @@ _myoid() {{
   local current="${{COMP_WORDS[COMP_CWORD]}}" words=""
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "{} --help --version" -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W "{0} help --help --version" -- "$current")
     return
   fi
   case "${{COMP_WORDS[1]}} ${{COMP_WORDS[COMP_CWORD-1]}}" in
-{}  esac
+    "help help") words="{0}" ;;
+{1}  esac
   case "$words$current" in -*) case "${{COMP_WORDS[1]}}" in
-{}  esac ;; esac
+{2}  esac ;; esac
   if [ -n "$words" ]; then mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current"); fi
 }}
 complete -o default -F _myoid myoid
@@ -262,13 +191,14 @@ std::string zsh_completion(const std::vector<HelpCommand>& commands) {
       "#compdef myoid\n_myoid() {{\n  local -a commands\n  commands=(\n{}  )\n"
       "  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n"
       "  local command=$words[2]\n  shift words\n  (( CURRENT-- ))\n"
-      "  case $command in\n{}  esac\n}}\n_myoid \"$@\"\n",
+      "  case $command in\n    help) _describe command commands ;;\n{}  esac\n}}\n_myoid \"$@\"\n",
       all, cases);
 }
 
 std::string fish_completion(const std::vector<HelpCommand>& commands) {
   std::string text = "# fish completion of myoid\n";
   for (const HelpCommand& command : commands) {
+    text += fmt::format("complete -c myoid -n '__fish_seen_subcommand_from help' -f -a {}\n", command.name);
     text += fmt::format("complete -c myoid -n __fish_use_subcommand -f -a {} -d '{}'\n", command.name,
                         quoted(command.title(), false));
     for (const HelpOption& option : command.options) {
@@ -288,15 +218,8 @@ std::string fish_completion(const std::vector<HelpCommand>& commands) {
 
 }  // namespace
 
-std::string in_capitals(std::string text) {
-  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
-  return text;
-}
-
 void write_help_files(const CLI::App& app, const std::filesystem::path& folder) {
-  std::vector<HelpCommand> commands;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    commands.push_back(help_of(*command));
+  const std::vector<HelpCommand> commands = help_of_commands(app);
   recording::write_file(folder / "man1/myoid.1", program_page(app, commands));
   for (const HelpCommand& command : commands)
     recording::write_file(folder / "man1" / fmt::format("myoid-{}.1", command.name), command_page(command));

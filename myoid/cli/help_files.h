@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -9,9 +8,6 @@ namespace myoid::cli {
 
 /// The word on the command line that writes the help files. Packages call it; no help shows it.
 inline constexpr const char* kHelpFilesWord = "help-files";
-
-/// Returns the text with the letters a to z in capitals.
-[[nodiscard]] std::string in_capitals(std::string text);
 
 /// Writes the manual pages and completions of the program, made of the declared commands and their options:
 ///

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/commands/output_file.h"
 
 namespace myoid::cli {
@@ -42,7 +43,7 @@ void add_ik(CLI::App& app, Context& context) {
       .add_option(
           "--up", o->up,
           "Vertical axis of the laboratory: x, y, z, -x, -y or -z (default: as a .c3d file says, else as the model)")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
+      ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--weight", o->weights, "MARKER=WEIGHT, repeated; 1 where not given");
   command.add_option("--lock", o->lock, "Coordinate held at its default value, repeated");
   command.add_option("--unlock", o->unlock, "Coordinate freed although the model locks it, repeated");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 #include "myoid/commands/model_page.h"
 #include "myoid/contents/contents_text.h"
@@ -17,6 +18,7 @@ namespace {
 
 /// Adds --html, --motion, --forces, --activations, --markers, --meshes and --up.
 void add_model_page_options(CLI::App& command, commands::ModelPageOptions& options, std::string& page) {
+  command.option_defaults()->group("Page of a model");
   CLI::Option* const html = command.add_option(
       "--html", page, "Of a model: write a page that shows it in the browser, moving; one file, works offline");
   const auto add = [&](const char* name, std::string& value, const char* text) {
@@ -34,8 +36,9 @@ void add_model_page_options(CLI::App& command, commands::ModelPageOptions& optio
   command
       .add_option("--up", options.up,
                   "Vertical axis of --markers: x, y, z, -x, -y or -z (default: as a .c3d file says, else as the model)")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+      ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}))
       ->needs(html);
+  command.option_defaults()->group("Options");
 }
 
 /// Writes the page of the model, which must be the only file.
@@ -73,7 +76,7 @@ void add_info(CLI::App& app, Context& context) {
       "--compare-compat", o->ask.compare_compat,
       "Of a model: for which muscles exact paths differ from OpenSim 4.5.2's, and by how much, over random postures");
   command.add_option("--postures", o->ask.postures, "Random postures for --compare-compat")
-      ->check(CLI::Range(1, 1000000))
+      ->check(between(1, 1000000))
       ->capture_default_str();
   command.add_flag("--jumps", o->ask.jumps,
                    "Of a model: where a muscle's length or moment arm jumps over the range of a coordinate");

@@ -1,12 +1,11 @@
 // The program: it parses the command line, calls a command and returns an exit code.
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <memory>
 #include <new>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -19,13 +18,15 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "myoid/cli/command_help.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/help_files.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
+#include "myoid/cli/wrong_line.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/input_log.h"
-#include "myoid/files/toml_table.h"
 
 namespace {
 
@@ -78,34 +79,41 @@ int stdout_lost(const char* cause) {
 struct Command {
   const char* name;
   void (*add)(CLI::App&, myoid::cli::Context&);
+  const char* group;
 };
+
+constexpr const char* kStudy = "One study";
+constexpr const char* kPersons = "Many persons";
+constexpr const char* kSteps = "Single steps, from file to file";
+constexpr const char* kOpenSim = "OpenSim";
+constexpr const char* kVirtual = "Virtual persons and movements";
 
 /// In the order of the help.
 constexpr Command kCommands[] = {
-    {"run", myoid::cli::add_run},
-    {"init", myoid::cli::add_init},
-    {"check", myoid::cli::add_check},
-    {"compare", myoid::cli::add_compare},
-    {"cohort", myoid::cli::add_cohort},
-    {"bids", myoid::cli::add_bids},
-    {"settings", myoid::cli::add_settings},
-    {"info", myoid::cli::add_info},
-    {"convert", myoid::cli::add_convert},
-    {"emg", myoid::cli::add_emg},
-    {"ik", myoid::cli::add_ik},
-    {"id", myoid::cli::add_id},
-    {"paths", myoid::cli::add_paths},
-    {"so", myoid::cli::add_so},
-    {"identify", myoid::cli::add_identify},
-    {"muscle", myoid::cli::add_muscle},
-    {"simulate", myoid::cli::add_simulate},
-    {"twin", myoid::cli::add_twin},
-    {"twin-study", myoid::cli::add_twin_study},
-    {"design", myoid::cli::add_design},
-    {"predict", myoid::cli::add_predict},
-    {"report", myoid::cli::add_report},
-    {"run-tool", myoid::cli::add_run_tool},
-    {"update-file", myoid::cli::add_update_file},
+    {"run", myoid::cli::add_run, kStudy},
+    {"init", myoid::cli::add_init, kStudy},
+    {"check", myoid::cli::add_check, kStudy},
+    {"settings", myoid::cli::add_settings, kStudy},
+    {"report", myoid::cli::add_report, kStudy},
+    {"predict", myoid::cli::add_predict, kStudy},
+    {"compare", myoid::cli::add_compare, kStudy},
+    {"design", myoid::cli::add_design, kStudy},
+    {"cohort", myoid::cli::add_cohort, kPersons},
+    {"bids", myoid::cli::add_bids, kPersons},
+    {"info", myoid::cli::add_info, kSteps},
+    {"convert", myoid::cli::add_convert, kSteps},
+    {"emg", myoid::cli::add_emg, kSteps},
+    {"ik", myoid::cli::add_ik, kSteps},
+    {"id", myoid::cli::add_id, kSteps},
+    {"paths", myoid::cli::add_paths, kSteps},
+    {"so", myoid::cli::add_so, kSteps},
+    {"identify", myoid::cli::add_identify, kSteps},
+    {"muscle", myoid::cli::add_muscle, kSteps},
+    {"run-tool", myoid::cli::add_run_tool, kOpenSim},
+    {"update-file", myoid::cli::add_update_file, kOpenSim},
+    {"twin", myoid::cli::add_twin, kVirtual},
+    {"twin-study", myoid::cli::add_twin_study, kVirtual},
+    {"simulate", myoid::cli::add_simulate, kVirtual},
 };
 
 const Command* find_command(std::string_view name) {
@@ -117,54 +125,26 @@ const Command* find_command(std::string_view name) {
 int unknown_command(std::string_view word) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.emplace_back(command.name);
-  const auto near = myoid::recording::nearest_word(word, names);
+  const auto near = myoid::cli::meant(word, names);
   myoid::cli::say_error("error: there is no command '{}'{}; there are {}\n", word,
                         near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", "));
   return myoid::cli::kWrongCommandLine;
 }
 
-/// Writes arguments without dashes in capitals, as in the guide: "run [OPTIONS] STUDY".
-class CapitalPositionals : public CLI::Formatter {
- public:
-  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
-    return is_positional ? myoid::cli::in_capitals(CLI::Formatter::make_option_name(option, true))
-                         : CLI::Formatter::make_option_name(option, false);
-  }
-  std::string make_group(std::string group,
-                         bool is_positional,
-                         std::vector<const CLI::Option*> options) const override {
-    if (group == myoid::cli::kIdleGroup) return "";
-    return CLI::Formatter::make_group(std::move(group), is_positional, std::move(options));
-  }
-  std::string make_option_usage(const CLI::Option* option) const override {
-    return myoid::cli::in_capitals(CLI::Formatter::make_option_usage(option));
-  }
-};
-
-/// Returns a sentence on an option that takes one value and has several; empty: there is none.
-std::string repeated_option(CLI::App& app) {
-  for (const CLI::App* command : app.get_subcommands()) {
-    for (const CLI::Option* option : command->get_options()) {
-      const bool takes_one =
-          option->get_items_expected_max() == 1 && option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
-      if (takes_one && option->results().size() > 1)
-        return fmt::format("{} is given {} times ({}); it takes one value", option->get_name(),
-                           option->results().size(), fmt::join(option->results(), ", "));
-    }
-  }
-  return "";
-}
-
 /// Stands behind a word that ends in ']': CLI11 takes "[a,b]" for a list of two words, and names may look so.
 constexpr char kMark = '\x1f';
 
-/// Returns the words of the command line in the reverse order, as CLI11 takes them.
-std::vector<std::string> marked(int argc, char** argv) {
-  std::vector<std::string> words;
-  for (int i = argc - 1; i > 0; --i) {
-    words.emplace_back(argv[i]);
-    if (words.back().ends_with(']')) words.back() += kMark;
-  }
+int wrong_command_line(std::string sentence) {
+  std::erase(sentence, kMark);
+  myoid::cli::say_error("error: {}\n", sentence);
+  return myoid::cli::kWrongCommandLine;
+}
+
+/// Returns the words in the reverse order, as CLI11 takes them.
+std::vector<std::string> marked(std::vector<std::string> words) {
+  std::ranges::reverse(words);
+  for (std::string& word : words)
+    if (word.ends_with(']')) word += kMark;
   return words;
 }
 
@@ -173,54 +153,78 @@ std::string take_mark(std::string& word) {
   return {};
 }
 
-int run(int argc, char** argv, myoid::cli::Context& context) {
+/// Declares a command. Before its own checks, each option drops the mark and takes only numbers for a number.
+CLI::App* declare(const Command& command, CLI::App& app, myoid::cli::Context& context) {
+  command.add(app, context);
+  CLI::App* const declared = app.get_subcommand(command.name);
+  declared->group(command.group);
+  for (CLI::Option* option : declared->get_options()) {
+    const std::string declared_type = option->get_type_name();
+    const std::string type = declared_type.substr(0, declared_type.find(':'));
+    option->transform(CLI::Validator(
+        [type](std::string& text) { return take_mark(text) + myoid::cli::refused_number(text, type); }, "", "word"));
+  }
+  return declared;
+}
+
+/// Prints the help of the program, its version or what is wrong, where no command is called.
+int without_command(CLI::App& app, const std::vector<std::string>& words, myoid::cli::Context& context) {
+  using namespace myoid;
+  const std::string word = words.empty() ? "--help" : words.front();
+  if (words.size() == 2 && word == cli::kHelpFilesWord) {
+    for (const Command& command : kCommands) declare(command, app, context);
+    cli::write_help_files(app, words[1]);
+    return cli::kDone;
+  }
+  if (word == "--version" || word == "-V") {
+    cli::say("{}\n", version());
+    return cli::kDone;
+  }
+  if (word == "--help" || word == "-h") {
+    for (const Command& command : kCommands) declare(command, app, context);
+    cli::say("{}", cli::program_text(app, cli::help_width()));
+    return cli::kDone;
+  }
+  if (!word.starts_with('-')) return unknown_command(word);
+  const auto command = std::ranges::find_if(words, [](const std::string& each) { return find_command(each); });
+  if (command != words.end())
+    return wrong_command_line(
+        fmt::format("{} stands before the command; options stand behind it: myoid {} ... {}", word, *command, word));
+  const auto near = cli::meant(word, {"--help", "--version"});
+  return wrong_command_line(near ? fmt::format("unknown option '{}'; did you mean {}?", word, *near)
+                                 : fmt::format("unknown option '{}'; myoid --help lists the commands", word));
+}
+
+int run(std::vector<std::string> words, myoid::cli::Context& context) {
+  using namespace myoid;
   CLI::App app{
       "Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
       "says how sure it is of each, and names the parameters that the recording leaves open.",
       "myoid"};
-  app.set_version_flag("--version,-V", std::string(myoid::version()));
-  app.require_subcommand(0, 1);
+  app.set_help_flag("-h,--help", "This help");
+  app.set_version_flag("-V,--version", std::string(version()), "The version");
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.resize(std::min<std::size_t>(words.size(), 1));
+    words.emplace_back("--help");
+  }
   // Declaring the options of all commands takes longer than a small run.
-  const std::string_view word = argc > 1 ? argv[1] : "";
-  const Command* const called = find_command(word);
-  if (called == nullptr && argc == 3 && word == myoid::cli::kHelpFilesWord) {
-    for (const Command& command : kCommands) command.add(app, context);
-    myoid::cli::write_help_files(app, argv[2]);
-    return myoid::cli::kDone;
-  }
-  if (called == nullptr) {
-    app.footer(
-        "myoid COMMAND --help shows a command's purpose, an example and its options.\n"
-        "First steps: myoid twin --protocol examples/demo/protocol.toml --out rec\n"
-        "             myoid run rec/study.toml --out results");
-    if (!word.empty() && word[0] != '-') return unknown_command(word);
-  }
-  app.formatter(std::make_shared<CapitalPositionals>());
-  for (const Command& command : kCommands) {
-    if (called == nullptr || called == &command) command.add(app, context);
-  }
+  const Command* const called = find_command(words.empty() ? "" : words.front());
+  if (called == nullptr) return without_command(app, words, context);
+  const CLI::App* const command = declare(*called, app, context);
+  const std::string missing = cli::missing_value(*command, {words.begin() + 1, words.end()});
+  if (!missing.empty()) return wrong_command_line(missing);
   try {
-    for (CLI::App* command : app.get_subcommands({})) {
-      for (CLI::Option* option : command->get_options()) option->transform(CLI::Validator(take_mark, "", "mark"));
-    }
-    app.parse(marked(argc, argv));
+    app.parse(marked(words));
+  } catch (const CLI::CallForHelp&) {
+    cli::say("{}", cli::command_text(*command, cli::help_width()));
+    return cli::kDone;
   } catch (const CLI::ParseError& error) {
-    if (std::string repeated = repeated_option(app); !repeated.empty()) {
-      std::erase(repeated, kMark);
-      myoid::cli::say_error("error: {}\n", repeated);
-      return myoid::cli::kWrongCommandLine;
-    }
-    std::ostringstream out, wrong;
-    const int code = app.exit(error, out, wrong);
-    std::string said = out.str();
-    myoid::cli::say("{}", said);
-    said = wrong.str();
-    std::erase(said, kMark);
-    myoid::cli::say_error("{}", said);
-    return code == 0 ? myoid::cli::kDone : myoid::cli::kWrongCommandLine;
+    return wrong_command_line(cli::wrong_line(*command, error));
+  } catch (const cli::WrongCommandLine& error) {
+    return wrong_command_line(error.what());
   }
   context.tell_new_folders();
-  if (app.get_subcommands().empty()) myoid::cli::say("{}", app.help());
   return context.exit_code;
 }
 
@@ -234,7 +238,7 @@ int main(int argc, char** argv) {
   stop_on_signals(context.stop);
   const recording::InputLog inputs;
   try {
-    const int code = run(argc, argv, context);
+    const int code = run({argv + std::min(argc, 1), argv + argc}, context);
     context.finish_folders();
     context.release_folders();
     if (std::fflush(stdout) != 0) return stdout_lost(std::strerror(errno));

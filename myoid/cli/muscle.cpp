@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
 
@@ -112,7 +113,7 @@ void add_muscle(CLI::App& app, Context& context) {
   command.add_option("--isometric-force", o->isometric_n,
                      "Force that the error is related to [N] (default: F_max of the muscle)");
   command.add_option("--tolerance", o->tolerance, "Relative, of the integration (default 1e-9)")
-      ->check(CLI::Range(1e-13, 1e-3));
+      ->check(between(1e-13, 1e-3));
   const auto out = std::make_shared<std::string>();
   command.add_option("--out", *out,
                      "Forces, lengths, velocities, activation over time (.sto); with --fit the parameters (.csv)");

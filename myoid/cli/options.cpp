@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/cli/command_help.h"
 #include "myoid/commands/twin.h"
 #include "myoid/files/text_file.h"
 #include "myoid/mat/results_mat.h"
@@ -60,7 +61,7 @@ void add_truth_option(CLI::App& command, std::vector<std::string>& settings) {
   command
       .add_option("--truth", settings, "Keys of [truth] in place of the protocol's: moment_arm_sd=0.15 curves=millard")
       ->type_name("KEY=VALUE");
-  command.footer(commands::truth_help());
+  command.footer([] { return commands::truth_help(help_width()); });
 }
 
 bool OptionDeclarer::met(const Setting& setting, const SettingValue& now, const Set& /*set*/) {

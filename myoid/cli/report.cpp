@@ -5,6 +5,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
+#include "myoid/cli/wrong_line.h"
 #include "myoid/cohort/group_report.h"
 #include "myoid/report/write_report.h"
 
@@ -72,7 +73,7 @@ void add_report(CLI::App& app, Context& context) {
     } else if (folder->count() > 0) {
       report_run(context, wishes->run, mat);
     } else {
-      throw CLI::RequiredError("folder of a run, or --group with several");
+      throw WrongCommandLine("report needs the folder of a run, or --group with several");
     }
   });
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 
 namespace myoid::cli {
@@ -26,7 +27,7 @@ void add_run_tool(CLI::App& app, Context& context) {
       .add_option(
           "--compat", o->compat,
           "opensim: paths of muscles as OpenSim 4.5.2 computes them; exact: as their geometry is (default opensim)")
-      ->check(CLI::IsMember({"opensim", "exact"}));
+      ->check(one_of({"opensim", "exact"}));
   add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
   command.callback([&context, o] {
     o->call = context.call();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/report/write_report.h"
@@ -28,15 +29,15 @@ void add_muscle_options(CLI::App& command, commands::SimulateOptions& o) {
                      "repeated; 'all' is every muscle");
   command.add_option("--rest", o.rest, "Excitation where --excite says nothing (default 0.01)");
   command.add_option("--tendon", o.tendon, "rigid, equilibrium (default) or mass (the source paper's muscle mass)")
-      ->check(CLI::IsMember(commands::tendon_names()));
+      ->check(one_of(commands::tendon_names()));
   command
       .add_option("--curves", o.curves,
                   "file (default for .osim), paper (default for arm4), thelen, de_groote, millard")
-      ->check(CLI::IsMember(commands::curve_names()));
+      ->check(one_of(commands::curve_names()));
   command
       .add_option("--activation", o.activation,
                   "two_lags (default for arm4), thelen (default for .osim), de_groote, recursive, envelope")
-      ->check(CLI::IsMember(commands::activation_names()));
+      ->check(one_of(commands::activation_names()));
 }
 
 /// Adds the start of the movement, its constraints and loads.

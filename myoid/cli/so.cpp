@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/commands/output_file.h"
 
 namespace myoid::cli {
@@ -32,7 +33,7 @@ void add_so(CLI::App& app, Context& context) {
   command.add_option("--motion", o->motion, "Joint angles (.mot, .sto)")->required();
   command.add_option("--out", *out, "Folder for StaticOptimization_*")->required();
   command.add_option("--objective", o->objective, "activation, force or stress (default activation)")
-      ->check(CLI::IsMember({"activation", "force", "stress"}));
+      ->check(one_of({"activation", "force", "stress"}));
   command.add_option("--exponent", o->exponent, "Exponent of the sum, above 1 (default 2)");
   command.add_option("--emg", o->emg, "Measured activations by muscle name (.sto), to stay near");
   command.add_option("--emg-weight", o->emg_weight, "Weight of that term (default 1)");
@@ -48,7 +49,7 @@ void add_so(CLI::App& app, Context& context) {
       .add_option("--tendon", o->tendon,
                   "rigid, or elastic: fiber and tendon in balance by the muscle's own curves, in every frame for "
                   "itself: the tendon's own rate is left out (default rigid)")
-      ->check(CLI::IsMember({"rigid", "elastic"}));
+      ->check(one_of({"rigid", "elastic"}));
   command.add_flag("--passive", o->passive,
                    "The fibers' passive springs and dampers pull too, and the muscles share the rest");
   add_compat_option(command, context);

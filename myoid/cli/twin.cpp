@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/options.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
@@ -56,21 +57,21 @@ void add_twin(CLI::App& app, Context& context) {
   command
       .add_option("--model", options->twin.model,
                   "Model that goes with the recording: arm4 (four muscles, default) or arm7 (seven heads, level L2)")
-      ->check(CLI::IsMember({"arm4", "arm7"}));
+      ->check(one_of({"arm4", "arm7"}));
   command.add_option("--protocol", options->twin.protocol, "Protocol of the recording (.toml)")->required();
   command
       .add_option("--level", options->twin.level,
                   "L0 exact, L1 noise, L2 another truth than the model; default: as the protocol says")
-      ->check(CLI::IsMember({"L0", "L1", "L2"}));
+      ->check(one_of({"L0", "L1", "L2"}));
   add_truth_option(command, options->twin.truth);
   command
       .add_option("--subjects", options->persons,
                   "So many persons, seeds counting up from --seed, a folder each, and persons.csv")
-      ->check(CLI::Range(1, 1000000));
+      ->check(between(1, 1000000));
   command
       .add_option("--format", options->twin.format,
                   "Files of markers and EMG: trc (.trc and .sto, default) or c3d (both in one)")
-      ->check(CLI::IsMember({"trc", "c3d"}));
+      ->check(one_of({"trc", "c3d"}));
   command.add_flag("--truth-only", options->truth_only, "With --subjects: persons.csv only, no recordings");
   command.add_option("--out", *out, "Folder for the recording")->required();
   add_common_options(command, context, {.range = false});

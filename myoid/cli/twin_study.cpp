@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/error.h"
@@ -101,12 +102,12 @@ void add_twin_study(CLI::App& app, Context& context) {
   const auto options = std::make_shared<commands::TwinStudyOptions>();
   command.add_option("--protocol", options->protocol, "Protocol of the recording (.toml)")->required();
   command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
-      ->check(CLI::IsMember({"L0", "L1", "L2"}));
+      ->check(one_of({"L0", "L1", "L2"}));
   command.add_option("--offset", options->offset, "Mean of the persons away from the priors', in standard deviations")
-      ->check(CLI::Range(-3.0, 3.0));
+      ->check(between(-3.0, 3.0));
   add_truth_option(command, options->truth);
   command.add_option("--subjects", options->study.subjects, "Virtual persons")
-      ->check(CLI::Range(1, 1000000))
+      ->check(between(1, 1000000))
       ->capture_default_str();
   command.add_option("--method", options->study.methods, "torque, force, paper; several")
       ->transform(one_of<identification::Method>())

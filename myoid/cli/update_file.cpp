@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/option_checks.h"
 
 namespace myoid::cli {
 
@@ -19,7 +20,7 @@ void add_update_file(CLI::App& app, Context& context) {
       .add_option("--compat", o->compat,
                   "exact: offsets of joints and inertias keep their digits; opensim: they are rounded to six, as "
                   "OpenSim converts them (default exact)")
-      ->check(CLI::IsMember({"exact", "opensim"}));
+      ->check(one_of({"exact", "opensim"}));
   add_common_options(command, context, {.threads = false, .seed = false, .range = false});
   command.callback([&context, o, new_file] {
     context.prepare_file(*new_file, {o->file});

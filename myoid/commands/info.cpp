@@ -21,6 +21,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr const char* kPart = "part of an OpenSim document";
+
 ordered_json study_contents(const std::string& path) {
   const Study study = read_study(path);
   ordered_json j{{"kind", "study"},
@@ -29,8 +31,9 @@ ordered_json study_contents(const std::string& path) {
                  {"methods", ordered_json::array()}};
   for (const identification::Method method : study.identify.methods)
     j["methods"].push_back(std::string(choice_name(method)));
-  for (const auto& m : study.muscles) j["muscles"].push_back(fmt::format("{} <- EMG {}", m.name, m.emg));
-  for (const auto& t : study.trials) j["trials"].push_back(fmt::format("{} ({})", t.name, choice_name(t.use)));
+  for (const auto& m : study.muscles) j["muscles"].push_back({{"name", m.name}, {"emg", m.emg}});
+  for (const auto& t : study.trials)
+    j["trials"].push_back({{"name", t.name}, {"use", std::string(choice_name(t.use))}});
   return j;
 }
 
@@ -45,7 +48,7 @@ ordered_json contents_of_model(const InfoOptions& o) {
 
 /// Returns the forces of an <ExternalLoads> with their bodies, and the file of their numbers.
 ordered_json loads_contents(const model::OsimXml& xml, pugi::xml_node loads) {
-  ordered_json j{{"kind", "forces on bodies (ExternalLoads of OpenSim)"}, {"name", model::OsimXml::name_of(loads)}};
+  ordered_json j{{"kind", kPart}, {"class", loads.name()}, {"name", model::OsimXml::name_of(loads)}};
   for (const pugi::xml_node force : model::OsimXml::objects(loads)) {
     const std::string body = xml.word(force, "applied_to_body");
     j["forces"].push_back(
@@ -54,35 +57,32 @@ ordered_json loads_contents(const model::OsimXml& xml, pugi::xml_node loads) {
   const std::string data = xml.word(loads, "datafile");
   const recording::NamedFile file = recording::find_named_file(xml.path().parent_path(), data);
   if (!data.empty()) j[file.exists ? "reads" : "missing"].push_back(file.path.string());
-  j["read_by"] = fmt::format("myoid id and myoid so with --loads {}; external_loads of a trial in study.toml",
-                             xml.path().string());
+  j["read_by"] = {"myoid id --loads", "myoid so --loads", "external_loads of study.toml"};
   return j;
 }
 
 /// Returns the weights of an <IKTaskSet>; "off" for a task that is not applied.
 ordered_json tasks_contents(const model::OsimXml& xml, pugi::xml_node set) {
-  ordered_json j{{"kind", "tasks of inverse kinematics (IKTaskSet of OpenSim)"},
-                 {"name", model::OsimXml::name_of(set)}};
+  ordered_json j{{"kind", kPart}, {"class", set.name()}, {"name", model::OsimXml::name_of(set)}};
   for (const pugi::xml_node task : model::OsimXml::objects(set)) {
     ordered_json& told =
         j[std::string_view(task.name()) == "IKCoordinateTask" ? "coordinates" : "markers"].emplace_back();
     told["name"] = model::OsimXml::name_of(task);
     told["weight"] = xml.flag(task, "apply", true) ? ordered_json(xml.number(task, "weight", 1.0)) : "off";
   }
-  j["read_by"] = "myoid run-tool with the set-up of an InverseKinematicsTool or ScaleTool that names this file";
+  j["read_by"] = {"myoid run-tool"};
   return j;
 }
 
 /// Lists the objects of another set that stands in a file of its own, by their classes.
 ordered_json set_contents(pugi::xml_node set) {
-  ordered_json j{{"kind", fmt::format("{} in a file of its own (a part of an OpenSim document)", set.name())},
-                 {"name", model::OsimXml::name_of(set)}};
+  ordered_json j{{"kind", kPart}, {"class", set.name()}, {"name", model::OsimXml::name_of(set)}};
   for (const pugi::xml_node object : model::OsimXml::objects(set)) {
     std::string name = model::OsimXml::name_of(object);
     if (name.empty()) name = object.child("segment").text().get();
     j[object.name()].push_back(std::string(recording::trim(name)));
   }
-  j["read_by"] = fmt::format("the model or set-up that names this file, <{} file=\"...\"/>", set.name());
+  j["read_by"] = {fmt::format("<{} file>", set.name())};
   return j;
 }
 

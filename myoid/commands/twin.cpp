@@ -45,7 +45,7 @@ std::optional<twin::Level> level_named(const std::string& name) {
   return choice_named<twin::Level>(name);
 }
 
-std::string truth_help() { return reference_text({twin::truth_reference()}); }
+std::string truth_help(std::size_t width) { return reference_text({twin::truth_reference()}, width); }
 
 TwinResult twin(const TwinOptions& o) { return {twin::make_virtual_recording(protocol_of(o), o.call.seed), o.format}; }
 

@@ -54,7 +54,7 @@ struct TwinPersonsResult {
 TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options, const std::filesystem::path& folder);
 
 /// Returns the keys of a protocol's [truth], for a terminal.
-[[nodiscard]] std::string truth_help();
+[[nodiscard]] std::string truth_help(std::size_t width);
 
 /// Returns the level L0, L1 or L2; empty for an empty name. Throws InvalidInput for other names.
 [[nodiscard]] std::optional<twin::Level> level_named(const std::string& name);

@@ -27,18 +27,36 @@ bool is_list_of_members(const ordered_json& value) {
   return value.is_array() && !value.empty() && value[0].is_object();
 }
 
-/// Returns "BIC [V]  lowest -0.003  highest 0.002" of an object, without its lists; a list's other members as they are.
+/// Returns "mass 1.5 kg" of "mass_kg": a key ends in the unit of its number.
+std::string fact_text(const std::string& key, const ordered_json& value) {
+  struct Ending {
+    std::string_view key, unit;
+  };
+  std::string label = key;
+  std::string_view unit;
+  for (const Ending& each : {Ending{"_kg", "kg"}, Ending{"_n", "N"}, Ending{"_m", "m"}, Ending{"_s", "s"},
+                             Ending{"_hz", "Hz"}, Ending{"_deg", "deg"}}) {
+    if (!value.is_number() || !label.ends_with(each.key)) continue;
+    label.resize(label.size() - each.key.size());
+    unit = each.unit;
+  }
+  std::ranges::replace(label, '_', ' ');
+  if (value.is_boolean()) return label;
+  return fmt::format("{} {}{}{}", label, number_or_text(value, 5), unit.empty() ? "" : " ", unit);
+}
+
+/// Returns "BIC [V]  lowest -0.003  highest 0.002" of an object, without its lists and what is false; a list's other
+/// members as they are.
 std::string member_text(const ordered_json& item) {
   if (!item.is_object()) return number_or_text(item, 6);
   std::string line;
   for (const auto& [key, value] : item.items()) {
-    if (is_list_of_members(value)) continue;
-    const std::string text = number_or_text(value, 5);
+    if (is_list_of_members(value) || (value.is_boolean() && !value.get<bool>())) continue;
     if (key == "unit") {
-      line += fmt::format("{}[{}]", line.empty() ? "" : " ", text);
+      line += fmt::format("{}[{}]", line.empty() ? "" : " ", number_or_text(value, 5));
     } else {
       line += line.empty() ? "" : "  ";
-      line += key == "name" ? text : fmt::format("{} {}", key, text);
+      line += key == "name" ? number_or_text(value, 5) : fact_text(key, value);
     }
   }
   return line;

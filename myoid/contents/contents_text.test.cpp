@@ -25,6 +25,12 @@ TEST(ContentsText, NothingAListOfListsAndBytesThatAreNoUtf8AreRendered) {
   EXPECT_EQ(contents_text(list), "a (3):\n  [1,2]\n  null\n  [V]\n");
 }
 
+TEST(ContentsText, OfAMemberTheUnitStandsBehindTheNumberAndWhatIsFalseIsLeftOut) {
+  const auto contents = nlohmann::ordered_json::parse(R"({"muscles": [
+      {"name": "BIC", "max_force_n": 1060.0, "length_m": 0.12, "fixed": false, "locked": true, "emg": "ch_n"}]})");
+  EXPECT_EQ(contents_text(contents), "muscles (1):\n  BIC  max force 1060 N  length 0.12 m  locked  emg ch_n\n");
+}
+
 TEST(ContentsText, WhereAValueComesFromStandsBehindIt) {
   EXPECT_EQ(contents_text({{"up", "z"}, {"up_from", "POINT:Y_SCREEN"}, {"not_from", 2}}),
             "up: z (from POINT:Y_SCREEN)\nnot from: 2\n");
@@ -33,7 +39,7 @@ TEST(ContentsText, WhereAValueComesFromStandsBehindIt) {
 TEST(ContentsText, ListsWithinAListStandBelowTheirMember) {
   const nlohmann::ordered_json clocks{
       {"other_clocks", {{{"rate_hz", 148.0}, {"channels", {{{"name", "ACC X"}}, {{"name", "ACC Y"}}}}}}}};
-  EXPECT_EQ(contents_text(clocks), "other clocks (1):\n  rate_hz 148\n    ACC X\n    ACC Y\n");
+  EXPECT_EQ(contents_text(clocks), "other clocks (1):\n  rate 148 Hz\n    ACC X\n    ACC Y\n");
 }
 
 }  // namespace

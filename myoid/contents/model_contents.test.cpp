@@ -19,8 +19,9 @@ TEST(ModelContents, CountsAndNamesWhatTheModelHas) {
   EXPECT_NEAR(contents.at("mass_kg").get<double>(), mass_kg, 1e-12);
   bool elbow = false;
   for (const auto& c : contents.at("coordinates"))
-    elbow = elbow || c.get<std::string>().starts_with("elbow_flexion [deg] ");
+    elbow = elbow || (c.at("name") == "elbow_flexion" && c.at("unit") == "deg" && c.at("lower") < c.at("upper"));
   EXPECT_TRUE(elbow);
+  EXPECT_EQ(contents.at("muscles").at(0).at("max_isometric_force_n"), arm.muscles[0].properties.max_isometric_force_n);
   EXPECT_FALSE(contents.contains("jumps"));
   EXPECT_TRUE(model_contents(arm, {.jumps = true}).contains("jumps"));
 }

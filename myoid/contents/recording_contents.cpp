@@ -223,13 +223,14 @@ ordered_json storage_json(const std::filesystem::path& path) {
   const recording::Storage file = recording::read_storage(path);
   ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}};
   if (const auto to_volt = recording::stated_voltage(file)) {
-    j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
+    j["emg_unit"] = recording::voltage_name(*to_volt);
   } else if (!recording::may_hold_angles(file)) {
     // inDegrees stands in every file of OpenSim.
   } else if (recording::states_degrees(file)) {
     j["angles"] = file.in_degrees ? "degrees" : "radians";
   } else if (file.in_degrees) {
-    j["angles"] = "degrees (the header does not say; files of this kind are)";
+    j["angles"] = "degrees";
+    j["angles_from"] = "usage";  // the header does not say
   }
   j.update(series_json(file.data));
   j["repairs"] = repairs_json(file.repairs);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/json_text.h"
+#include "myoid/core/wrapped_text.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/study/study_settings.h"
 
@@ -144,24 +145,6 @@ class TableVisitor : public SettingVisitor {
   }
 };
 
-/// Wraps the words into lines of at most 100 characters, indented.
-std::string paragraph(const std::string& text) {
-  constexpr std::size_t kWidth = 100;
-  const std::string indent(6, ' ');
-  std::string result, line;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    if (!line.empty() && indent.size() + line.size() + end - begin + 1 > kWidth) {
-      result += indent + line + '\n';
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + text.substr(begin, end - begin);
-    begin = end + 1;
-  }
-  return result + indent + line + '\n';
-}
-
 }  // namespace
 
 std::string without_markdown(const std::string& text) {
@@ -184,13 +167,16 @@ SettingRow setting_row(const Setting& setting, const SettingValue& usual, Settin
           std::string(setting.about.says)};
 }
 
-std::string reference_text(const std::vector<SettingTable>& tables) {
+std::string reference_text(const std::vector<SettingTable>& tables, std::size_t width) {
   std::string text;
   for (const SettingTable& table : tables) {
-    text += fmt::format("{} {}\n", table.name, without_markdown(table.says));
-    for (const SettingRow& row : table.rows)
-      text += fmt::format("  {}: {}; default {}\n{}", row.key, without_markdown(row.allowed),
-                          without_markdown(row.usual), paragraph(without_markdown(row.says)));
+    text += wrapped(fmt::format("{} {}", table.name, without_markdown(table.says)), width, 0, 2);
+    for (const SettingRow& row : table.rows) {
+      text += wrapped(
+          fmt::format("{}: {}; default {}", row.key, without_markdown(row.allowed), without_markdown(row.usual)), width,
+          2, 6);
+      text += wrapped(without_markdown(row.says), width, 6);
+    }
     text += '\n';
   }
   return text;

@@ -40,8 +40,8 @@ struct SettingTable {
 /// Returns the text without Markdown's marks: `code` and [text](address).
 [[nodiscard]] std::string without_markdown(const std::string& markdown);
 
-/// Returns the reference for a terminal, and for machines as a list of tables.
-[[nodiscard]] std::string reference_text(const std::vector<SettingTable>& tables);
+/// Returns the reference for a terminal of this width, and for machines as a list of tables.
+[[nodiscard]] std::string reference_text(const std::vector<SettingTable>& tables, std::size_t width = 100);
 [[nodiscard]] std::string reference_json(const std::vector<SettingTable>& tables);
 
 /// Collects the rows of settings outside tables.

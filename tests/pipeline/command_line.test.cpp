@@ -1,7 +1,10 @@
 // What the program answers to a wrong command line, to files that are not what they should be, and to Ctrl-C.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -71,6 +74,99 @@ TEST(CommandLine, HelpOfEveryCommandSucceedsAndShowsAnExample) {
     EXPECT_THAT(help.out, HasSubstr("Example: myoid " + command)) << command;
     EXPECT_THAT(myoid({"--help"}).out, HasSubstr(command));
   }
+}
+
+TEST(CommandLine, HelpIsAlsoACommand) {
+  EXPECT_EQ(myoid({"help"}).out, myoid({"--help"}).out);
+  EXPECT_EQ(myoid({}).out, myoid({"--help"}).out);
+  for (const std::string command : kCommands) {
+    const Finished help = myoid({"help", command});
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_EQ(help.out, myoid({command, "--help"}).out) << command;
+  }
+  const Finished unknown = myoid({"help", "fly"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("there is no command 'fly'"));
+}
+
+/// Returns the help with this width of the terminal; empty: the environment does not say.
+std::string help_in(const std::vector<std::string>& words, const std::string& columns) {
+  myoid::test::Running running(words, "", {"COLUMNS=" + columns});
+  return running.wait().out;
+}
+
+TEST(CommandLine, HelpFillsTheWidthOfTheTerminal) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"identify", "--help"}, {"twin", "--help"}}) {
+    for (const auto& [columns, width] : {std::pair{"70", 70}, {"130", 130}, {"", 100}, {"none", 100}}) {
+      std::istringstream help(help_in(words, columns));
+      int longest = 0;
+      for (std::string line; std::getline(help, line);) {
+        // A code point has one byte that is no continuation.
+        const auto length = std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; });
+        longest = std::max(longest, static_cast<int>(length));
+      }
+      EXPECT_LE(longest, width) << words[0];
+      EXPECT_GT(longest, width - 15) << words[0];
+    }
+  }
+}
+
+TEST(CommandLine, HelpGroupsCommandsAndOptions) {
+  const std::string all = myoid({"--help"}).out;
+  std::size_t at = 0;
+  for (const char* next : {"One study:\n  run ", "Many persons:\n  cohort ", "Single steps", "\n  ik ",
+                           "OpenSim:\n  run-tool ", "Virtual persons", "\n  twin ", "Options:\n"}) {
+    at = all.find(next, at);
+    ASSERT_NE(at, std::string::npos) << next;
+  }
+  const std::string info = myoid({"info", "--help"}).out;
+  EXPECT_LT(info.find("Options:"), info.find("Page of a model:\n  --html "));
+  EXPECT_LT(info.find("Page of a model:"), info.find("Common options:\n  -h,--help "));
+  EXPECT_THAT(myoid({"run", "--help"}).out, HasSubstr("Required:\n  --out "));
+  EXPECT_THAT(myoid({"design", "--help"}).out, HasSubstr("(1 to 50; default 8)"));
+}
+
+TEST(CommandLine, AWrongLineIsToldInTheProgramsOwnWords) {
+  using Words = std::vector<std::string>;
+  const std::vector<std::pair<Words, std::string>> cases{
+      {{"run", "s.toml", "--ouput", "x"}, "unknown option '--ouput'; did you mean --out?"},
+      {{"run", "s.toml", "--out", "x", "--overw"}, "unknown option '--overw'; did you mean --overwrite?"},
+      {{"run", "s.toml", "--out", "x", "--zzzzzz=1"}, "unknown option '--zzzzzz'; myoid run --help lists them"},
+      {{"--vesrion"}, "unknown option '--vesrion'; did you mean --version?"},
+      {{"--json", "run", "s.toml"}, "--json stands before the command; options stand behind it: myoid run ... --json"},
+      {{"run", "s.toml", "--out"}, "--out needs a value; it is the last word"},
+      {{"ik", "--model", "--markers", "m.trc", "--out", "x"},
+       "--model needs a value, and behind it stands the option --markers; a value of this name goes as "
+       "--model=--markers"},
+      {{"run"}, "run needs STUDY and --out; myoid run --help explains them"},
+      {{"run", "a.toml", "b.toml", "--out", "x"}, "'b.toml' is one word too many; run takes STUDY"},
+      {{"run", "s.toml", "--out", "x", "--json=maybe"}, "--json takes no value; found 'maybe'"},
+      {{"run", "s.toml", "--out", "x", "--threads", "many"}, "--threads: found 'many', expected a whole number"},
+      {{"run", "s.toml", "--out", "x", "--threads", "5000"},
+       "--threads: found '5000', expected a number from 0 to 1024"},
+      {{"run", "s.toml", "--out", "x", "--start", "now"}, "--start: found 'now', expected a number"},
+      {{"twin", "--protocol", "p", "--out", "x", "--seed", "99999999999999999999"},
+       "--seed: found '99999999999999999999', expected a whole number from 0 to 18446744073709551615"},
+      {{"run", "s.toml", "--out", "x", "--method", "papr"},
+       "--method: found \"papr\" (did you mean 'paper'?), expected one of paper, force, torque"},
+      {{"bids", "d", "o", "all"}, "ANALYSIS_LEVEL: found \"all\", expected one of participant, group"},
+      {{"id", "--model", "arm4", "--motion", "m", "--out", "x", "--held-at", "1", "2"},
+       "--held-at takes 3 values; found 2: 1, 2"},
+      {{"info", "arm4", "--motion", "m.mot"}, "--motion has a use only with --html"},
+      {{"emg", "e.sto", "--out", "a.sto", "--whitening", "--no-whitening"},
+       "--whitening and --no-whitening exclude each other"},
+      {{"report"}, "report needs the folder of a run, or --group with several"},
+      {{"emg", "e.sto", "--out", "a.sto", "--start", "2", "--end", "1"},
+       "--end: expected a time after --start 2, found 1"},
+  };
+  for (const auto& [words, sentence] : cases) {
+    const Finished wrong = myoid(words);
+    EXPECT_EQ(wrong.exit_code, 2) << sentence;
+    EXPECT_EQ(wrong.err, "error: " + sentence + "\n");
+    EXPECT_EQ(wrong.out, "");
+  }
+  EXPECT_THAT(myoid({"chek", "s.toml"}).err, HasSubstr("there is no command 'chek' (did you mean 'check'?)"));
 }
 
 TEST(CommandLine, IsWrongWithExitCodeTwoAndNothingOnStdout) {

@@ -29,10 +29,7 @@ std::set<std::string> all_matches(const std::string& text, const std::string& pa
 }
 
 /// The commands that the program's own help lists.
-std::set<std::string> commands() {
-  const std::string help = myoid({"--help"}).out;
-  return all_matches(help.substr(help.find("Subcommands:")), "\n  ([a-z-]+) ");
-}
+std::set<std::string> commands() { return all_matches(myoid({"--help"}).out, "\n  ([a-z-]+)  "); }
 
 bool installed(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
@@ -105,6 +102,7 @@ TEST_F(HelpFiles, BashCompletesCommandsOptionsAndWords) {
     return said(folder, "bash " + (folder / "ask.bash").string());
   };
   EXPECT_EQ(completed("myoid upd", 1), "update-file\n");
+  EXPECT_EQ(completed("myoid help upd", 2), "update-file\n");
   EXPECT_EQ(completed("myoid run --met", 2), "--method\n");
   EXPECT_EQ(completed("myoid run --method p", 3), "paper\n");
   EXPECT_EQ(completed("myoid run --method ''", 3), "paper\nforce\ntorque\n");

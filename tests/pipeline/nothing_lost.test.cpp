@@ -295,11 +295,10 @@ std::vector<Recipe> recipes() {
 std::set<std::string> commands_of_the_program() {
   std::istringstream help(myoid({"--help"}).out);
   std::set<std::string> commands;
-  bool listed = false;
   for (std::string line; std::getline(help, line);) {
-    listed = listed || line == "Subcommands:";
-    if (listed && line.size() > 2 && line.starts_with("  ") && line[2] != ' ')
-      commands.insert(line.substr(2, line.find(' ', 2) - 2));
+    const std::size_t end = line.find("  ", 2);  // two blanks stand before a name, and two or more behind it
+    if (line.size() > 2 && line.starts_with("  ") && line[2] >= 'a' && line[2] <= 'z' && end < 20)
+      commands.insert(line.substr(2, end - 2));
   }
   return commands;
 }

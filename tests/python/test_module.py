@@ -24,7 +24,7 @@ COMMANDS = [
 @pytest.mark.parametrize("command", COMMANDS)
 def test_keywords_are_the_options_of_the_command_line(command):
     text = program(command.replace("_", "-"), "--help")
-    options = {o.replace("-", "_") for o in re.findall(r"^ +(?:-\w,)?--([a-z-]+)", text, re.MULTILINE)} - TERMINAL
+    options = {o.replace("-", "_") for o in re.findall(r"^  (?:-\w,)?--([a-z-]+)", text, re.MULTILINE)} - TERMINAL
     if command == "info":
         options -= PAGE
     parameters = inspect.signature(getattr(myoid, command)).parameters
