@@ -87,11 +87,15 @@ Run read_run(const std::filesystem::path& folder) {
   return run;
 }
 
-/// Returns true if the session's recording determines the number.
+/// Returns true if the session's recording determines the number. An interval without a width is that of an angle
+/// whose every draw is the end of the recorded range: the maximum may lie beyond.
 bool told(const ParameterEstimate& e) {
+  constexpr double kNoWidth = 1e-9;  // of the number
   const bool by_verdict =
       e.verdict == Verdict::identified || e.verdict == Verdict::reproducible || e.verdict == Verdict::weak;
-  return rests_on_measurement(e.method) && by_verdict && e.std_error && *e.std_error > 0.0;
+  const double least = kNoWidth * std::abs(e.estimate);
+  const bool given_has_width = !e.given_ci_low || !e.given_ci_high || *e.given_ci_high - *e.given_ci_low > least;
+  return rests_on_measurement(e.method) && by_verdict && e.std_error && *e.std_error > least && given_has_width;
 }
 
 /// Returns a number's standard error between sessions of one person. Moment arms, tendons and the torque's scale have

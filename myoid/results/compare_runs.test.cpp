@@ -104,6 +104,14 @@ std::filesystem::path session(const std::filesystem::path& folder, double strong
   return folder;
 }
 
+// The angle of a greatest torque that lies at the end of the recorded range in every draw.
+TEST(CompareRuns, ANumberWithoutAWidthIsNotCompared) {
+  const test::TemporaryFolder folder;
+  const RunComparison c = compare_runs(run(folder.path() / "one", {{"TRI", 0.52194, 2e-15, "weak"}}, 1.0),
+                                       run(folder.path() / "two", {{"TRI", 0.52223, 2e-15, "weak"}}, 1.0));
+  EXPECT_EQ(c.parameters.at(0).change, Change::cannot_tell);
+}
+
 TEST(CompareRuns, AStrongerMuscleIsFoundWhereTheMomentArmsAreWrong) {
   const test::TemporaryFolder folder;
   const RunComparison c =
