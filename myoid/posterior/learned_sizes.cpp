@@ -43,7 +43,8 @@ void stretch(const Eigen::VectorXd& wider, const ParameterMap& map, Sample& draw
     const Eigen::ArrayXd x = (share / (1.0 - share)).log();
     const double middle = (x * drawn.weight.array()).sum() / drawn.weight.sum();
     const Eigen::ArrayXd stretched = middle + wider[j] * (x - middle);
-    drawn.z.row(j) = (bounds.lower + range / (1.0 + (-stretched).exp())).matrix().transpose();
+    const Eigen::ArrayXd z = bounds.lower + range / (1.0 + (-stretched).exp());
+    drawn.z.row(j) = z.max(bounds.lower).min(bounds.upper).matrix().transpose();  // for the last digit
   }
 }
 
