@@ -62,6 +62,7 @@ struct JointData {
 struct TrialData {
   std::string name;
   bool calibration = true;       ///< False: only predicted (validation).
+  bool reference = false;        ///< A maximal contraction: its greatest effort is activation 1.
   std::string condition;         ///< Name shared by trials of one condition (load, speed); may be empty.
   Eigen::VectorXd time_s;        ///< n
   Eigen::MatrixXd length_m;      ///< n x m: musculotendon length; fiber length = this - tendon slack

@@ -71,7 +71,7 @@ std::vector<Split> block_splits(const StudyData& data,
     Split split{fmt::format("block {} of {}", b + 1, kBlocks),
                 {.muscles = data.muscles, .trials = {}, .rules = data.rules}};
     for (const TrialData* trial : trials) {
-      if (duration_s(*trial) < kLeastForBlocks_s) {
+      if (trial->reference || duration_s(*trial) < kLeastForBlocks_s) {
         split.data.trials.push_back(*trial);
       } else {
         cut(*trial, b, split);
@@ -91,10 +91,12 @@ std::vector<Split> named_splits(const StudyData& data,
   };
   std::vector<Split> result;
   for (const TrialData* trial : trials) {
+    if (trial->reference) continue;
     const std::string name = name_of(*trial);
     if (std::any_of(result.begin(), result.end(), [&](const Split& s) { return s.name == name; })) continue;
     Split split{name, {.muscles = data.muscles, .trials = {}, .rules = data.rules}};
-    for (const TrialData* other : trials) split.data.trials.push_back(used(*other, name_of(*other) != name));
+    for (const TrialData* other : trials)
+      split.data.trials.push_back(used(*other, other->reference || name_of(*other) != name));
     result.push_back(std::move(split));
   }
   if (result.size() >= 2) return result;

@@ -36,6 +36,24 @@ TEST(CrossValidate, WhatIsLeftOutDoesNotReachItsOwnPrediction) {
   EXPECT_GT((before[0].predicted_nm - after[0].predicted_nm).cwiseAbs().maxCoeff(), 0.1);
 }
 
+TEST(CrossValidate, AMaximalContractionIsInEveryFitAndNeverLeftOut) {
+  StudyData data = elbow_study({.trials = 3, .seconds = 5.0}).data;
+  data.trials[1].reference = true;
+  for (TrialData& trial : data.trials) trial.condition = "one";
+  data.trials[2].condition = "other";
+  for (const FoldKind kind : {FoldKind::trial, FoldKind::condition, FoldKind::block}) {
+    const std::vector<Split> all = splits(data, {.kind = kind});
+    ASSERT_EQ(all.size(), kind == FoldKind::block ? 5U : 2U);
+    for (const Split& split : all) {
+      const auto whole = std::ranges::count_if(split.data.trials, [&](const TrialData& t) {
+        return t.reference && t.calibration && t.time_s.size() == data.trials[1].time_s.size();
+      });
+      EXPECT_EQ(whole, 1) << split.name;
+      EXPECT_EQ(std::ranges::count(split.data.trials, true, &TrialData::reference), 1) << split.name;
+    }
+  }
+}
+
 TEST(CrossValidate, NeedsTwoTrials) {
   EXPECT_TRUE(cross_validate(elbow_study({.trials = 1, .seconds = 5.0}).data).empty());
 }

@@ -20,7 +20,7 @@ namespace {
 void add_samples(const StudyData& data, std::size_t muscle, PaperCase& result) {
   const auto column = static_cast<Eigen::Index>(muscle);
   for (const TrialData& trial : data.trials) {
-    if (!trial.calibration) continue;
+    if (!trial.calibration || trial.reference) continue;
     if (trial.force_n.rows() != trial.time_s.size()) {
       throw InvalidInput(
           fmt::format("method paper: trial '{}' has no muscle forces; share the torque first (myoid so)", trial.name));

@@ -173,7 +173,7 @@ Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
   Eigen::VectorXd w(static_cast<Eigen::Index>(unseen_.quantities.size()));
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
     const UnseenQuantity& of = unseen_.quantities[i];
-    const bool exact = believed_ == Believed::geometry_and_sensors_exact && of.source != Source::model;
+    const bool exact = believed_ == Believed::geometry_and_sensors_exact && of.lasts();
     w[static_cast<Eigen::Index>(i)] = exact ? 0.0 : of.weight * (of.size ? std::exp(noise[*of.size]) : 1.0);
   }
   return w;

@@ -266,7 +266,7 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
   }
   for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
     const UnseenQuantity& of = likelihood.unseen().quantities[static_cast<std::size_t>(i)];
-    if (believed == Believed::geometry_and_sensors_exact && of.source != Source::model) continue;
+    if (believed == Believed::geometry_and_sensors_exact && of.lasts()) continue;
     weights[i] = of.weight * (of.size ? std::exp(noise[*of.size]) : 1.0);
     sigma += weights[i] * weights[i] * shapes.col(i) * shapes.col(i).transpose();
   }

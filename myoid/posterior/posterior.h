@@ -12,7 +12,7 @@ namespace myoid::identification {
 /// The interval "of the person" comes from draws of the posterior (exploration.h), over all modes.
 /// Estimates, IdentificationResult::solution and ::covariance are those of the heaviest mode. The
 /// second reading, ParameterEstimate::given_estimate with its interval, is that of a posterior in which moment arms,
-/// tendons, the torque's scale, effort, cross-talk and drift are exact; without EstimatorOptions::marginals (a fold's
+/// tendons, the torque's scale, effort and cross-talk are exact; without EstimatorOptions::marginals (a fold's
 /// fit) it is the first without a width. IdentificationResult::trials is left empty. Throws InvalidInput without
 /// priors.
 [[nodiscard]] IdentificationResult identify_by_posterior(const StudyData& data, const EstimatorOptions& options);

@@ -101,11 +101,35 @@ TrialRun make_run(const TrialData& trial,
   return run;
 }
 
+bool is_fitted(const TrialData& trial) { return trial.calibration; }
+
+/// The fitted trials in their order, as the time of the session.
+class Session {
+ public:
+  explicit Session(const StudyData& data) {
+    double references = 0.0, of_references = 0.0;
+    for (const TrialData& trial : data.trials) {
+      if (!trial.calibration) continue;
+      if (trial.reference) {
+        references += 1.0;
+        of_references += trials_ + 0.5;
+      }
+      trials_ += 1.0;
+    }
+    if (references > 0.0) reference_ = of_references / references;
+  }
+  /// Returns the place behind so many fitted trials: 0 at the maximal contractions, else at the begin; 1 is the whole
+  /// session.
+  [[nodiscard]] double place(double before) const { return (std::min(before, trials_) - reference_) / trials_; }
+
+ private:
+  double trials_ = 0.0, reference_ = 0.0;
+};
+
 }  // namespace
 
 std::vector<TrialRun> trial_runs(const StudyData& data, const EstimatorOptions& options, const ParameterMap& map) {
-  const auto trials =
-      std::count_if(data.trials.begin(), data.trials.end(), [](const TrialData& trial) { return trial.calibration; });
+  const Session session(data);
   std::vector<Drives> drives(data.trials.size());
   parallel_ranges(data.trials.size(), std::size_t{1}, [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -125,7 +149,7 @@ std::vector<TrialRun> trial_runs(const StudyData& data, const EstimatorOptions& 
         TrialRun& run = runs.emplace_back(make_run(trial, rows, drives[i], options, map));
         run.trial = static_cast<int>(i);
         const double middle = 0.5 * (run.time_s[0] + run.time_s[run.time_s.size() - 1]) - begin;
-        run.session = (before + middle / span) / static_cast<double>(trials);
+        run.session = session.place(before + middle / span);
       }
     }
     before += 1.0;
@@ -142,13 +166,11 @@ TrialRun whole_run(const TrialData& trial,
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(trial.time_s.size()));
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   TrialRun run = make_run(trial, rows, drives_of(trial, options, map), options, map);
-  const auto is_fitted = [](const TrialData& other) { return other.calibration; };
   const auto here =
       std::find_if(data.trials.begin(), data.trials.end(), [&](const TrialData& of) { return of.name == trial.name; });
   const auto before = static_cast<double>(std::count_if(data.trials.begin(), here, is_fitted));
-  const auto all = static_cast<double>(std::count_if(data.trials.begin(), data.trials.end(), is_fitted));
   run.trial = static_cast<int>(here - data.trials.begin());
-  run.session = std::min((before + 0.5) / all, 1.0);
+  run.session = Session(data).place(before + 0.5);
   return run;
 }
 

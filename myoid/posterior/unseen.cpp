@@ -59,9 +59,7 @@ struct Collector {
         if (other == c) continue;
         add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]), Source::electrodes,
             spreads_.crosstalk, kCrosstalkSize);
-        for_channel(c, [&](const OfMuscle& of, auto column) {
-          column += of.torque * activation_of(of.at, other) / activation_of(of.at, c).max(kNoneActs);
-        });
+        for_channel(c, [&](const OfMuscle& of, auto column) { column += of.torque * alien_share(of.at, c, other); });
       }
     }
   }
@@ -182,6 +180,17 @@ struct Collector {
     Eigen::ArrayXd value(static_cast<Eigen::Index>(a.size()));
     for (Eigen::Index i = 0; i < value.size(); ++i) value[i] = a[static_cast<std::size_t>(i)].value;
     return value;
+  }
+
+  /// Returns the share of a channel's activation that cross-talk x makes, over x, at the believed x. Two muscles' EMG
+  /// is uncorrelated, so the squares of their envelopes add: e^2 = own^2 + x^2 other^2. Where the own muscle acts,
+  /// little of x is left; where it rests, all of e may be the other's.
+  [[nodiscard]] Eigen::ArrayXd alien_share(const RunEvaluation& at, std::size_t channel, std::size_t other) const {
+    const auto exponent = [&](std::size_t c) { return values_.channels[c][kExponent]; };
+    const Eigen::ArrayXd e = activation_of(at, channel).max(kNoneActs).pow(1.0 / exponent(channel)),
+                         of_other = activation_of(at, other).max(0.0).pow(1.0 / exponent(other));
+    const double x = std::max(spreads_.crosstalk, kNoneActs);
+    return (1.0 - (1.0 - (x * of_other / e).square()).max(0.0).pow(0.5 * exponent(channel))) / x;
   }
 
   /// Returns the change of ln a by an activation that comes earlier [1/s].

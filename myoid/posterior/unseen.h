@@ -23,6 +23,10 @@ struct UnseenQuantity {
   double weight = 0.0;                   ///< Standard deviation, over the size if there is one.
   std::optional<NoiseField> size = {};   ///< The hyperparameter whose exponential multiplies the weight.
   std::vector<std::size_t> strength_of;  ///< Muscles whose F_max it multiplies.
+
+  /// Returns true if the quantity is of geometry or sensors and the same in every session of a person. A drift of the
+  /// gains is the session's own.
+  [[nodiscard]] bool lasts() const { return source != Source::model && size != kGainDriftSize; }
 };
 
 /// All unseen quantities of a study, and their columns S in each run, at reference values of the unknowns. A relative
@@ -37,7 +41,8 @@ struct UnseenQuantity {
 /// rigid stretches by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque; all joints share one
 /// scale, as from one dynamometer, or from the masses of one person's segments. Gain drift: the channel's torque times
 /// the place in the session, 0 at the maximal contraction. Its effort: the channel's torque; no quantity where its
-/// spread is 0. Cross-talk: the channel's torque times the ratio of another's activation to its own. Rise and fall:
+/// spread is 0. Cross-talk: the channel's torque times the share of its activation that is another
+/// muscle's, whose square adds to the own one's. Rise and fall:
 /// activation that rises earlier and falls later by d than the delay says, a + d |da/dt|. Model error: the muscle's
 /// torque times polynomials of length, ln(activation), speed and lag, and a constant and a slope of the joint, as
 /// ErrorShapes; where the muscles share a free delay, a lag is its difference from their mean.

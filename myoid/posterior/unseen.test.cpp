@@ -201,12 +201,26 @@ TEST(Unseen, AnActivationRisesEarlierAndFallsLater) {
   });
 }
 
-TEST(Unseen, CrosstalkAddsAnotherEnvelope) {
+TEST(Unseen, CrosstalkAddsTheSquareOfAnotherEnvelope) {
   const AtStart at(two_trials());
-  expect_derivative(at, "BIC.crosstalk_of_TRI", 1e-3, [](double by, TrialRun& run, ModelValues&) {
-    run.envelopes[0] =
-        Envelope(run.envelopes[0].time_s(), run.envelopes[0].samples() + by * run.envelopes[3].samples());
+  const double x = at.options.unseen.crosstalk;
+  const Eigen::VectorXd recorded_nm = at.torque([](TrialRun&, ModelValues&) {});
+  const Eigen::VectorXd own_nm = at.torque([&](TrialRun& run, ModelValues&) {
+    const Eigen::ArrayXd square =
+        run.envelopes[0].samples().array().square() - (x * run.envelopes[3].samples().array()).square();
+    run.envelopes[0] = Envelope(run.envelopes[0].time_s(), square.max(0.0).sqrt().matrix());
   });
+  const Eigen::VectorXd difference = (recorded_nm - own_nm) / x, column = at.column("BIC.crosstalk_of_TRI");
+  ASSERT_GT(difference.norm(), 0.0);
+  EXPECT_LT((column - difference).norm(), 0.05 * difference.norm());
+}
+
+TEST(Unseen, TheSessionBeginsAtAFittedMaximalContraction) {
+  StudyData data = test::elbow_study({.trials = 4, .seconds = 6.0}).data;
+  data.trials[1].reference = true;
+  const AtStart at(std::move(data));
+  for (std::size_t i = 0; i < at.runs.size(); ++i)
+    EXPECT_NEAR(at.runs[i].session, 0.25 * (static_cast<double>(i) - 1.0), 1e-9);
 }
 
 TEST(Unseen, ATorqueScaleIsTheWholeTorque) {

@@ -30,6 +30,10 @@ namespace {
 using nlohmann::json;
 
 constexpr double kLevel = 0.05;
+/// Share of the errors of the first kind that the greatest voluntary torques may make.
+constexpr double kOfTorques = 0.6;
+/// By how much, from session to session, the effort differs that a person's maximal contraction reaches (judgment).
+constexpr double kEffortSd = 0.02;
 
 using identification::ParameterEstimate;
 using identification::Verdict;
@@ -121,15 +125,23 @@ struct OfSession {
   double sd = 0.0;
 };
 
+/// Returns true if the number refers to the effort of the maximal contraction.
+bool is_strength(const std::string& parameter) {
+  return parameter == "max_isometric_force" ||
+         (identification::is_voluntary(parameter) && !identification::is_voluntary_angle(parameter));
+}
+
 /// Returns the number given geometry and sensors; empty without one. Of a number that is searched for by its
-/// logarithm the middle of the interval is that of ln.
+/// logarithm the middle of the interval is that of ln. A maximal contraction reaches another effort in each session.
 std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
   if (!e.given_ci_low || !e.given_ci_high) return std::nullopt;
   const double low = *e.given_ci_low, high = *e.given_ci_high;
   const bool ratio = is_ratio_scale(e.parameter) && low > 0.0;
-  const OfSession of{.shown = {ratio ? std::sqrt(low * high) : 0.5 * (low + high), low, high},
-                     .sd = (high - low) / (2.0 * kNormal95)};
-  return of.sd > 0.0 ? std::optional(of) : std::nullopt;
+  OfSession of{.shown = {ratio ? std::sqrt(low * high) : 0.5 * (low + high), low, high},
+               .sd = (high - low) / (2.0 * kNormal95)};
+  if (!(of.sd > 0.0)) return std::nullopt;
+  if (is_strength(e.parameter)) of.sd = std::hypot(of.sd, kEffortSd * of.shown.value);
+  return of;
 }
 
 /// Returns the person's number, with the standard error that two sessions do not share.
@@ -144,12 +156,14 @@ std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first, cons
   return {of_person(first), of_person(second)};
 }
 
-/// Adjusts by Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result.
-void adjust_p_values(std::vector<ComparedParameter*> compared) {
+/// Adjusts by Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result; over the
+/// share of kLevel that these numbers have.
+void adjust_p_values(std::vector<ComparedParameter*> compared, double share) {
   std::ranges::sort(compared, {}, [](const ComparedParameter* p) { return *p->p_value; });
   double largest = 0.0;
   for (std::size_t k = 0; k < compared.size(); ++k) {
-    largest = std::max(largest, std::min(1.0, *compared[k]->p_value * static_cast<double>(compared.size() - k)));
+    largest =
+        std::max(largest, std::min(1.0, *compared[k]->p_value * static_cast<double>(compared.size() - k) / share));
     compared[k]->p_value = largest;
     compared[k]->change = largest < kLevel ? Change::differs : Change::no_change;
   }
@@ -344,11 +358,14 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
     if (!a.estimates.contains(key)) comparison.remarks.push_back(text_of(key) + " is in the second session only");
   }
   for (const std::string& method : methods_of(comparison)) {
-    std::vector<ComparedParameter*> of_method;
+    std::vector<ComparedParameter*> torques, others;
     for (ComparedParameter& p : comparison.parameters) {
-      if (p.first.method == method && p.p_value) of_method.push_back(&p);
+      const bool torque = is_strength(p.first.parameter) && identification::is_voluntary(p.first.parameter);
+      if (p.first.method == method && p.p_value) (torque ? torques : others).push_back(&p);
     }
-    adjust_p_values(std::move(of_method));
+    const double share = torques.empty() ? 0.0 : others.empty() ? 1.0 : kOfTorques;
+    adjust_p_values(std::move(torques), share);
+    adjust_p_values(std::move(others), 1.0 - share);
   }
   comparison.trials = compared_trials(a, b);
   return comparison;

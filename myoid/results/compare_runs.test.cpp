@@ -225,6 +225,34 @@ TEST(CompareRuns, AnnouncesNothingFromMethodPaper) {
   EXPECT_EQ(c.first_date.size(), 10U);
 }
 
+// The reading given geometry and sensors knows nothing of the effort of another day.
+TEST(CompareRuns, AGreatestTorqueIsTestedByItselfAndMayBeOfAnotherEffort) {
+  const test::TemporaryFolder folder;
+  const auto session = [&](const char* name, double torque_nm) {
+    std::filesystem::create_directories(folder / name);
+    const auto row = [](const char* parameter, const char* unit, double value, double half) {
+      return fmt::format(
+          R"({{"muscle": "BIC", "parameter": "{0}", "unit": "{1}", "method": "torque", "case": "both",
+              "estimate": {2}, "std_error": {3}, "ci_low": {4}, "ci_high": {5}, "given_estimate": {2},
+              "given_ci_low": {6}, "given_ci_high": {7}, "verdict": "reproducible", "tied_to": ""}})",
+          parameter, unit, value, half, value - 2.0 * half, value + 2.0 * half, value - half, value + half);
+    };
+    recording::write_file(
+        folder / name / "parameters.json",
+        fmt::format(R"({{"methods": [{{"method": "torque", "estimates": [{}, {}], "trials": []}}]}})",
+                    row("voluntary_torque", "N m", torque_nm, 3.92), row("optimal_fiber_length", "m", 0.1, 0.005)));
+    return folder / name;
+  };
+  const RunComparison c = compare_runs(session("one", 100.0), session("two", 112.0));
+  ASSERT_EQ(c.parameters.size(), 2U);
+  // The middle of ln: sqrt(96.08 * 103.92) and sqrt(108.08 * 115.92).
+  const double difference = 111.931 - 99.923, se = std::hypot(std::hypot(2.0, 1.99846), std::hypot(2.0, 2.23862));
+  EXPECT_NEAR(*c.parameters[0].smallest_detectable, 1.96 * se, 2e-3);
+  EXPECT_NEAR(*c.parameters[0].p_value, std::erfc(difference / se / std::sqrt(2.0)) / 0.6, 1e-4);
+  EXPECT_EQ(c.parameters[0].change, Change::differs);
+  EXPECT_NEAR(*c.parameters[1].smallest_detectable, 0.005 * std::sqrt(2.0), 1e-6) << "a length knows no effort";
+}
+
 TEST(CompareRuns, AFolderWithoutARunIsRefused) {
   const test::TemporaryFolder folder;
   const auto good = run(folder.path() / "one", {{"BIC", 600, 30, "identified"}}, 1.0);

@@ -17,14 +17,15 @@ namespace myoid {
 namespace {
 
 identification::TrialData trial_data(const Study& study,
+                                     const TrialSpec& spec,
                                      const TrialResult& trial,
-                                     Use use,
                                      const TimeSeries& activation,
                                      const std::vector<kinematics::MuscleGroup>& groups,
                                      const std::vector<identification::RestingJoint>& resting) {
   identification::TrialData data;
   data.name = trial.spec.name;
-  data.calibration = use == Use::calibration || use == Use::isometric;
+  data.calibration = spec.fitted();
+  data.reference = spec.use == Use::mvc;
   data.time_s = trial.motion.joints.q.time_s();
   kinematics::LumpedMuscles lumped = kinematics::lumped_muscles(trial.forces.muscles, groups, study.model.coordinate);
   data.length_m = std::move(lumped.length_m);
@@ -76,10 +77,10 @@ identification::StudyData estimator_data(const FitSource& source) {
   for (std::size_t i = 0; i < source.trials.size(); ++i) {
     const TrialResult& trial = source.trials[i];
     const TimeSeries& activation = *source.activation[i];
-    const Use use = study.trials[i].use;
     if (!trial.has_motion() || activation.empty()) continue;
-    if (use == Use::mvc || use == Use::static_pose || use == Use::passive) continue;
-    data.trials.push_back(trial_data(study, trial, use, activation, groups, source.resting));
+    const TrialSpec& spec = study.trials[i];
+    if (!spec.fitted() && spec.use != Use::validation) continue;
+    data.trials.push_back(trial_data(study, spec, trial, activation, groups, source.resting));
   }
   // EMG that is given as activation is taken at its word.
   const bool scaled = study.emg.kind != EmgKind::activation && study.emg.has_mvc;

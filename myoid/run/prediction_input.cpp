@@ -17,8 +17,6 @@ namespace {
 
 using identification::TrialData;
 
-bool is_fitted(Use use) { return use == Use::calibration || use == Use::isometric; }
-
 /// Returns the use of a trial in the run; empty: the run has no such trial. A trial that pauses is
 /// in the run as parts, whose names begin with the trial's name.
 std::optional<Use> use_in(const RunRecord& run, const std::string& trial) {
@@ -38,7 +36,7 @@ Study study_of_run(const RunRecord& run) {
           fmt::format("{}: the trial '{}' of the run is missing; run the study again", run.study.string(), name));
   }
   for (TrialSpec& trial : study.trials)
-    trial.use = use_in(run, trial.name).value_or(is_fitted(trial.use) ? Use::validation : trial.use);
+    trial.use = use_in(run, trial.name).value_or(trial.fitted() ? Use::validation : trial.use);
   return study;
 }
 

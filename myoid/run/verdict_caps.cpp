@@ -40,8 +40,6 @@ std::vector<std::string> owners_of(const Study& study, const std::string& channe
 /// Parameters that rest on activation 1: proportional to it, or the shape of the scale that ends there.
 std::vector<std::string> strengths() { return {"max_isometric_force", "emg_gain", "emg_exponent", "activation_share"}; }
 
-bool is_fitted(const TrialSpec& trial) { return trial.use == Use::calibration || trial.use == Use::isometric; }
-
 /// Returns true if the fault of the trial lies in windows that the study excludes.
 bool is_excluded(const TrialSpec& trial, const Remark& fault) {
   return fault.when && std::ranges::any_of(trial.exclude.windows, [&](const Stretch& window) {
@@ -60,10 +58,10 @@ void add_emg(const StudyResult& result, std::vector<VerdictCap>& caps) {
       const bool is_reference = std::ranges::any_of(result.emg.normalisation, [&](const auto& n) {
         return n.channel == fault.about && n.source_trial == trial.spec.name;
       });
-      if (!is_reference && !is_fitted(trial.spec)) continue;
+      if (!is_reference && !trial.spec.fitted()) continue;
       caps.push_back({.reason = reason(fault, trial.spec.name),
                       .owners = owners_of(study, fault.about),
-                      .parameters = is_fitted(trial.spec) ? std::vector<std::string>{} : strengths()});
+                      .parameters = trial.spec.fitted() ? std::vector<std::string>{} : strengths()});
     }
   }
   for (const Remark& fault : result.level_faults) {
@@ -81,7 +79,7 @@ void add_contacts(const StudyResult& result, std::vector<VerdictCap>& caps) {
     const bool foreign = std::ranges::any_of(trial.remarks, [](const Remark& remark) {
       return remark.code == RemarkCode::foreign_contact && remark.severity == Severity::warning;
     });
-    if (!foreign || !is_fitted(trial.spec)) continue;
+    if (!foreign || !trial.spec.fitted()) continue;
     caps.push_back(of_all(fmt::format(
         "Another foot stands on a plate in {}: leave these times out first (exclude = [\"foreign_contacts\"]).",
         trial.spec.name)));

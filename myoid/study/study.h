@@ -202,6 +202,13 @@ struct TrialSpec {
   double video_offset_s = 0.0;                 ///< Time of the film's begin, on the clock of the motion.
   std::optional<SyncSpec> sync;
   bool operator==(const TrialSpec&) const = default;
+
+  /// Returns true if the fit takes the trial's torque. The torque of a maximal contraction has to be measured: whatever
+  /// holds the limb is part of no model.
+  [[nodiscard]] bool fitted() const {
+    return use == Use::calibration || use == Use::isometric ||
+           (use == Use::mvc && (markers || motion) && (external_torque || load_cell));
+  }
 };
 
 /// Curves of a group of people, drawn behind the person's curves.

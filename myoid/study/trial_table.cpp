@@ -108,7 +108,8 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
 void visit_use(TrialSpec& trial, SettingVisitor& v) {
   v.choice("use", trial.use,
            {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; `mvc` sets activation "
-                    "1; [`passive` and `static`](#trials-that-are-not-fitted) are not fitted."});
+                    "1, and is [fitted too](#measured-torques) where its torque is measured; [`passive` and "
+                    "`static`](#trials-that-are-not-fitted) are not fitted."});
   v.must(trial.use == Use::mvc || trial.markers || trial.motion, "name",
          fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one", trial.name));
   v.must(trial.use == Use::static_pose || trial.use == Use::passive || trial.emg, "name",

@@ -34,6 +34,21 @@ TEST(TrialTable, ATrialWithoutEmgIsRefusedWithTheRemedy) {
   EXPECT_EQ(trial_message("name = \"t1\"\nmarkers = \"a.trc\"\nuse = \"static\"\n"), "(no error)");
 }
 
+TEST(TrialTable, AMaximalContractionIsFittedWhereItsTorqueAndPostureAreMeasured) {
+  const auto fitted = [](const std::string& more) {
+    return trial_of("name = \"t1\"\nemg = \"t1.sto\"\nuse = \"mvc\"\n" + more).fitted();
+  };
+  EXPECT_FALSE(fitted(""));
+  EXPECT_FALSE(fitted("markers = \"a.trc\"\n"));
+  EXPECT_FALSE(fitted("external_torque = \"m.sto\"\n"));
+  EXPECT_TRUE(fitted("markers = \"a.trc\"\nexternal_torque = \"m.sto\"\n"));
+  EXPECT_TRUE(fitted("motion = \"a.mot\"\nload_cell = \"m.sto\"\n"));
+  EXPECT_TRUE(trial_of(kTrial).fitted());
+  EXPECT_TRUE(trial_of(kTrial + "use = \"isometric\"\n").fitted());
+  for (const char* use : {"validation", "static", "passive"})
+    EXPECT_FALSE(trial_of(kTrial + "external_torque = \"m.sto\"\nuse = \"" + use + "\"\n").fitted()) << use;
+}
+
 TEST(TrialTable, AnEndBeforeTheStartIsRefused) {
   EXPECT_NE(trial_message(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"), std::string::npos);
 }
