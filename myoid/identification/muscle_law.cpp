@@ -140,12 +140,14 @@ class Contraction {
 ///
 /// where m is the muscle's pull, by Newton's steps within a bracket. u is nearly a line, because the logarithm cancels
 /// the tendon's exponential and the remaining slope of m is small beside 1. A step of 3e-9 leaves an error below 1e-16.
-double tendon_strain(const Contraction& muscle, double a, double l_mt, double slack, double rise) {
+/// `muscle` is the muscle's Pull over the projected length l cos(alpha).
+template <typename Muscle>
+double tendon_strain(const Muscle& muscle, double start, double l_mt, double slack, double rise) {
   constexpr double kLastStep = 3e-9, kLongest = 10.0;
   double low = -1.0, high = kLongest;  // the tendon does not push: low is 0 once 0 was tried
-  double strain = std::min(0.6 * std::log(1.0 + std::max(a, 0.0) / kTendonScale) / rise, kLongest);
+  double strain = std::min(start, kLongest);
   for (int i = 0; i < 200; ++i) {
-    const Pull m = muscle.at(l_mt - slack * (1.0 + strain), nullptr);
+    const Pull m = muscle(l_mt - slack * (1.0 + strain));
     if (strain == 0.0 && m.force <= 0.0) return 0.0;
     const double u = std::log(1.0 + m.force / kTendonScale) / rise - strain;
     const double slope = -m.by_length * slack / (rise * (kTendonScale + m.force)) - 1.0;
@@ -160,6 +162,8 @@ double tendon_strain(const Contraction& muscle, double a, double l_mt, double sl
   }
   return strain;
 }
+
+bool is_elastic(const MuscleValues& p) { return p[kTendonStrain] > 0.0 && p[kSlack] > 0.0; }
 
 }  // namespace
 
@@ -189,10 +193,13 @@ Tension tension(double activation, double length_m, double velocity_mps, const M
   const double greatest = p[kMaxForce];
   const double slack = p[kSlack];
   const Contraction muscle(a, velocity_mps, p);
-  const bool elastic = p[kTendonStrain] > 0.0 && slack > 0.0;
+  const bool elastic = is_elastic(p);
   const double rise = elastic ? kTendonRise / p[kTendonStrain] : 0.0;
-  const double strain = elastic ? tendon_strain(muscle, a, length_m, slack, rise) : 0.0;
+  const auto alone = [&](double along) { return muscle.at(along, nullptr); };
+  const auto guess = [&] { return 0.6 * std::log(1.0 + std::max(a, 0.0) / kTendonScale) / rise; };
+  const double strain = elastic ? tendon_strain(alone, guess(), length_m, slack, rise) : 0.0;
   Tension t;
+  t.strain = strain;
   Pull m = muscle.at(length_m - slack * (1.0 + strain), &t.by_field);
   if (elastic) m.force = std::max(m.force, 0.0);  // a tendon cannot push
   // G = muscle - tendon = 0 gives d strain / d x = G_x / (m_length l_ts + pull').
@@ -215,34 +222,50 @@ Tension tension(double activation, double length_m, double velocity_mps, const M
   return t;
 }
 
-bool is_plain(const MuscleValues& p) {
-  return p[kPennation] == 0.0 && p[kPassiveForce] == 0.0 && (p[kTendonStrain] == 0.0 || p[kSlack] == 0.0);
-}
+bool is_plain(const MuscleValues& p) { return p[kPennation] == 0.0 && p[kPassiveForce] == 0.0; }
 
 void plain_tension(double activation, double length_m, double velocity_mps, const MuscleValues& p, Tension& t) {
   const double a = p[kShare] * activation;
   const double v = velocity_mps;
-  const double l0 = p[kFiberLength];
+  const double l0 = p[kFiberLength], slack = p[kSlack], greatest = p[kMaxForce];
   const double stretch = 1.0 + p[kLengthActivation] * (1.0 - a);
   const double inverse_width = 1.0 / p[kWidth];
-  const double z = (length_m - p[kSlack] - l0 * stretch) * inverse_width;
-  const double strength = p[kMaxForce] * std::exp(-z * z);  // at full activation, at rest
-  const double active = a * strength;
   const auto [fv, fv_v, fv_vm, fv_sh, fv_p, fv_ml] = velocity_factor(v, p);
-  t.force_n = active * fv;
-  t.by_length = -2.0 * z * inverse_width * t.force_n;
+  const bool elastic = is_elastic(p);
+  const double rise = elastic ? kTendonRise / p[kTendonStrain] : 0.0;
+  if (elastic) {
+    const auto alone = [&, fv = fv](double along) {
+      const double z = (along - l0 * stretch) * inverse_width;
+      const double force = a * fv * std::exp(-z * z);
+      return Pull{.force = force, .by_length = -2.0 * z * inverse_width * force};
+    };
+    t.strain = tendon_strain(alone, t.strain, length_m, slack, rise);
+  } else {
+    t.strain = 0.0;
+  }
+  const double z = (length_m - slack * (1.0 + t.strain) - l0 * stretch) * inverse_width;
+  const double gauss = std::exp(-z * z);
+  const double force = elastic ? std::max(a * fv * gauss, 0.0) : a * fv * gauss;  // a tendon cannot push
+  const double grown = kTendonScale + force;
+  const double by_fiber = -2.0 * z * inverse_width * force;
+  const double stiff = elastic ? rise * grown / (by_fiber * slack + rise * grown) : 1.0;
+  const double strength = greatest * stiff * gauss;  // behind the tendon's stiffness, at full activation, at rest
+  const double active = a * strength;
+  t.force_n = greatest * force;
+  t.by_length = greatest * stiff * by_fiber;
   t.by_velocity = active * fv_v;
   const double by_own_activation = strength * fv + t.by_length * l0 * p[kLengthActivation];
   t.by_activation = p[kShare] * by_own_activation;
-  t.by_field[kMaxForce] = t.force_n / p[kMaxForce];
+  t.by_field[kMaxForce] = force;
   t.by_field[kFiberLength] = -t.by_length * stretch;
-  t.by_field[kWidth] = 2.0 * z * z * inverse_width * t.force_n;
+  t.by_field[kWidth] = -t.by_length * z;
   t.by_field[kCurvature] = active * fv_sh;
   t.by_field[kProduct] = active * fv_p;
   t.by_field[kPlateau] = active * fv_ml;
   t.by_field[kSpeed] = active * fv_vm;
-  t.by_field[kSlack] = -t.by_length;
+  t.by_field[kSlack] = -t.by_length * (1.0 + t.strain);
   t.by_field[kLengthActivation] = -t.by_length * l0 * (1.0 - a);
+  t.by_field[kTendonStrain] = elastic ? -greatest * grown * t.strain * rise / p[kTendonStrain] * (1.0 - stiff) : 0.0;
   t.by_field[kShare] = by_own_activation * activation;
 }
 

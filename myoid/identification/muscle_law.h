@@ -48,6 +48,7 @@ struct Tension {
   double by_activation = 0.0;                        ///< By the channel's activation, before activation_share.
   double by_length = 0.0;                            ///< By the musculotendon length [N/m].
   double by_velocity = 0.0;                          ///< By its rate [N s/m].
+  double strain = 0.0;                               ///< Of an elastic tendon.
 };
 
 /// Returns the tension [N] at a channel's activation, musculotendon length [m] and rate [m/s]:
@@ -70,16 +71,17 @@ struct Tension {
 /// muscle::equilibrium_state with Jets; a test compares it with both.
 [[nodiscard]] Tension tension(double activation, double length_m, double velocity_mps, const MuscleValues& values);
 
-/// Returns true if only the paper's law, the share and an optimal length that changes with the
-/// activation act; `plain_tension` is then faster and gives the same tension.
+/// Returns true if only the paper's law, the share, an optimal length that changes with the activation and a tendon,
+/// rigid or elastic, act; `plain_tension` is then faster and gives the same tension.
 [[nodiscard]] bool is_plain(const MuscleValues& values);
 
 /// Returns true for the fields by which `plain_tension` sets the derivative.
 [[nodiscard]] constexpr bool is_plain_field(int field) {
-  return field <= kSlack || field == kLengthActivation || field == kShare;
+  return field <= kSlack || field == kLengthActivation || field == kTendonStrain || field == kShare;
 }
 
-/// Computes `tension` where `is_plain`; leaves the derivatives by other fields as they are.
+/// Computes `tension` where `is_plain`; leaves the derivatives by other fields as they are. `out.strain` is where the
+/// search for an elastic tendon's strain begins: that of the sample before saves steps.
 void plain_tension(double activation, double length_m, double velocity_mps, const MuscleValues& values, Tension& out);
 
 /// Returns `tension(...).force_n` alone, by `plain_tension` where `is_plain`.

@@ -34,9 +34,11 @@ TEST(Tension, IsThePapersLawWhenNothingElseIsOn) {
 }
 
 TEST(PlainTension, IsTheGeneralOneWhereNothingElseIsOn) {
-  for (const double length_activation : {0.0, 0.15}) {
-    MuscleValues p =
-        muscle_values(model::arm4_muscles()[2], {.length_activation = length_activation, .activation_share = 0.8});
+  for (const auto& [length_activation, tendon_strain] :
+       {std::pair(0.0, 0.0), std::pair(0.15, 0.0), std::pair(0.0, 0.05), std::pair(0.15, 0.08)}) {
+    MuscleValues p = muscle_values(
+        model::arm4_muscles()[2],
+        {.length_activation = length_activation, .tendon_strain = tendon_strain, .activation_share = 0.8});
     ASSERT_TRUE(is_plain(p));
     for (const double v : {-3.0, -0.4, 0.0, 0.3}) {
       const double l_mt = p[kSlack] + 0.9 * p[kFiberLength];

@@ -74,8 +74,8 @@ TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
   }
   for (const std::string& warning : sentences(result.trials[2].remarks, Severity::warning))
     EXPECT_THAT(warning, ::testing::Not(HasSubstr("the joint's resting torque")));
-  ASSERT_EQ(result.fit_input.data.trials.size(), 1U);
-  const identification::TrialData& ramp = result.fit_input.data.trials[0];
+  ASSERT_EQ(result.fit_input.data.trials.size(), 2U);  // the maximal contraction, and
+  const identification::TrialData& ramp = result.fit_input.data.trials.back();
   EXPECT_EQ(ramp.resting_nm, result.resting[0].torque.at(ramp.angle_rad));
 }
 

@@ -259,7 +259,8 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
            {.says = "`paper`: neither pennation nor passive force; `model`: as the model's muscles have them.",
             .words = kMuscleLaws});
   v.either("tendon", identify.elastic_tendon,
-           {.says = "`elastic`: quasi-static, with the strain that the model's muscles have.", .words = kTendons});
+           {.says = "`elastic`: quasi-static, with the strain that the model's muscles have. Not of method `paper`.",
+            .words = kTendons});
 }
 
 /// Visits [identify]: the law by which a muscle follows its EMG.

@@ -115,6 +115,8 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
       "\n[identify]\n"
       "method = [\"paper\", \"torque\"]\n"
       "muscles = \"all\"\n";
+  if (!recording.truth.arm && !recording.truth.departures.elastic())
+    text += "tendon = \"rigid\"                 # as the truth is\n";
   text +=
       "\n[truth]\n"
       "file = \"truth.csv\"               # the report shows it beside the estimates\n";
