@@ -252,9 +252,9 @@ struct IdentifySpec {
   identification::Eccentric eccentric = identification::Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
   identification::LagChoice lag = identification::LagChoice::automatic;
-  bool dynamics = false;        ///< Turns envelope into activation by the lags of equation (1).
-  bool model_muscles = false;   ///< Pennation and passive force of the model; else none.
-  bool elastic_tendon = true;   ///< The model's tendon strain, quasi-static; else rigid.
+  bool dynamics = false;       ///< Turns envelope into activation by the lags of equation (1).
+  bool model_muscles = false;  ///< Pennation and passive force of the model; else none.
+  bool elastic_tendon = true;  ///< The model's tendon strain, quasi-static; else rigid.
   bool delay_per_channel = false;
   double angle_sd_deg = 0.0;  ///< Errors of the joint angle and of its rate, propagated.
   double angle_rate_sd_degps = 0.0;
