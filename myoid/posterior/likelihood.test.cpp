@@ -398,7 +398,7 @@ TEST(Likelihood, HasTheSameBitsForEveryNumberOfThreads) {
 TEST(Likelihood, TheExplanationHasTheErrorsOfTheGeometryThatTheTorqueTells) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .true_arm_scale = 1.1});
   for (std::size_t k = 0; k < 4; ++k) study.data.muscles[k].start = study.truth[k];
-  const EstimatorOptions options{.delay_s = study.delay_s, .unseen = {.model_error = 1e-3}};
+  const EstimatorOptions options{.delay_s = study.delay_s, .unseen = {.gain_drift = 0.0, .model_error = 1e-3}};
   Likelihood likelihood(study.data, options);
   const Eigen::VectorXd z = likelihood.parameters().start();
   likelihood.refer_to(z);

@@ -107,6 +107,7 @@ smoothing = "none"
 kind = "activation"
 delay_s = 0.0
 [identify]
+tendon = "rigid"
 method = "torque"
 gain = false
 [[muscle]]
