@@ -80,6 +80,8 @@ identification::StudyData estimator_data(const FitSource& source) {
     if (!trial.has_motion() || activation.empty()) continue;
     const TrialSpec& spec = study.trials[i];
     if (!spec.fitted() && spec.use != Use::validation) continue;
+    // A dynamometer measures one joint. At the others straps bear the torque of a maximal contraction.
+    if (spec.use == Use::mvc && !spec.load_cell && !study.model.more_coordinates.empty()) continue;
     data.trials.push_back(trial_data(study, spec, trial, activation, groups, source.resting));
   }
   // EMG that is given as activation is taken at its word.

@@ -257,6 +257,21 @@ TEST(SeveralJoints, RunAndSoWriteTheSameStaticOptimizationFiles) {
   }
 }
 
+TEST(SeveralJoints, ADynamometerDoesNotMeasureBothTorquesOfAMaximalContraction) {
+  const auto fitted = [](const char* coordinates, bool load_cell) {
+    Study study = leg_study(coordinates);
+    study.identify.methods.clear();
+    std::vector<TrialInput> inputs = exact_inputs(study);
+    study.trials[0].use = Use::mvc;
+    (load_cell ? study.trials[0].load_cell : study.trials[0].external_torque) = "measured.sto";
+    const StudyResult result = analyse(in_memory(study, std::move(inputs)));
+    return std::ranges::any_of(result.fit_input.data.trials, &identification::TrialData::reference);
+  };
+  EXPECT_TRUE(fitted(R"("hip_angle")", false));
+  EXPECT_FALSE(fitted(R"(["hip_angle", "knee_angle"])", false));
+  EXPECT_TRUE(fitted(R"(["hip_angle", "knee_angle"])", true));
+}
+
 TEST(SeveralJoints, PennationAndPassiveForceComeFromTheModelWhereAskedFor) {
   Study study = leg_study(R"(["hip_angle", "knee_angle"])");
   const model::BodyModel leg = load_model(study);
