@@ -15,7 +15,7 @@ bool states_loads(const TrialSpec& trial) {
 std::optional<Remark> unstated_loads(const std::vector<TrialSpec>& trials) {
   std::vector<std::string> silent;
   for (const TrialSpec& trial : trials) {
-    const bool needed = trial.fitted() || trial.use == Use::validation;
+    const bool needed = trial.use == Use::calibration || trial.use == Use::validation || trial.use == Use::isometric;
     if (needed && !states_loads(trial) && std::ranges::find(silent, trial.name) == silent.end())
       silent.push_back(trial.name);
   }

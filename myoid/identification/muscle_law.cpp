@@ -144,8 +144,8 @@ class Contraction {
 template <typename Muscle>
 double tendon_strain(const Muscle& muscle, double start, double l_mt, double slack, double rise) {
   constexpr double kLastStep = 3e-9, kLongest = 10.0;
-  double low = -1.0, high = kLongest;  // the tendon does not push: low is 0 once 0 was tried
-  double strain = std::min(start, kLongest);
+  double low = -1.0, high = kLongest;                             // the tendon does not push: low is 0 once 0 was tried
+  double strain = start > 0.0 ? std::min(start, kLongest) : 0.0;  // also where the sample before had none
   for (int i = 0; i < 200; ++i) {
     const Pull m = muscle(l_mt - slack * (1.0 + strain));
     if (strain == 0.0 && m.force <= 0.0) return 0.0;

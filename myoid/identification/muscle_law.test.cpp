@@ -43,8 +43,14 @@ TEST(PlainTension, IsTheGeneralOneWhereNothingElseIsOn) {
     for (const double v : {-3.0, -0.4, 0.0, 0.3}) {
       const double l_mt = p[kSlack] + 0.9 * p[kFiberLength];
       const Tension general = tension(0.5, l_mt, v, p);
+      // Wherever the search for the strain begins, also at the strain of a sample without a number.
       Tension plain;
-      plain_tension(0.5, l_mt, v, p, plain);
+      for (const double start : {std::nan(""), 0.2, 0.0}) {
+        plain.strain = start;
+        plain_tension(0.5, l_mt, v, p, plain);
+        EXPECT_NEAR(plain.force_n, general.force_n, 1e-12 * general.force_n) << start;
+        EXPECT_NEAR(plain.strain, general.strain, 1e-14);
+      }
       const auto same = [](double x, double y) { EXPECT_NEAR(x, y, 1e-12 * (1.0 + std::abs(y))); };
       same(plain.force_n, general.force_n);
       same(tension_n(0.5, l_mt, v, p), general.force_n);

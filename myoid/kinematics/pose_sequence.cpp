@@ -256,6 +256,7 @@ void PoseSequence::search_window(std::size_t first, std::size_t last) {
 /// Tries each limb where a window's worst frame fits much worse than the limb usually does, the worst first: routine
 /// searches may have had no work left there.
 void PoseSequence::search_suspicious() {
+  if (poses_.empty()) return;
   struct Place {
     double ratio = 0.0;
     std::size_t limb = 0, first = 0, last = 0;

@@ -118,8 +118,7 @@ class Session {
     }
     if (references > 0.0) reference_ = of_references / references;
   }
-  /// Returns the place behind so many fitted trials: 0 at the maximal contractions, else at the begin; 1 is the whole
-  /// session.
+  /// Returns the place behind so many fitted trials (TrialRun::session).
   [[nodiscard]] double place(double before) const { return (std::min(before, trials_) - reference_) / trials_; }
 
  private:

@@ -19,8 +19,9 @@ namespace myoid::identification {
 /// length. The errors of different runs count as independent except for the person's own (unseen.h): 8 s are many times
 /// the errors' memory, and the work grows with the square of a run's length.
 struct TrialRun {
-  int trial = 0;                        ///< Index in StudyData::trials.
-  double session = 0.0;                 ///< Place of the run's middle in the session, 0 to 1.
+  int trial = 0;  ///< Index in StudyData::trials.
+  /// Place of the run's middle in the session: 0 at the maximal contractions, else at the begin; 1 is the whole length.
+  double session = 0.0;
   std::vector<int> joints;              ///< J indices in ParameterMap::joints().
   Eigen::VectorXd time_s;               ///< n
   Eigen::MatrixXd length_m;             ///< n x muscles, musculotendon length.

@@ -32,7 +32,7 @@ using nlohmann::json;
 constexpr double kLevel = 0.05;
 /// Share of the errors of the first kind that the greatest voluntary torques may make.
 constexpr double kOfTorques = 0.6;
-/// By how much, from session to session, the effort differs that a person's maximal contraction reaches (judgment).
+/// The effort that a person's maximal contraction reaches differs by this share from session to session (judgment).
 constexpr double kEffortSd = 0.02;
 
 using identification::ParameterEstimate;

@@ -24,7 +24,7 @@ identification::TrialData trial_data(const Study& study,
                                      const std::vector<identification::RestingJoint>& resting) {
   identification::TrialData data;
   data.name = trial.spec.name;
-  data.calibration = spec.fitted();
+  data.calibration = study.fits(spec);
   data.reference = spec.use == Use::mvc;
   data.time_s = trial.motion.joints.q.time_s();
   kinematics::LumpedMuscles lumped = kinematics::lumped_muscles(trial.forces.muscles, groups, study.model.coordinate);
@@ -79,9 +79,7 @@ identification::StudyData estimator_data(const FitSource& source) {
     const TimeSeries& activation = *source.activation[i];
     if (!trial.has_motion() || activation.empty()) continue;
     const TrialSpec& spec = study.trials[i];
-    if (!spec.fitted() && spec.use != Use::validation) continue;
-    // A dynamometer measures one joint. At the others straps bear the torque of a maximal contraction.
-    if (spec.use == Use::mvc && !spec.load_cell && !study.model.more_coordinates.empty()) continue;
+    if (!study.fits(spec) && spec.use != Use::validation) continue;
     data.trials.push_back(trial_data(study, spec, trial, activation, groups, source.resting));
   }
   // EMG that is given as activation is taken at its word.

@@ -36,7 +36,7 @@ Study study_of_run(const RunRecord& run) {
           fmt::format("{}: the trial '{}' of the run is missing; run the study again", run.study.string(), name));
   }
   for (TrialSpec& trial : study.trials)
-    trial.use = use_in(run, trial.name).value_or(trial.fitted() ? Use::validation : trial.use);
+    trial.use = use_in(run, trial.name).value_or(study.fits(trial) ? Use::validation : trial.use);
   return study;
 }
 

@@ -58,10 +58,10 @@ void add_emg(const StudyResult& result, std::vector<VerdictCap>& caps) {
       const bool is_reference = std::ranges::any_of(result.emg.normalisation, [&](const auto& n) {
         return n.channel == fault.about && n.source_trial == trial.spec.name;
       });
-      if (!is_reference && !trial.spec.fitted()) continue;
+      if (!is_reference && !study.fits(trial.spec)) continue;
       caps.push_back({.reason = reason(fault, trial.spec.name),
                       .owners = owners_of(study, fault.about),
-                      .parameters = trial.spec.fitted() ? std::vector<std::string>{} : strengths()});
+                      .parameters = study.fits(trial.spec) ? std::vector<std::string>{} : strengths()});
     }
   }
   for (const Remark& fault : result.level_faults) {
@@ -79,7 +79,7 @@ void add_contacts(const StudyResult& result, std::vector<VerdictCap>& caps) {
     const bool foreign = std::ranges::any_of(trial.remarks, [](const Remark& remark) {
       return remark.code == RemarkCode::foreign_contact && remark.severity == Severity::warning;
     });
-    if (!foreign || !trial.spec.fitted()) continue;
+    if (!foreign || !result.source.study.fits(trial.spec)) continue;
     caps.push_back(of_all(fmt::format(
         "Another foot stands on a plate in {}: leave these times out first (exclude = [\"foreign_contacts\"]).",
         trial.spec.name)));

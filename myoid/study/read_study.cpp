@@ -67,7 +67,7 @@ void check_rule(const Study& study, const identification::ParameterRule& rule, c
 void check_trials(const Study& study) {
   if (study.trials.empty())
     refuse(study, "no [[trial]]; add one table per recording, with name, markers or motion, and emg");
-  const bool any_to_learn_from = std::ranges::any_of(study.trials, &TrialSpec::fitted);
+  const bool any_to_learn_from = std::ranges::any_of(study.trials, [&](const TrialSpec& t) { return study.fits(t); });
   if (!any_to_learn_from && !study.identify.methods.empty())
     refuse(study,
            "no [[trial]] has use = \"calibration\" or \"isometric\", from which parameters are found; the others only "

@@ -202,13 +202,6 @@ struct TrialSpec {
   double video_offset_s = 0.0;                 ///< Time of the film's begin, on the clock of the motion.
   std::optional<SyncSpec> sync;
   bool operator==(const TrialSpec&) const = default;
-
-  /// Returns true if the fit takes the trial's torque. The torque of a maximal contraction has to be measured: whatever
-  /// holds the limb is part of no model.
-  [[nodiscard]] bool fitted() const {
-    return use == Use::calibration || use == Use::isometric ||
-           (use == Use::mvc && (markers || motion) && (external_torque || load_cell));
-  }
 };
 
 /// Curves of a group of people, drawn behind the person's curves.
@@ -284,6 +277,14 @@ struct Study {
   std::vector<NormSpec> norms;                            ///< [[norm]]
   std::optional<std::filesystem::path> truth;
   bool operator==(const Study&) const = default;
+
+  /// Returns true if the fit takes the trial's torque. The torque of a maximal contraction has to be measured: whatever
+  /// holds the limb is part of no model. A dynamometer measures one joint only; at the others straps hold the limb.
+  [[nodiscard]] bool fits(const TrialSpec& trial) const {
+    const bool measured = trial.load_cell || (trial.external_torque && model.more_coordinates.empty());
+    return trial.use == Use::calibration || trial.use == Use::isometric ||
+           (trial.use == Use::mvc && (trial.markers || trial.motion) && measured);
+  }
 };
 
 /// Returns every coordinate whose torque the muscles share, the main one first.

@@ -35,18 +35,22 @@ TEST(TrialTable, ATrialWithoutEmgIsRefusedWithTheRemedy) {
 }
 
 TEST(TrialTable, AMaximalContractionIsFittedWhereItsTorqueAndPostureAreMeasured) {
-  const auto fitted = [](const std::string& more) {
-    return trial_of("name = \"t1\"\nemg = \"t1.sto\"\nuse = \"mvc\"\n" + more).fitted();
+  Study study;
+  const auto fitted = [&](const std::string& more) {
+    return study.fits(trial_of("name = \"t1\"\nemg = \"t1.sto\"\nuse = \"mvc\"\n" + more));
   };
   EXPECT_FALSE(fitted(""));
   EXPECT_FALSE(fitted("markers = \"a.trc\"\n"));
   EXPECT_FALSE(fitted("external_torque = \"m.sto\"\n"));
   EXPECT_TRUE(fitted("markers = \"a.trc\"\nexternal_torque = \"m.sto\"\n"));
   EXPECT_TRUE(fitted("motion = \"a.mot\"\nload_cell = \"m.sto\"\n"));
-  EXPECT_TRUE(trial_of(kTrial).fitted());
-  EXPECT_TRUE(trial_of(kTrial + "use = \"isometric\"\n").fitted());
+  EXPECT_TRUE(study.fits(trial_of(kTrial)));
+  EXPECT_TRUE(study.fits(trial_of(kTrial + "use = \"isometric\"\n")));
   for (const char* use : {"validation", "static", "passive"})
-    EXPECT_FALSE(trial_of(kTrial + "external_torque = \"m.sto\"\nuse = \"" + use + "\"\n").fitted()) << use;
+    EXPECT_FALSE(study.fits(trial_of(kTrial + "external_torque = \"m.sto\"\nuse = \"" + use + "\"\n"))) << use;
+  study.model.more_coordinates = {"knee_angle"};
+  EXPECT_FALSE(fitted("markers = \"a.trc\"\nexternal_torque = \"m.sto\"\n")) << "a dynamometer measures one joint";
+  EXPECT_TRUE(fitted("markers = \"a.trc\"\nload_cell = \"m.sto\"\n"));
 }
 
 TEST(TrialTable, AnEndBeforeTheStartIsRefused) {
