@@ -195,6 +195,25 @@ TEST(CompareRuns, APowerFollowsFromTheTorqueAndIsNoFurtherComparison) {
   EXPECT_TRUE(c.remarks.empty());
 }
 
+TEST(CompareRuns, AJointsTorqueThatOneMuscleMakesIsThatMusclesNumber) {
+  const test::TemporaryFolder folder;
+  const auto session = [&](const char* name, double torque, double of_joint) {
+    const auto path =
+        run(folder.path() / name, {{"TRI", torque, 1, "identified"}, {"elbow", of_joint, 1, "identified"}}, 1.0);
+    std::string json = recording::read_text_file(path / "parameters.json");
+    const std::string_view strength = "max_isometric_force";
+    json.replace(json.find(strength), strength.size(), "voluntary_torque");
+    json.replace(json.find(strength), strength.size(), "voluntary_torque_negative");
+    recording::write_file(path / "parameters.json", json);
+    return path;
+  };
+  const RunComparison c = compare_runs(session("one", 40, 40), session("two", 50, 50));
+  ASSERT_EQ(c.parameters.size(), 1U);
+  EXPECT_EQ(c.parameters[0].muscle, "TRI, elbow");
+  // Another muscle's share makes the joint's torque a number of its own.
+  EXPECT_EQ(compare_runs(session("three", 40, 43), session("four", 50, 53)).parameters.size(), 2U);
+}
+
 TEST(CompareRuns, AnnouncesNothingFromMethodPaper) {
   // Shared forces of a person who did not change: the intervals of method paper exclude each other.
   const test::TemporaryFolder folder;
