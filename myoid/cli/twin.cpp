@@ -51,14 +51,16 @@ void add_twin(CLI::App& app, Context& context) {
   CLI::App& command =
       *app.add_subcommand("twin",
                           "A virtual recording whose truth is known: markers, raw EMG, model, study.toml, truth.csv.\n"
-                          "Example: myoid twin --model arm4 --protocol examples/demo/protocol.toml --seed 1 --out rec");
+                          "Example: myoid twin --model arm4 --protocol demo --seed 1 --out rec");
   const auto out = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::TwinPersonsOptions>();
   command
       .add_option("--model", options->twin.model,
                   "Model that goes with the recording: arm4 (four muscles, default) or arm7 (seven heads, level L2)")
       ->check(one_of({"arm4", "arm7"}));
-  command.add_option("--protocol", options->twin.protocol, "Protocol of the recording (.toml)")->required();
+  command
+      .add_option("--protocol", options->twin.protocol, "Protocol of the recording (.toml), or demo, the program's own")
+      ->required();
   command
       .add_option("--level", options->twin.level,
                   "L0 exact, L1 noise, L2 another truth than the model; default: as the protocol says")

@@ -100,7 +100,8 @@ void add_twin_study(CLI::App& app, Context& context) {
   const auto out = std::make_shared<std::string>();
   const auto each_muscle = std::make_shared<bool>(false);
   const auto options = std::make_shared<commands::TwinStudyOptions>();
-  command.add_option("--protocol", options->protocol, "Protocol of the recording (.toml)")->required();
+  command.add_option("--protocol", options->protocol, "Protocol of the recording (.toml), or demo, the program's own")
+      ->required();
   command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
       ->check(one_of({"L0", "L1", "L2"}));
   command.add_option("--offset", options->offset, "Mean of the persons away from the priors', in standard deviations")

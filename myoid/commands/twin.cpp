@@ -9,6 +9,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/twin/write_recording.h"
+#include "myoid/virtual_person/demo_protocol.h"
 #include "myoid/virtual_person/truth_settings.h"
 
 namespace myoid::commands {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 twin::Protocol protocol_of(const TwinOptions& o) {
   check_word("--model", o.model, {"arm4", "arm7"});
   check_word("--format", o.format, {"trc", "c3d"});
-  twin::Protocol protocol = twin::read_protocol(o.protocol, level_named(o.level));
+  twin::Protocol protocol = twin::protocol_named(o.protocol, level_named(o.level));
   twin::set_truth(protocol, o.truth);
   protocol.seven_heads = o.model == "arm7";
   if (protocol.seven_heads && protocol.level != twin::Level::different) {

@@ -9,7 +9,7 @@
 
 #include "myoid/commands/call.h"
 #include "myoid/twin/synthetic_recording.h"
-#include "myoid/virtual_person/protocol.h"
+#include "myoid/virtual_person/demo_protocol.h"
 
 namespace myoid::commands {
 
@@ -20,7 +20,7 @@ inline const std::vector<std::string_view> kTwinFiles{"study.toml", "truth.csv",
 struct TwinOptions {
   Call call;
   std::string model = "arm4";      ///< Model for the recording: arm4, or arm7 at level L2.
-  std::string protocol;            ///< Protocol of the recording (.toml).
+  std::string protocol;            ///< Protocol of the recording (.toml), or twin::kDemoProtocol.
   std::string level;               ///< L0, L1 or L2; empty: the protocol's.
   std::vector<std::string> truth;  ///< Keys of [truth] beyond the protocol's: "KEY=VALUE".
   std::string format = "trc";      ///< Format of markers and EMG: trc (.trc and .sto), or c3d.

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "myoid/commands/twin.h"
-#include "myoid/files/text_file.h"
+#include "myoid/virtual_person/demo_protocol.h"
 
 namespace myoid::commands {
 
 TwinStudyResult twin_study(const TwinStudyOptions& o) {
   Remarks remarks(o.call);
-  twin::Protocol protocol = twin::read_protocol(o.protocol, level_named(o.level));
+  twin::Protocol protocol = twin::protocol_named(o.protocol, level_named(o.level));
   twin::set_truth(protocol, o.truth);
   if (o.offset) protocol.truth.offset = *o.offset;
   twin::TwinStudyOptions options = o.study;
@@ -20,7 +20,7 @@ TwinStudyResult twin_study(const TwinStudyOptions& o) {
   for (const twin::TwinFailure& f : result.study.failures) remarks.warn(fmt::format("seed {}: {}", f.seed, f.message));
   result.summaries = twin::summarize(result.study);
   result.provenance.command = o.call.command;
-  result.provenance.inputs.push_back({o.protocol, sha256(recording::read_text_file(o.protocol))});
+  result.provenance.inputs.push_back({o.protocol, sha256(twin::protocol_text(o.protocol))});
   result.remarks = remarks.list();
   return result;
 }
