@@ -222,9 +222,8 @@ std::string program_text(const CLI::App& app, std::size_t width) {
   return text + "\n" +
          wrapped("myoid COMMAND --help, or myoid help COMMAND, shows a command's purpose, an example and its options.",
                  width) +
-         "First steps:\n" + "  " +
-         shell_lines("myoid twin --protocol examples/demo/protocol.toml --out rec", width - 2) + "  " +
-         shell_lines("myoid run rec/study.toml --out results", width - 2);
+         "First steps:\n" + "  " + shell_lines("myoid demo", width - 2) + "  " +
+         shell_lines("myoid init study --from RECORDINGS", width - 2);
 }
 
 }  // namespace myoid::cli

@@ -220,7 +220,7 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
          command.add_option("--seed", context.seed, "Seed of everything random (default 1)")->check(zero_or_more()));
   unless(used.json, command.add_flag("--json", context.json, "Result for machines on stdout"));
   command.add_flag("--quiet", context.quiet, "Nothing on stderr but errors");
-  command.add_flag("--verbose", context.verbose, "More on stderr: repairs, timings");
+  command.add_flag("--verbose", context.verbose, "More: all numbers and gates of a run, repairs, timings");
   unless(used.range, command.add_option("--start", context.start_s, "First time that is used [s]"));
   unless(used.range, command.add_option("--end", context.end_s, "Last time that is used [s]"));
   unless(used.overwrite, command.add_flag("--overwrite", context.overwrite, "Replace existing results"));

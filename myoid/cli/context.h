@@ -108,6 +108,7 @@ void add_check(CLI::App& app, Context& context);
 void add_cohort(CLI::App& app, Context& context);
 void add_compare(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
+void add_demo(CLI::App& app, Context& context);
 void add_design(CLI::App& app, Context& context);
 void add_emg(CLI::App& app, Context& context);
 void add_id(CLI::App& app, Context& context);

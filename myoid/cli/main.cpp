@@ -90,6 +90,7 @@ constexpr const char* kVirtual = "Virtual persons and movements";
 
 /// In the order of the help.
 constexpr Command kCommands[] = {
+    {"demo", myoid::cli::add_demo, kStudy},
     {"run", myoid::cli::add_run, kStudy},
     {"init", myoid::cli::add_init, kStudy},
     {"check", myoid::cli::add_check, kStudy},

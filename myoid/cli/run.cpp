@@ -1,4 +1,4 @@
-#include "myoid/commands/run.h"
+#include "myoid/cli/run.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,12 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "myoid/cli/command_help.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/option_checks.h"
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/report/report.h"
+#include "myoid/results/answer.h"
 #include "myoid/results/paper_tables.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
@@ -22,6 +24,8 @@ namespace myoid::cli {
 namespace {
 
 using identification::ParameterEstimate;
+
+constexpr std::size_t kWidest = 110;  // columns of the answer
 
 void print_method(const identification::IdentificationResult& method, std::size_t muscle_count) {
   const std::vector<EstimateLine> lines = estimate_lines(method, muscle_count);
@@ -131,17 +135,21 @@ void print_paper(const identification::IdentificationResult& paper) {
   for (const identification::PublishedSearch& search : paper.published) say("{}\n", published_sentence(search));
 }
 
-/// Prints the methods with intervals, their predictions, the next movements and the quality gates. Method `paper` is
-/// printed where it was asked for.
-void print_results(const StudyResult& result, const std::vector<report::Gate>& gates, bool with_paper) {
+/// Prints all numbers of the methods with intervals, their predictions, the next movements and the quality gates.
+void print_everything(const StudyResult& result, const std::vector<report::Gate>& gates) {
   for (const identification::IdentificationResult& method : result.fit.methods) {
     if (method.method != "paper") print_method(method, result.fit_input.data.muscles.size());
   }
   print_predictions(result);
-  const identification::IdentificationResult* paper = method_of(result.fit, "paper");
-  if (paper != nullptr && with_paper) print_paper(*paper);
   print_next(result);
   print_gates(gates);
+}
+
+/// Prints the answer, then method `paper` where it was asked for, by the command or as the study's only one.
+void print_answer(const StudyResult& result, const std::vector<report::Gate>& gates, bool with_paper) {
+  say("{}", answer_text(result, gates, std::min(help_width(), kWidest)));
+  const identification::IdentificationResult* paper = method_of(result.fit, "paper");
+  if (paper != nullptr && (with_paper || result.fit.methods.size() == 1)) print_paper(*paper);
 }
 
 /// Warns of failed gates with --json and --quiet, which do not print the gates.
@@ -153,6 +161,36 @@ void tell_gates(const std::vector<report::Gate>& gates, const Context& context) 
 }
 
 }  // namespace
+
+commands::RunResult compute_run(Context& context, commands::RunOptions options, const std::string& out) {
+  const auto begin = std::chrono::steady_clock::now();
+  context.prepare_folder(out, commands::kStageFolder);
+  commands::protect_files(out, commands::kRunFiles, {options.study});
+  options.call = context.call();
+  options.store = std::filesystem::path(out) / commands::kStageFolder;
+  commands::RunResult result = commands::run(options);
+  commands::write_run(result, out);
+  context.end_progress();
+  context.log(fmt::format("{:.1f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()));
+  return result;
+}
+
+void say_run(Context& context, const commands::RunResult& result, const std::string& out, bool with_paper) {
+  tell_gates(result.gates, context);
+  if (result.reading_remarks > 0 && !context.verbose)
+    context.log(
+        fmt::format("{} remarks on how files were read and repaired: run.json, or --verbose", result.reading_remarks));
+  const StudyResult& study = result.study;
+  if (context.json) {
+    say_whole(parameters_json(study.fit.methods, study.folds, result.provenance, parameter_context(study)));
+  } else {
+    print_answer(study, result.gates, with_paper);
+    if (context.verbose) print_everything(study, result.gates);
+    say("{}report: {}/report.html\n", context.verbose ? "\n" : "", out);
+  }
+  if (result.failed(context.strict)) context.exit_code = kQualityGateFailed;
+  if (failed_trials(study.trials) > 0) context.exit_code = kSomeTrialsFailed;
+}
 
 void add_run(CLI::App& app, Context& context) {
   CLI::App& command =
@@ -170,32 +208,11 @@ void add_run(CLI::App& app, Context& context) {
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options, out, mat] {
-    const auto begin = std::chrono::steady_clock::now();
     mat.prepare(context, {options->study});
-    context.prepare_folder(*out, commands::kStageFolder);
-    commands::protect_files(*out, commands::kRunFiles, {options->study});
-    options->call = context.call();
-    options->store = std::filesystem::path(*out) / commands::kStageFolder;
-    const commands::RunResult result = commands::run(*options);
-    commands::write_run(result, *out);
+    const commands::RunResult result = compute_run(context, *options, *out);
     mat.write(*out);
-    context.end_progress();
-    tell_gates(result.gates, context);
-    if (result.reading_remarks > 0 && !context.verbose)
-      context.log(fmt::format("{} remarks on how files were read and repaired: in run.json, or with --verbose",
-                              result.reading_remarks));
-    const StudyResult& study = result.study;
-    if (context.json) {
-      say_whole(parameters_json(study.fit.methods, study.folds, result.provenance, parameter_context(study)));
-    } else {
-      const bool asked = std::ranges::find(options->methods, identification::Method::paper) != options->methods.end();
-      print_results(study, result.gates, asked || study.fit.methods.size() == 1);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      context.log(fmt::format("\n{:.1f} s", seconds));
-      say("\nreport: {}/report.html\n", *out);
-    }
-    if (result.failed(context.strict)) context.exit_code = kQualityGateFailed;
-    if (failed_trials(study.trials) > 0) context.exit_code = kSomeTrialsFailed;
+    say_run(context, result, *out,
+            std::ranges::find(options->methods, identification::Method::paper) != options->methods.end());
   });
 }
 

@@ -126,23 +126,6 @@ std::string legend(const std::vector<ForestRow>& rows) {
   return text + "</p>\n";
 }
 
-/// The light of the worst gate.
-struct Light {
-  GateStatus status;
-  const char* head;
-  const char* shape;  ///< Octagon, triangle or circle: the light is readable without its color.
-  const char* before_questions;
-};
-constexpr std::array<Light, 3> kLights{{
-    {GateStatus::fail, "Do not use the numbers",
-     "<path d=\"M13 3H27L37 13V27L27 37H13L3 27V13Z\"/><path class=\"sign\" d=\"M13 13L27 27M27 13L13 27\"/>",
-     "; these failed:"},
-    {GateStatus::warn, "Use the numbers with caution",
-     "<path d=\"M20 3L38 36H2Z\"/><path class=\"sign\" d=\"M20 14V25M20 30V31\"/>", "; these ask for caution:"},
-    {GateStatus::pass, "The recording passed every question",
-     "<circle cx=\"20\" cy=\"20\" r=\"18\"/><path class=\"sign\" d=\"M11 20L18 27L29 13\"/>", "."},
-}};
-
 }  // namespace
 
 std::string forest_html(const std::vector<ForestRow>& rows) {
@@ -181,27 +164,6 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
          "<dt>What to do</dt><dd>Use the numbers that are identified. Report the interval of "
          "weak numbers. For the others the section “What to record next” names "
          "movements that would tell.</dd></dl></details>\n</figure>\n";
-}
-
-std::string light_html(const std::vector<Gate>& gates) {
-  if (gates.empty()) return "";
-  const auto count = [&](GateStatus status) {
-    return std::ranges::count_if(gates, [&](const Gate& gate) { return gate.status == status; });
-  };
-  const auto asked = static_cast<std::ptrdiff_t>(gates.size()) - count(GateStatus::info);
-  const Light& light =
-      *std::find_if(kLights.begin(), kLights.end() - 1, [&](const Light& worst) { return count(worst.status) > 0; });
-  std::string questions;
-  for (const Gate& gate : gates)
-    if (gate.status == light.status && light.status != GateStatus::pass)
-      questions +=
-          fmt::format("<li>{}{}</li>", typeset(gate.name), gate.value.empty() ? "" : ": " + typeset(gate.value));
-  return fmt::format(
-      "<div class=\"light {}\"><svg width=\"40\" height=\"40\" viewBox=\"0 0 40 40\" "
-      "aria-hidden=\"true\">{}</svg><div><p><b>{}.</b> {} of {} questions about the recording and "
-      "the fit (<a href=\"#quality\">all</a>) are answered well{}</p>{}</div></div>\n",
-      name(light.status), light.shape, light.head, count(GateStatus::pass), asked, light.before_questions,
-      questions.empty() ? "" : "<ul>" + questions + "</ul>");
 }
 
 }  // namespace myoid::report

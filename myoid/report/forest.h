@@ -13,7 +13,4 @@ namespace myoid::report {
 /// scale become arrows. The table's cells hold the numbers as text. Empty without rows.
 [[nodiscard]] std::string forest_html(const std::vector<ForestRow>& rows);
 
-/// Returns the light of the gates, red, yellow or green by the worst of them, with a sentence.
-[[nodiscard]] std::string light_html(const std::vector<Gate>& gates);
-
 }  // namespace myoid::report

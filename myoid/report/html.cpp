@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/report/forest.h"
+#include "myoid/report/light.h"
 #include "myoid/report/strip_grid.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"

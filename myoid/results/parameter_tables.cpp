@@ -9,6 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "myoid/identification/parameter_fields.h"
+#include "myoid/report/muscle_names.h"
+#include "myoid/report/plain_unit.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
 #include "myoid/report/verdict_mark.h"
@@ -56,14 +58,6 @@ Cell verdict_cell(const ParameterEstimate& e) {
   return {report::spelled(identification::name(e.verdict)), badge(e.verdict)};
 }
 
-std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
-  for (const TrueValue& t : result.source.truth) {
-    if (t.parameter == e.parameter && (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
-      return t.value;
-  }
-  return std::nullopt;
-}
-
 Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
   const std::optional<double> truth = truth_of(result, e);
   if (!truth) return {"-"};
@@ -88,6 +82,14 @@ std::string measured_at_rest(const StudyResult& result) {
 }
 
 }  // namespace
+
+std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
+  for (const TrueValue& t : result.source.truth) {
+    if (t.parameter == e.parameter && (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
+      return t.value;
+  }
+  return std::nullopt;
+}
 
 bool is_undetermined(const ParameterEstimate& e) {
   constexpr double kMeaningless = 1e3;
@@ -130,6 +132,11 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std
                                       : fmt::format("{}", fmt::join(group.owners, ", "))});
   }
   return lines;
+}
+
+std::string plain_owner(const EstimateLine& line) {
+  if (line.owners == "subject") return "Person";
+  return line.owners == line.estimate->muscle ? report::plain_muscle(line.owners) : line.owners;
 }
 
 std::vector<Table> estimate_tables(const StudyResult& result, const IdentificationResult& method) {
@@ -176,18 +183,20 @@ std::vector<report::ForestRow> forest_rows(const StudyResult& result, const Iden
   for (const EstimateLine& line : estimate_lines(method, result.fit_input.data.muscles.size())) {
     const ParameterEstimate& e = *line.estimate;
     if (!std::isfinite(e.estimate)) continue;
-    report::ForestRow row{.owner = line.owners,
+    const report::PlainUnit plain = report::plain_unit(e.unit);
+    const auto scaled = [&](const std::optional<double>& x) { return x ? std::optional(*x * plain.per_si) : x; };
+    report::ForestRow row{.owner = plain_owner(line),
                           .name = report::spelled(e.parameter),
-                          .unit = e.unit == Unit::dimensionless ? "" : std::string(symbol(e.unit)),
-                          .estimate = e.estimate,
-                          .lower = e.ci_low,
-                          .upper = e.ci_high,
-                          .given_estimate = e.given_estimate,
-                          .given_lower = e.given_ci_low,
-                          .given_upper = e.given_ci_high,
-                          .prior_mean = e.prior_mean,
-                          .prior_sd = e.prior_sd,
-                          .truth = truth_of(result, e),
+                          .unit = std::string(plain.symbol),
+                          .estimate = e.estimate * plain.per_si,
+                          .lower = scaled(e.ci_low),
+                          .upper = scaled(e.ci_high),
+                          .given_estimate = scaled(e.given_estimate),
+                          .given_lower = scaled(e.given_ci_low),
+                          .given_upper = scaled(e.given_ci_high),
+                          .prior_mean = scaled(e.prior_mean),
+                          .prior_sd = scaled(e.prior_sd),
+                          .truth = scaled(truth_of(result, e)),
                           .verdict = report::spelled(identification::name(e.verdict)),
                           .badge = badge(e.verdict),
                           .why = e.reason,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,15 @@ struct EstimateLine {
 [[nodiscard]] std::vector<EstimateLine> estimate_lines(const identification::IdentificationResult& method,
                                                        std::size_t muscle_count);
 
+/// Returns the owners for people: "Biceps" of one muscle BIC, "Person" of the subject, else the owners.
+[[nodiscard]] std::string plain_owner(const EstimateLine& line);
+
 /// Returns true if the 95 % interval is a thousand times as wide as the number, or as the usual spread of a number that
 /// is 0 by nature. The fit does not bound such a number, and the interval is printed as "not determined".
 [[nodiscard]] bool is_undetermined(const identification::ParameterEstimate& e);
+
+/// Returns the number's true value in a virtual recording; empty: unknown.
+[[nodiscard]] std::optional<double> truth_of(const StudyResult& result, const identification::ParameterEstimate& e);
 
 /// Returns the tables of method torque or force: first the muscles' and the person's parameters
 /// with prior, estimate, 95 % interval, truth (of a virtual recording), verdict and
@@ -34,7 +41,7 @@ struct EstimateLine {
 /// Returns a table of the minima at which searches from several starts ended; none without such searches.
 [[nodiscard]] std::vector<report::Table> basin_tables(const identification::IdentificationResult& method);
 
-/// Returns the rows of the forest plot: the numbers of `estimate_lines`, with the truth of a
+/// Returns the rows of the forest plot: the numbers of `estimate_lines` in plain names and units, with the truth of a
 /// virtual recording. A number that the recording leaves open has no interval.
 [[nodiscard]] std::vector<report::ForestRow> forest_rows(const StudyResult& result,
                                                          const identification::IdentificationResult& method);

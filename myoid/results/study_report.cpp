@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "myoid/design/design_report.h"
-#include "myoid/math/statistics.h"
 #include "myoid/report/typeset.h"
+#include "myoid/results/answer.h"
 #include "myoid/results/methods_text.h"
 #include "myoid/results/paper_tables.h"
 #include "myoid/results/parameter_tables.h"
@@ -76,64 +76,9 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   return list;
 }
 
-/// Returns true for a parameter of its own: no nuisance, not tied to another, and no torque that follows from others.
-bool is_counted(const ParameterEstimate& e) {
-  return !identification::is_nuisance(e) && e.tied_to.empty() && !identification::is_voluntary(e.parameter);
-}
-
-/// Lists the numbers that are identified: "max isometric force of BIC, TRI; delay".
-std::string identified_numbers(const IdentificationResult& fit) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> owners;
-  for (const ParameterEstimate& e : fit.estimates) {
-    if (!is_counted(e) || e.verdict != Verdict::identified) continue;
-    auto of = std::ranges::find(owners, e.parameter, [](const auto& entry) { return entry.first; });
-    if (of == owners.end()) of = owners.insert(owners.end(), {e.parameter, {}});
-    of->second.push_back(e.muscle);
-  }
-  std::vector<std::string> parts;
-  for (const auto& [parameter, muscles] : owners)
-    parts.push_back(
-        fmt::format("{} of {}", report::spelled(parameter),
-                    muscles.front() == "subject" ? "the person" : fmt::format("{}", fmt::join(muscles, ", "))));
-  return fmt::format("{}", fmt::join(parts, "; "));
-}
-
 std::string headline(const StudyResult& result) {
-  const IdentificationResult* best = method_of(result.fit, "torque");
-  if (best == nullptr) best = method_of(result.fit, "force");
-  if (best == nullptr)
-    return "Only the source paper's method was asked for. It fits forces that nobody measured, so that this recording "
-           "identifies nothing by it; its numbers stand at the end.";
-  int total = 0, sure = 0, repeat = 0, weak = 0;
-  for (const ParameterEstimate& e : best->estimates) {
-    if (!is_counted(e)) continue;
-    ++total;
-    if (e.verdict == Verdict::identified) ++sure;
-    if (e.verdict == Verdict::reproducible) ++repeat;
-    if (e.verdict == Verdict::weak) ++weak;
-  }
-  std::string text = voluntary_headline(*best);
-  text += sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
-                    : fmt::format("This recording identifies {} of {} parameters: {}", sure, total,
-                                  identified_numbers(*best));
-  text += ".";
-  if (repeat > 0)
-    text += fmt::format(" {} {} reproducible: given geometry and sensors, for comparing sessions of this person.",
-                        repeat, repeat == 1 ? "is" : "are");
-  if (weak > 0) text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
-  if (!result.folds.empty()) {
-    std::vector<double> ours, theirs;
-    for (const identification::Fold& f : result.folds) {
-      ours.push_back(f.identified.r2());
-      theirs.push_back(f.literature.r2());
-    }
-    text += fmt::format(
-        " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (median; 1 is perfect, the "
-        "literature's muscles with a best gain reach {:.2f}).",
-        choice_name(result.source.study.identify.folds), math::median(std::move(ours)),
-        math::median(std::move(theirs)));
-  }
-  return text;
+  const IdentificationResult* best = best_method(result.fit);
+  return (best == nullptr ? "" : voluntary_headline(*best)) + fit_sentences(result, true);
 }
 
 std::vector<Table> tables_with_basins(std::vector<Table> tables, const IdentificationResult& method) {
@@ -222,7 +167,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   const IdentificationResult* force = method_of(result.fit, "force");
   const IdentificationResult* paper = method_of(result.fit, "paper");
 
-  const IdentificationResult* best = torque != nullptr ? torque : force;
+  const IdentificationResult* best = best_method(result.fit);
   if (best != nullptr) report.forest = forest_rows(result, *best);
 
   std::vector<Section>& sections = report.sections;

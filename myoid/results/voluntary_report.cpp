@@ -15,6 +15,7 @@
 #include "myoid/report/muscle_names.h"
 #include "myoid/report/typeset.h"
 #include "myoid/report/verdict_mark.h"
+#include "myoid/results/parameter_tables.h"
 
 namespace myoid {
 namespace {
@@ -71,31 +72,18 @@ std::string angle_text(const VoluntaryCurve& curve, const ParameterEstimate& ang
 
 std::string spelled_verdict(const ParameterEstimate& e) { return report::spelled(identification::name(e.verdict)); }
 
-/// Returns true if the recording tells the number for the person, or for sessions of the person.
-bool is_told(const ParameterEstimate& e) {
-  return e.verdict == identification::Verdict::identified || e.verdict == identification::Verdict::reproducible ||
-         e.verdict == identification::Verdict::weak;
-}
-
 std::string size_text(const ParameterEstimate& e) { return report::format_beside(e.estimate, e.ci_low, e.ci_high); }
 
-std::string sentence(const IdentificationResult& method, const VoluntaryCurve& curve) {
-  const ParameterEstimate* torque = torque_of(method, curve);
-  if (torque == nullptr) return "";
-  const ParameterEstimate* angle = angle_of(method, curve);
-  std::string text = fmt::format("{}: {} N m", plain_name(curve), size_text(*torque));
-  if (angle != nullptr) text += " at " + angle_text(curve, *angle);
-  text += fmt::format(", 95 % {} N m", report::format_interval(*torque->ci_low, *torque->ci_high));
-  if (angle != nullptr) text += fmt::format(" and {} to {}", degrees(*angle->ci_low), degrees(*angle->ci_high));
-  text += fmt::format(" ({}", spelled_verdict(*torque));
-  if (angle != nullptr && angle->verdict != torque->verdict) text += "; angle " + spelled_verdict(*angle);
-  return text + (curve.from_mvc ? ")" : "; at the largest recorded EMG, no maximal contraction was recorded)");
-}
-
-std::optional<double> true_voluntary(const StudyResult& result, const ParameterEstimate& e) {
-  for (const TrueValue& t : result.source.truth)
-    if (t.parameter == e.parameter && t.muscle == e.muscle) return t.value;
-  return std::nullopt;
+std::string sentence(const VoluntaryLine& line) {
+  const ParameterEstimate& torque = *line.torque;
+  std::string text = fmt::format("{}: {} N m", line.name, size_text(torque));
+  if (line.angle != nullptr) text += " at " + line.place;
+  text += fmt::format(", 95 % {} N m", report::format_interval(*torque.ci_low, *torque.ci_high));
+  if (line.angle != nullptr)
+    text += fmt::format(" and {} to {}", degrees(*line.angle->ci_low), degrees(*line.angle->ci_high));
+  text += fmt::format(" ({}", spelled_verdict(torque));
+  if (line.angle != nullptr && line.angle->verdict != torque.verdict) text += "; angle " + spelled_verdict(*line.angle);
+  return text + (line.curve->from_mvc ? ")" : "; at the largest recorded EMG, no maximal contraction was recorded)");
 }
 
 /// Returns "41 at 60°/s, 73 at 120°/s" of the powers of a curve.
@@ -112,7 +100,7 @@ std::string powers_text(const IdentificationResult& method, const VoluntaryCurve
 }
 
 Cell truth_cell(const StudyResult& result, const ParameterEstimate& e, double unit) {
-  const std::optional<double> truth = true_voluntary(result, e);
+  const std::optional<double> truth = truth_of(result, e);
   if (!truth) return {"-"};
   const bool inside = *truth >= *e.ci_low && *truth <= *e.ci_high;
   return {report::format_beside(*truth / unit, *e.ci_low / unit, *e.ci_high / unit),
@@ -198,25 +186,37 @@ report::Figure figure_of(const IdentificationResult& method) {
 
 }  // namespace
 
+std::vector<VoluntaryLine> voluntary_lines(const IdentificationResult& method) {
+  std::vector<VoluntaryLine> lines;
+  for (const VoluntaryCurve& curve : method.voluntary) {
+    const bool of_one_muscle = curve.of_joint && curve.muscles.size() == 1;
+    const ParameterEstimate* torque = torque_of(method, curve);
+    if (torque == nullptr || of_one_muscle) continue;
+    const ParameterEstimate* angle = angle_of(method, curve);
+    lines.push_back({&curve, torque, angle, plain_name(curve), angle == nullptr ? "" : angle_text(curve, *angle)});
+  }
+  return lines;
+}
+
+bool is_told(const ParameterEstimate& e) {
+  return e.verdict == identification::Verdict::identified || e.verdict == identification::Verdict::reproducible ||
+         e.verdict == identification::Verdict::weak;
+}
+
 std::vector<std::string> voluntary_sentences(const IdentificationResult& method) {
   std::vector<std::string> sentences;
-  for (const VoluntaryCurve& curve : method.voluntary) {
-    std::string text = sentence(method, curve);
-    if (!text.empty()) sentences.push_back(std::move(text));
-  }
+  for (const VoluntaryLine& line : voluntary_lines(method)) sentences.push_back(sentence(line));
   return sentences;
 }
 
 std::string voluntary_headline(const IdentificationResult& method) {
   std::vector<std::string> parts;
-  for (const VoluntaryCurve& curve : method.voluntary) {
-    const ParameterEstimate* torque = torque_of(method, curve);
-    const ParameterEstimate* angle = angle_of(method, curve);
-    if (torque == nullptr || !is_told(*torque)) continue;
-    const std::string place =
-        angle != nullptr && is_told(*angle) ? fmt::format(" at {}", angle_text(curve, *angle)) : std::string();
-    parts.push_back(fmt::format("{} {} N m ({}){}", plain_name(curve), size_text(*torque),
-                                report::format_interval(*torque->ci_low, *torque->ci_high), place));
+  for (const VoluntaryLine& line : voluntary_lines(method)) {
+    if (!is_told(*line.torque)) continue;
+    const bool placed = line.angle != nullptr && is_told(*line.angle);
+    parts.push_back(fmt::format("{} {} N m ({}){}", line.name, size_text(*line.torque),
+                                report::format_interval(*line.torque->ci_low, *line.torque->ci_high),
+                                placed ? " at " + line.place : ""));
   }
   if (parts.empty()) return "";
   const bool maximal = std::ranges::all_of(method.voluntary, &VoluntaryCurve::from_mvc);

@@ -9,7 +9,23 @@
 
 namespace myoid {
 
-/// Returns a sentence for each muscle and each joint, in the order of IdentificationResult::voluntary:
+/// A greatest voluntary torque for people.
+struct VoluntaryLine {
+  const identification::VoluntaryCurve* curve = nullptr;
+  const identification::ParameterEstimate* torque = nullptr;
+  const identification::ParameterEstimate* angle = nullptr;  ///< Null: no angle.
+  std::string name;   ///< "Biceps", "Biceps at the knee angle", "elbow flexion, Biceps + Brachialis"
+  std::string place;  ///< "85°", "110° or beyond"; empty: no angle.
+};
+
+/// Returns the lines in the order of IdentificationResult::voluntary. A joint's torque that one muscle makes is that
+/// muscle's line, and has none of its own.
+[[nodiscard]] std::vector<VoluntaryLine> voluntary_lines(const identification::IdentificationResult& method);
+
+/// Returns true if the recording tells the number for the person, or for sessions of the person.
+[[nodiscard]] bool is_told(const identification::ParameterEstimate& e);
+
+/// Returns a sentence for each of `voluntary_lines`:
 ///
 ///   Biceps: 41.2 N m at 85°, 95 % 38.1 to 44.6 N m and 78° to 91° (identified; angle weak)
 ///

@@ -23,6 +23,11 @@ const IdentificationResult* method_of(const StudyFit& fit, std::string_view name
   return found == fit.methods.end() ? nullptr : &*found;
 }
 
+const IdentificationResult* best_method(const StudyFit& fit) {
+  const IdentificationResult* torque = method_of(fit, "torque");
+  return torque != nullptr ? torque : method_of(fit, "force");
+}
+
 const IdentificationResult* torque_of(const StudyFit& fit) { return method_of(fit, "torque"); }
 
 const identification::TrialFit* trial_of(const IdentificationResult& method, const std::string& trial) {

@@ -29,6 +29,10 @@ struct StudyFit {
 /// Returns the result of the method of this name; nullptr if there is none.
 [[nodiscard]] const identification::IdentificationResult* method_of(const StudyFit& fit, std::string_view name);
 
+/// Returns the method by which a reader judges the muscles: torque, else force; null: only method `paper` was asked
+/// for.
+[[nodiscard]] const identification::IdentificationResult* best_method(const StudyFit& fit);
+
 /// Returns the result of method torque; nullptr if there is none.
 [[nodiscard]] const identification::IdentificationResult* torque_of(const StudyFit& fit);
 

@@ -1,0 +1,226 @@
+#include "myoid/results/answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/wrapped_text.h"
+#include "myoid/design/design_study.h"
+#include "myoid/files/quoted_text.h"
+#include "myoid/math/statistics.h"
+#include "myoid/report/light.h"
+#include "myoid/report/muscle_names.h"
+#include "myoid/report/plain_unit.h"
+#include "myoid/report/typeset.h"
+#include "myoid/results/parameter_tables.h"
+#include "myoid/results/voluntary_report.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using identification::Verdict;
+
+constexpr std::size_t kMostRows = 10;
+constexpr std::size_t kMostReasons = 4;
+
+/// Returns true for a parameter of its own: no nuisance, not tied to another, and no torque that follows from others.
+bool is_counted(const ParameterEstimate& e) {
+  return !identification::is_nuisance(e) && e.tied_to.empty() && !identification::is_voluntary(e.parameter);
+}
+
+/// Lists the numbers that are identified: "max isometric force of BIC, TRI; delay".
+std::string identified_numbers(const IdentificationResult& fit) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> owners;
+  for (const ParameterEstimate& e : fit.estimates) {
+    if (!is_counted(e) || e.verdict != Verdict::identified) continue;
+    auto of = std::ranges::find(owners, e.parameter, [](const auto& entry) { return entry.first; });
+    if (of == owners.end()) of = owners.insert(owners.end(), {e.parameter, {}});
+    of->second.push_back(report::plain_muscle(e.muscle));
+  }
+  std::vector<std::string> parts;
+  for (const auto& [parameter, muscles] : owners)
+    parts.push_back(
+        fmt::format("{} of {}", report::spelled(parameter),
+                    muscles.front() == "subject" ? "the person" : fmt::format("{}", fmt::join(muscles, ", "))));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string ends(const std::optional<double>& low, const std::optional<double>& high, double per_si) {
+  return low && high ? report::format_interval(*low * per_si, *high * per_si) : "";
+}
+
+AnswerRow row_of(std::string number, const ParameterEstimate& e, std::string_view place) {
+  const report::PlainUnit unit = report::plain_unit(e.unit);
+  const auto scaled = [&](const std::optional<double>& x) { return x ? std::optional(*x * unit.per_si) : x; };
+  AnswerRow row{.number = std::move(number),
+                .value = report::format_beside(e.estimate * unit.per_si, scaled(e.ci_low), scaled(e.ci_high)),
+                .of_person = ends(e.ci_low, e.ci_high, unit.per_si),
+                .given = ends(e.given_ci_low, e.given_ci_high, unit.per_si),
+                .verdict = report::spelled(identification::name(e.verdict))};
+  if (!unit.symbol.empty()) row.value += fmt::format(" {}", unit.symbol);
+  if (!place.empty()) row.value += fmt::format(" at {}", place);
+  return row;
+}
+
+/// Returns the numbers beside the greatest voluntary torques that the recording tells, the best known first.
+std::vector<EstimateLine> told_lines(const IdentificationResult& method, std::size_t muscle_count) {
+  std::vector<EstimateLine> lines = estimate_lines(method, muscle_count);
+  std::erase_if(lines, [](const EstimateLine& line) {
+    return identification::is_nuisance(*line.estimate) || !is_told(*line.estimate) || !line.estimate->ci_low;
+  });
+  std::ranges::stable_sort(lines, {}, [](const EstimateLine& line) {
+    return std::pair(line.estimate->verdict, relative_half_width(*line.estimate));
+  });
+  return lines;
+}
+
+/// Returns how many intervals of a virtual person hold the truth; empty: no truth is known.
+std::string truth_sentence(const StudyResult& result, const IdentificationResult& method) {
+  int known = 0, held = 0;
+  for (const ParameterEstimate& e : method.estimates) {
+    const std::optional<double> truth = truth_of(result, e);
+    if (!truth || !e.ci_low || !e.ci_high) continue;
+    ++known;
+    held += *truth >= *e.ci_low && *truth <= *e.ci_high;
+  }
+  return known == 0 ? "" : fmt::format("Of {} numbers with a known truth {} intervals hold it.", known, held);
+}
+
+std::string light_lines(const std::vector<report::Gate>& gates, std::size_t width) {
+  const report::Light light = report::light_of(gates);
+  std::string text = wrapped(fmt::format("{}. {}{}", light.head, light.answered, light.leads_to), width);
+  for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i) {
+    const report::Gate& gate = light.reasons[i];
+    text +=
+        recording::elided(fmt::format("- {}: {} (expected: {})", gate.name, gate.value, gate.threshold), width) + "\n";
+  }
+  if (light.reasons.size() > kMostReasons) text += fmt::format("- and {} more\n", light.reasons.size() - kMostReasons);
+  return text;
+}
+
+std::string row_lines(const std::vector<AnswerRow>& rows, std::size_t width) {
+  if (rows.empty()) return "";
+  AnswerRow head{"", "", "95 % interval", "", "verdict"};
+  if (std::ranges::any_of(rows, [](const AnswerRow& row) { return !row.given.empty(); })) head.given = "given";
+  std::vector<AnswerRow> all{std::move(head)};
+  all.insert(all.end(), rows.begin(), rows.end());
+  const auto widest = [&](std::string AnswerRow::*column) {
+    return std::ranges::max(all, {}, [&](const AnswerRow& row) { return columns_of(row.*column); }).*column;
+  };
+  const std::size_t value = columns_of(widest(&AnswerRow::value)), person = columns_of(widest(&AnswerRow::of_person)),
+                    given = columns_of(widest(&AnswerRow::given)), verdict = columns_of(widest(&AnswerRow::verdict));
+  const std::size_t others = value + person + given + verdict + 8;
+  const std::size_t number =
+      std::min(columns_of(widest(&AnswerRow::number)), width > others + 20 ? width - others : 20);
+  const auto padded = [](const std::string& text, std::size_t to) {
+    return text + std::string(to - std::min(to, columns_of(text)), ' ');
+  };
+  std::string text;
+  for (const AnswerRow& row : all) {
+    std::string line = padded(recording::elided(row.number, number), number) + "  " + padded(row.value, value) + "  " +
+                       padded(row.of_person, person) + "  ";
+    if (given > 0) line += padded(row.given, given) + "  ";
+    text += line + row.verdict + "\n";
+  }
+  if (given > 0)
+    text +=
+        wrapped("95 % interval: of the person. Given: if geometry and sensors were exact, to compare sessions.", width);
+  return text;
+}
+
+std::string next_lines(const StudyResult& result, std::size_t width) {
+  if (!result.next || result.next->plan.empty()) return "";
+  const DesignStudyResult& next = *result.next;
+  const std::size_t named = std::min<std::size_t>(2, next.plan.size());
+  std::vector<std::string> movements;
+  for (std::size_t i = 0; i < named; ++i) movements.push_back(next.plan[i].movement.description());
+  const std::vector<ParameterEstimate>& then = next.plan[named - 1].expected;
+  return wrapped(
+      fmt::format("Record next: {}. Of {} numbers {} would be identified (now {}), median 95 % interval "
+                  "+-{:.0f} % (now +-{:.0f} %).",
+                  fmt::join(movements, "; "), then.size(), identified_count(then), identified_count(next.beforehand),
+                  median_half_width(then), median_half_width(next.beforehand)),
+      width);
+}
+
+std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
+
+}  // namespace
+
+std::vector<AnswerRow> answer_rows(const IdentificationResult& method, std::size_t muscle_count, std::size_t most) {
+  std::vector<AnswerRow> rows;
+  const bool maximal = std::ranges::all_of(method.voluntary, &identification::VoluntaryCurve::from_mvc);
+  for (const VoluntaryLine& line : voluntary_lines(method)) {
+    if (!is_told(*line.torque)) continue;
+    const bool placed = line.angle != nullptr && is_told(*line.angle);
+    const identification::VoluntaryCurve& curve = *line.curve;
+    const std::string owner =
+        curve.of_joint ? fmt::format("{}{}, {} muscles together", report::spelled(curve.joint),
+                                     curve.direction > 0 ? "" : " (negative direction)", curve.muscles.size())
+                       : line.name;
+    rows.push_back(row_of(owner + (maximal ? ", greatest torque" : ", torque at the largest EMG"), *line.torque,
+                          placed ? line.place : ""));
+  }
+  for (const EstimateLine& line : told_lines(method, muscle_count))
+    rows.push_back(row_of(fmt::format("{}, {}", plain_owner(line), report::spelled(line.estimate->parameter)),
+                          *line.estimate, ""));
+  if (rows.size() > most) rows.resize(most);
+  return rows;
+}
+
+std::string fit_sentences(const StudyResult& result, bool with_names) {
+  const IdentificationResult* best = best_method(result.fit);
+  if (best == nullptr)
+    return "Only the source paper's method was asked for. It fits forces that nobody measured, so that this recording "
+           "identifies nothing by it; its numbers stand at the end.";
+  int total = 0, sure = 0, repeat = 0, weak = 0;
+  for (const ParameterEstimate& e : best->estimates) {
+    if (!is_counted(e)) continue;
+    ++total;
+    if (e.verdict == Verdict::identified) ++sure;
+    if (e.verdict == Verdict::reproducible) ++repeat;
+    if (e.verdict == Verdict::weak) ++weak;
+  }
+  std::string text = sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
+                               : fmt::format("This recording identifies {} of {} parameters", sure, total);
+  if (sure > 0 && with_names) text += ": " + identified_numbers(*best);
+  text += ".";
+  if (repeat > 0)
+    text += fmt::format(" {} {} reproducible: given geometry and sensors, for comparing sessions of this person.",
+                        repeat, repeat == 1 ? "is" : "are");
+  if (weak > 0) text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
+  if (const std::string truth = truth_sentence(result, *best); !truth.empty()) text += " " + truth;
+  if (!result.folds.empty()) {
+    std::vector<double> ours, theirs;
+    for (const identification::Fold& f : result.folds) {
+      ours.push_back(f.identified.r2());
+      theirs.push_back(f.literature.r2());
+    }
+    text += fmt::format(
+        " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (median; 1 is perfect, the "
+        "literature's muscles with a best gain reach {:.2f}).",
+        choice_name(result.source.study.identify.folds), math::median(std::move(ours)),
+        math::median(std::move(theirs)));
+  }
+  return text;
+}
+
+std::string answer_text(const StudyResult& result, const std::vector<report::Gate>& gates, std::size_t width) {
+  constexpr std::size_t kMostLines = 24;
+  const std::string light = gates.empty() ? "" : light_lines(gates, width) + "\n";
+  const std::string rest = wrapped(fit_sentences(result, false), width) + next_lines(result, width);
+  const std::size_t taken = line_count(light) + line_count(rest) + 3;  // a heading, a legend, a line between
+  const IdentificationResult* best = best_method(result.fit);
+  std::string rows;
+  if (best != nullptr && taken < kMostLines)
+    rows = row_lines(answer_rows(*best, result.fit_input.data.muscles.size(), std::min(kMostRows, kMostLines - taken)),
+                     width);
+  return light + rows + (rows.empty() ? "" : "\n") + rest;
+}
+
+}  // namespace myoid

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "myoid/intervals/result.h"
+#include "myoid/report/report.h"
+#include "myoid/run/study_result.h"
+
+namespace myoid {
+
+/// A number for people, with plain names and units.
+struct AnswerRow {
+  std::string number;     ///< "Biceps, voluntary torque"
+  std::string value;      ///< "43.8 N m at 92°"
+  std::string of_person;  ///< "40.3 to 47.7"
+  std::string given;      ///< "41.9 to 45.6"; empty: the fit has one reading.
+  std::string verdict;    ///< "identified"
+};
+
+/// Returns the numbers that the recording tells, at most `most`: first the greatest voluntary torques, then the others
+/// by verdict and relative width of the interval. Numbers of electrodes and joints are left out.
+[[nodiscard]] std::vector<AnswerRow> answer_rows(const identification::IdentificationResult& method,
+                                                 std::size_t muscle_count,
+                                                 std::size_t most);
+
+/// Returns how many parameters the method identifies and how well it predicts the trials left out, in sentences.
+/// `with_names` lists the identified ones.
+[[nodiscard]] std::string fit_sentences(const StudyResult& result, bool with_names);
+
+/// Returns the answer of a run for a terminal, at most 24 lines of at most `width` columns: may the numbers be
+/// believed and why not, the numbers with both readings, the fit in sentences, the next recording.
+[[nodiscard]] std::string answer_text(const StudyResult& result,
+                                      const std::vector<report::Gate>& gates,
+                                      std::size_t width);
+
+}  // namespace myoid

@@ -1,0 +1,107 @@
+#include "myoid/results/answer.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/units.h"
+#include "myoid/core/wrapped_text.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using identification::Verdict;
+using identification::VoluntaryCurve;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+ParameterEstimate number(const std::string& muscle,
+                         const std::string& parameter,
+                         Unit unit,
+                         double low,
+                         double value,
+                         double high,
+                         Verdict verdict) {
+  ParameterEstimate e{.muscle = muscle, .tied_to = {}, .parameter = parameter, .unit = unit};
+  e.initial = value;
+  e.estimate = value;
+  e.ci_low = low;
+  e.ci_high = high;
+  e.verdict = verdict;
+  return e;
+}
+
+/// A triceps that alone extends the elbow, and an optimal fiber length that is known better than a force.
+IdentificationResult triceps() {
+  IdentificationResult method;
+  method.method = "torque";
+  VoluntaryCurve curve{.owner = "TRI", .joint = "elbow_flexion", .direction = -1, .muscles = {"TRI"}};
+  curve.angle_rad = Eigen::Vector3d(40.0, 54.0, 90.0) * kDegree;
+  curve.torque_nm = Eigen::Vector3d(50.0, 54.5, 45.0);
+  VoluntaryCurve joint = curve;
+  joint.owner = "elbow_flexion";
+  joint.ending = "_negative";
+  joint.of_joint = true;
+  method.voluntary = {curve, joint};
+  const double angle = 54.0 * kDegree;
+  method.estimates = {
+      number("TRI", "max_isometric_force", Unit::newton, 1809.0, 2223.0, 2736.0, Verdict::reproducible),
+      number("TRI", "optimal_fiber_length", Unit::meter, 0.106, 0.115, 0.124, Verdict::identified),
+      number("TRI", "eccentric_plateau", Unit::dimensionless, 1.1, 1.4, 1.7, Verdict::prior_dominated),
+      number("TRI", "voluntary_torque", Unit::newton_meter, 51.4, 54.5, 58.0, Verdict::identified),
+      number("TRI", "voluntary_torque_angle", Unit::radian, angle, angle, angle, Verdict::identified),
+      number("elbow_flexion", "voluntary_torque_negative", Unit::newton_meter, 51.4, 54.5, 58.0, Verdict::identified)};
+  return method;
+}
+
+std::vector<std::string> texts(const std::vector<AnswerRow>& rows) {
+  std::vector<std::string> lines;
+  for (const AnswerRow& row : rows) lines.push_back(row.number + ": " + row.value + ", " + row.of_person);
+  return lines;
+}
+
+TEST(AnswerRows, AreToldNumbersTheStrengthFirstAndEachOnce) {
+  EXPECT_THAT(texts(answer_rows(triceps(), 1, 10)),
+              ElementsAre("Triceps, greatest torque: 54.5 N m at 54°, 51.4 to 58.0",
+                          "Triceps, optimal fiber length: 11.5 cm, 10.6 to 12.4",
+                          "Triceps, max isometric force: 2223 N, 1809 to 2736"));
+  EXPECT_EQ(answer_rows(triceps(), 1, 2).size(), 2U);
+}
+
+TEST(AnswerRows, SayThatAnEffortWasNotMaximal) {
+  IdentificationResult method = triceps();
+  method.voluntary[0].from_mvc = false;
+  EXPECT_THAT(texts(answer_rows(method, 1, 1)), ElementsAre(HasSubstr("Triceps, torque at the largest EMG: ")));
+}
+
+TEST(AnswerText, HasAtMost24LinesOfTheWidth) {
+  StudyResult result;
+  IdentificationResult method = triceps();
+  for (int m = 0; m < 40; ++m) {
+    const std::string muscle = "a_muscle_with_a_long_name_" + std::to_string(m);
+    method.estimates.push_back(
+        number(muscle, "optimal_fiber_length", Unit::meter, 0.106, 0.115, 0.124, Verdict::identified));
+  }
+  result.fit.methods = {method};
+  std::vector<report::Gate> gates;
+  for (int g = 0; g < 12; ++g)
+    gates.push_back({.name = "Question " + std::to_string(g),
+                     .status = report::GateStatus::fail,
+                     .value = std::string(150, 'v'),
+                     .threshold = "less"});
+  for (const std::size_t width : {40, 80, 110}) {
+    const std::string text = answer_text(result, gates, width);
+    EXPECT_LE(std::ranges::count(text, '\n'), 24) << text;
+    EXPECT_THAT(text, HasSubstr("Do not use the numbers."));
+    EXPECT_THAT(text, HasSubstr("- and 8 more"));
+    if (width < 80) continue;
+    for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+      EXPECT_LE(columns_of(text.substr(at, text.find('\n', at) - at)), width) << text;
+  }
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,39 @@
+// The first command of a new user.
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using myoid::test::Finished;
+using myoid::test::myoid;
+using testing::HasSubstr;
+
+TEST(Demo, AnswersInAtMost25LinesAndItsIntervalsHoldTheTruth) {
+  const myoid::test::TemporaryFolder folder;
+  const Finished demo = myoid({"demo", "--no-open", "--out", folder / "first look"});
+  ASSERT_EQ(demo.exit_code, 0) << demo.err;
+  EXPECT_LE(std::ranges::count(demo.out, '\n'), 25) << demo.out;
+  EXPECT_THAT(demo.out, HasSubstr("The recording passed every question."));
+  EXPECT_THAT(demo.out, HasSubstr("Biceps, greatest torque"));
+  EXPECT_THAT(demo.out, HasSubstr("Record next: "));
+  EXPECT_TRUE(std::filesystem::exists(folder / "first look/result/report.html"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "first look/recording/truth.csv"));
+  std::smatch held;
+  ASSERT_TRUE(
+      std::regex_search(demo.out, held, std::regex(R"(Of (\d+)\s+numbers\s+with\s+a\s+known\s+truth\s+(\d+))")));
+  // 95 % intervals: of 70 independent ones fewer than 60 would hold with a probability of 0.1 %.
+  EXPECT_GE(std::stod(held[2]), 0.857 * std::stod(held[1])) << demo.out;
+
+  const Finished again = myoid({"demo", "--no-open", "--out", folder / "first look"});
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_THAT(again.err, HasSubstr("--overwrite"));
+}
+
+}  // namespace
