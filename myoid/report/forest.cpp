@@ -34,10 +34,11 @@ std::string given_interval(const ForestRow& row) {
   return has_given(row) ? format_interval(*row.given_lower, *row.given_upper) : std::string("–");
 }
 
+/// Returns the literature's 95 %; a number that is positive by nature has no negative end.
 std::string prior(const ForestRow& row) {
   if (!row.prior_mean || !row.prior_sd) return "–";
-  return fmt::format("{} ± {}", format_rounded(*row.prior_mean, *row.prior_sd),
-                     format_rounded(*row.prior_sd, *row.prior_sd));
+  const double lower = *row.prior_mean - k95 * *row.prior_sd;
+  return format_interval(*row.prior_mean > 0.0 ? std::max(0.0, lower) : lower, *row.prior_mean + k95 * *row.prior_sd);
 }
 
 std::string bar(const ForestRow& row) {
@@ -74,26 +75,29 @@ std::string bar(const ForestRow& row) {
 
 std::string scale() {
   std::string svg = "<svg class=\"bar\" width=\"100%\" height=\"18\" aria-hidden=\"true\">";
-  for (const int at : {-4, -2, 0, 2, 4}) {
-    svg += fmt::format("<text x=\"{}%\" y=\"13\" text-anchor=\"{}\">{}</text>", percent(at),
-                       at == -4  ? "start"
-                       : at == 4 ? "end"
-                                 : "middle",
-                       at == 0 ? std::string("literature") : fmt::format("{:+d} SD", at));
-  }
+  for (const double at : {-k95, 0.0, k95})
+    svg += fmt::format("<text x=\"{:.2f}%\" y=\"13\" text-anchor=\"middle\">{}</text>", percent(at),
+                       at == 0.0 ? "literature" : "95 %");
   return svg + "</svg>";
+}
+
+/// Returns the verdict, which a keyboard or a finger opens to read its reason.
+std::string verdict_html(const ForestRow& row) {
+  const std::string verdict = fmt::format("<span class=\"badge {}\">{}</span>", name(row.badge), typeset(row.verdict));
+  if (row.why.empty()) return verdict;
+  return fmt::format("<details class=\"why\"><summary>{}</summary>{}</details>", verdict, typeset(row.why));
 }
 
 std::string row_html(const ForestRow& row, bool first) {
   return fmt::format(
       "<tr{} data-verdict=\"{}\" title=\"{}\"><td>{}</td><td>{}</td><td class=\"bar\">{}</td>"
-      "<td class=\"number\">{}{}</td><td class=\"number wide-only\">{}</td>"
+      "<td class=\"number\">{}{}</td><td class=\"number\">{}</td>"
       "<td class=\"number wide-only\">{}</td><td class=\"number wide-only\">{}</td>"
-      "<td><span class=\"badge {}\">{}</span></td></tr>\n",
+      "<td>{}</td></tr>\n",
       first ? " class=\"first\"" : "", escape_xml(row.verdict), escape_xml(typographic(row.why)),
       typeset(spelled(row.owner)), typeset(row.name), bar(row), number(row, row.estimate),
       row.unit.empty() ? "" : " " + escape_xml(row.unit), interval(row), given_interval(row), prior(row),
-      name(row.badge), typeset(row.verdict));
+      verdict_html(row));
 }
 
 /// The advice on numbers of a verdict, the best verdict first.
@@ -132,9 +136,9 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
   if (rows.empty()) return "";
   std::string text = "<figure id=\"forest\" class=\"forest\">\n" + legend(rows) +
                      "<table><thead><tr><th>muscle</th><th>number</th><th class=\"bar\">" + scale() +
-                     "</th><th>estimate</th><th class=\"wide-only\">95 % interval</th>"
+                     "</th><th>estimate</th><th>95 % interval</th>"
                      "<th class=\"wide-only\">given geometry and sensors</th>"
-                     "<th class=\"wide-only\">literature</th><th>verdict</th></tr></thead>\n<tbody>\n";
+                     "<th class=\"wide-only\">literature, 95 %</th><th>verdict</th></tr></thead>\n<tbody>\n";
   const auto add = [&](bool beside) {
     const std::string* owner = nullptr;
     for (const ForestRow& row : rows) {
@@ -155,9 +159,9 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
   return text +
          "</table>\n<details class=\"reading\"><summary>How to read this</summary><dl>"
          "<dt>What this shows</dt><dd>Each number as its distance from the literature, in the "
-         "literature's standard deviations. Grey: the literature's 95 %. The thin line is the "
+         "literature's spread. Grey: the literature's 95 %. The thin line is the "
          "95 % interval of the person, the thick one the same if moment arms, tendons and sensors were exact: by it "
-         "sessions of the person are compared. Pointing at a row gives the verdict's reason.</dd>"
+         "sessions of the person are compared. Pointing at a row, or opening its verdict, gives the reason.</dd>"
          "<dt>What bad looks like</dt><dd>A line as wide as the grey field: the recording added "
          "nothing. A mark outside of the grey field: an unusual person, or an error in "
          "electrodes, units, loads or geometry. A triangle: no muscle can have the value.</dd>"

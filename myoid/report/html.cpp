@@ -50,7 +50,11 @@ p { margin: 6px 0 10px; max-width: 74ch; }
 details.reading { font-size: 13px; margin: 4px 0; } .reading summary { color: #1f5fa8; cursor: pointer; }
 details.part > summary { cursor: pointer; } details.part h2 { display: inline-block; }
 .reading dl { margin: 6px 0; max-width: 90ch; } .reading dt { font-weight: 600; } .reading dd { margin: 0 0 6px; }
-nav { display: flex; flex-wrap: wrap; font-size: 13px; margin: 12px 0 0; }
+nav { display: flex; flex-wrap: wrap; font-size: 13px; margin: 12px 0 0; padding: 6px 0; position: sticky; top: 0; z-index: 20; background: #fff; }
+h2 { scroll-margin-top: 44px; }
+.why > summary { cursor: pointer; list-style: none; } .why > summary::-webkit-details-marker { display: none; }
+.why[open] { max-width: 40ch; white-space: normal; }
+.refused .forest td, .refused .headline { color: #767d85; } .refused .forest svg.bar { opacity: .45; }
 nav a { margin-right: 14px; white-space: nowrap; }
 a { color: #1f5fa8; }
 .grid { margin: 10px 0 26px; }
@@ -85,14 +89,17 @@ li { margin: 3px 0; max-width: 74ch; }
 @media (max-width: 760px) { body { padding: 16px 12px 40px; } .wide-only { display: none; } .forest { font-size: 12px; }
   .forest td, .forest th, .grid td, .grid th { padding-right: 6px; } .grid { font-size: 12px; overflow-x: auto; } .grid table { min-width: 620px; }
   .grid th:first-child, .grid td:first-child { width: 24%; } .forest .bar { min-width: 70px; }
+  nav { flex-wrap: nowrap; overflow-x: auto; }
   .gates table { min-width: 0; } .gates thead { display: none; } .gates tr { display: block; padding: 8px 0; border-bottom: 1px solid #e6e8eb; }
   .gates td { display: block; border: 0; padding: 1px 0; } .gates td:nth-child(2) { font-weight: 600; }
   .gates td:nth-child(3)::before { content: "Found: "; } .gates td:nth-child(4)::before { content: "Asked for: "; } }
+@media (max-width: 560px) { .forest .bar { display: none; } .forest .number { white-space: normal; } }
+@media (prefers-reduced-motion: reduce) { * { animation: none !important; transition: none !important; scroll-behavior: auto !important; } }
 code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } nav { display: none; }
   h2, h3 { break-after: avoid; } tr { break-inside: avoid; } a { color: inherit; text-decoration: none; }
   .badge, .light, .forest, .grid { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  .forest tr, .grid tr { break-inside: avoid; } .save, details:not([open]) { display: none; } @page { size: A4; margin: 14mm; } }
+  .forest tr, .grid tr { break-inside: avoid; } .save, details:not([open]):not(.why) { display: none; } @page { size: A4; margin: 14mm; } }
 )";
 
 constexpr std::size_t kMostInTitle = 200;  // characters
@@ -131,7 +138,7 @@ std::string part_html(std::string_view id, std::string_view heading, std::string
 std::string table_html(const Table& table) {
   std::string text = fmt::format("<h3 id=\"{}\">{}</h3>\n", escape_xml(table.id), typeset(table.title));
   if (!table.caption.empty()) text += fmt::format("<p class=\"caption\">{}</p>\n", typeset(table.caption));
-  text += "<div class=\"wide\"><table><thead><tr>";
+  text += "<div class=\"wide\"><table aria-labelledby=\"" + escape_xml(table.id) + "\"><thead><tr>";
   for (const std::string& column : table.columns) text += fmt::format("<th>{}</th>", typeset(column));
   text += "</tr></thead><tbody>\n";
   std::vector<std::string> hints;
@@ -229,7 +236,9 @@ std::string head_html(const Report& report, bool live) {
 std::string html(const Report& report, const Workbench* workbench) {
   const bool live = workbench != nullptr && !workbench->trials.empty() && has_viewer();
   std::string text = head_html(report, live);
-  text += fmt::format("<body>\n<header>\n<h1>{}</h1>\n", escape_xml(recording::elided(report.title, kMostInTitle)));
+  const bool refused = !report.gates.empty() && light_of(report.gates).status == GateStatus::fail;
+  text += fmt::format("<body{}>\n<header>\n<h1>{}</h1>\n", refused ? " class=\"refused\"" : "",
+                      escape_xml(recording::elided(report.title, kMostInTitle)));
   if (!report.subtitle.empty()) text += fmt::format("<div class=\"subtitle\">{}</div>\n", typeset(report.subtitle));
   if (!report.headline.empty()) {
     const bool next = std::ranges::any_of(report.sections, [](const Section& section) { return section.id == "next"; });

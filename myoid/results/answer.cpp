@@ -96,8 +96,9 @@ std::string light_lines(const std::vector<report::Gate>& gates, std::size_t widt
   std::string text = wrapped(fmt::format("{}. {}{}", light.head, light.answered, light.leads_to), width);
   for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i) {
     const report::Gate& gate = light.reasons[i];
-    text +=
-        recording::elided(fmt::format("- {}: {} (expected: {})", gate.name, gate.value, gate.threshold), width) + "\n";
+    const std::string found = fmt::format("- {}: {}", gate.name, gate.value);
+    const std::string expected = fmt::format("{} (expected: {})", found, gate.threshold);
+    text += (columns_of(expected) <= width ? expected : recording::elided(found, width)) + "\n";
   }
   if (light.reasons.size() > kMostReasons) text += fmt::format("- and {} more\n", light.reasons.size() - kMostReasons);
   return text;
@@ -160,10 +161,10 @@ std::vector<AnswerRow> answer_rows(const IdentificationResult& method, std::size
     const bool placed = line.angle != nullptr && is_told(*line.angle);
     const identification::VoluntaryCurve& curve = *line.curve;
     const std::string owner =
-        curve.of_joint ? fmt::format("{}{}, {} muscles together", report::spelled(curve.joint),
+        curve.of_joint ? fmt::format("{}{}, {} muscles", report::spelled(curve.joint),
                                      curve.direction > 0 ? "" : " (negative direction)", curve.muscles.size())
                        : line.name;
-    rows.push_back(row_of(owner + (maximal ? ", greatest torque" : ", torque at the largest EMG"), *line.torque,
+    rows.push_back(row_of(owner + (maximal ? ", greatest torque" : ", at the largest EMG"), *line.torque,
                           placed ? line.place : ""));
   }
   for (const EstimateLine& line : told_lines(method, muscle_count))

@@ -74,7 +74,7 @@ TEST(AnswerRows, AreToldNumbersTheStrengthFirstAndEachOnce) {
 TEST(AnswerRows, SayThatAnEffortWasNotMaximal) {
   IdentificationResult method = triceps();
   method.voluntary[0].from_mvc = false;
-  EXPECT_THAT(texts(answer_rows(method, 1, 1)), ElementsAre(HasSubstr("Triceps, torque at the largest EMG: ")));
+  EXPECT_THAT(texts(answer_rows(method, 1, 1)), ElementsAre(HasSubstr("Triceps, at the largest EMG: ")));
 }
 
 TEST(AnswerText, HasAtMost24LinesOfTheWidth) {

@@ -86,12 +86,20 @@ std::vector<Table> tables_with_basins(std::vector<Table> tables, const Identific
   return tables;
 }
 
-std::string subtitle(const StudyResult& result) {
+/// Returns ", 73 kg, male" of the facts that the study gives.
+std::string facts_of(const SubjectSpec& subject) {
+  std::string text = subject.mass_kg ? fmt::format(", {:g} kg", *subject.mass_kg) : "";
+  if (subject.sex != Sex::unstated) text += fmt::format(", {}", choice_name(subject.sex));
+  return text;
+}
+
+std::string subtitle(const StudyResult& result, const Provenance& provenance) {
   std::vector<std::string> joints;
   for (const std::string& name : study_coordinates(result.source.study.model)) joints.push_back(report::spelled(name));
-  return fmt::format("{} trial{}; joint coordinate{} {}; model {}", result.trials.size(),
-                     result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "", fmt::join(joints, ", "),
-                     result.source.model->name);
+  return fmt::format("{} trial{}{}; joint coordinate{} {}; model {}; {} {}", result.trials.size(),
+                     result.trials.size() == 1 ? "" : "s", facts_of(result.source.study.subject),
+                     joints.size() > 1 ? "s" : "", fmt::join(joints, ", "), result.source.model->name,
+                     provenance.program, provenance.version);
 }
 
 Section parameters_section(const StudyResult& result, const IdentificationResult& torque) {
@@ -158,7 +166,7 @@ std::vector<report::ProvenanceRow> provenance_rows(const StudyResult& result, co
 
 report::Report study_report(const StudyResult& result, const Provenance& provenance) {
   report::Report report{.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name),
-                        .subtitle = subtitle(result),
+                        .subtitle = subtitle(result, provenance),
                         .headline = headline(result),
                         .gates = quality_gates(result),
                         .assumptions = assumptions(result),
