@@ -48,38 +48,36 @@ function name = field_of(name)
 end
 
 function rows = cells_of(text)
-  % The cells of a table with commas; quotes as RFC 4180 has them.
+  % The cells of a table with commas; quotes as RFC 4180 has them. Goes from mark to mark, since names may be long.
+  text = text(:)';
+  marks = find(text == '"' | text == ',' | text == char(10) | text == char(13));
   rows = {};
   row = {};
   cell_text = '';
   quoted = false;
-  k = 1;
-  while k <= numel(text)
+  from = 1;
+  for k = marks
     c = text(k);
-    if quoted
-      if c == '"' && k < numel(text) && text(k + 1) == '"'
-        cell_text(end + 1) = '"'; %#ok<AGROW>
-        k = k + 1;
-      elseif c == '"'
-        quoted = false;
-      else
-        cell_text(end + 1) = c; %#ok<AGROW>
-      end
-    elseif c == '"'
-      quoted = true;
-    elseif c == ','
-      row{end + 1} = cell_text; %#ok<AGROW>
-      cell_text = '';
-    elseif c == char(10)
-      row{end + 1} = cell_text; %#ok<AGROW>
-      rows{end + 1} = row; %#ok<AGROW>
-      row = {};
-      cell_text = '';
-    elseif c ~= char(13)
-      cell_text(end + 1) = c; %#ok<AGROW>
+    if k < from || (quoted && c ~= '"')
+      continue  % the second of two quotes; a mark inside quotes
     end
-    k = k + 1;
+    cell_text = [cell_text, text(from:k - 1)]; %#ok<AGROW>
+    from = k + 1;
+    if quoted && k < numel(text) && text(k + 1) == '"'
+      cell_text(end + 1) = '"'; %#ok<AGROW>
+      from = k + 2;
+    elseif c == '"'
+      quoted = ~quoted;
+    elseif c ~= char(13)
+      row{end + 1} = cell_text; %#ok<AGROW>
+      cell_text = '';
+      if c == char(10)
+        rows{end + 1} = row; %#ok<AGROW>
+        row = {};
+      end
+    end
   end
+  cell_text = [cell_text, text(from:end)];
   if ~isempty(row) || ~isempty(cell_text)
     row{end + 1} = cell_text;
     rows{end + 1} = row;

@@ -19,6 +19,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
+#include "myoid/signals/clock_gaps.h"
 #include "myoid/signals/clock_offset.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_levels.h"
@@ -71,6 +72,44 @@ std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::str
 std::vector<Remark> joined(std::vector<Remark> all, std::vector<Remark> more) {
   std::ranges::move(more, std::back_inserter(all));
   return all;
+}
+
+/// Checks the EMG of a recording; of one that pauses the longest part, since filters bridge no pause.
+std::vector<Remark> check_channels_of_emg(const std::filesystem::path& path, const TimeSeries& all) {
+  constexpr double kPause = 2.5, kUneven = 0.2;  // intervals; as in find_clock_gaps and the filters
+  require_finite(all, path.string());
+  constexpr Eigen::Index kFewest = 10;
+  if (all.sample_count() < kFewest)
+    throw ReadError(path, 0,
+                    fmt::format("only {} sample{} of EMG; at least {} are needed", all.sample_count(),
+                                all.sample_count() == 1 ? "" : "s", kFewest));
+  std::vector<Remark> faults;
+  TimeSeries emg = all;
+  if (const signals::ClockGaps gaps = signals::find_clock_gaps(all.time_s()); gaps.count > 0) {
+    const std::vector<Stretch> parts = signals::clock_stretches(all.time_s(), kPause * gaps.usual_interval_s);
+    const Stretch longest = *std::ranges::max_element(parts, {}, [](const Stretch& s) { return s.end_s - s.begin_s; });
+    emg = all.slice(longest.begin_s, longest.end_s);
+    faults.push_back({.code = RemarkCode::clock_pause,
+                      .when = Stretch{gaps.longest_begin_s, gaps.longest_end_s},
+                      .value = gaps.total_s,
+                      .says = fmt::format("the EMG pauses ({}); its longest part, from {:.6g} to {:.6g} s, is checked",
+                                          gaps.text(), longest.begin_s, longest.end_s),
+                      .remedy = "no filter bridges a pause: take a part without one, by start_s and end_s of a trial "
+                                "or --start and --end of emg"});
+    if (emg.sample_count() < kFewest) return faults;
+  }
+  std::vector<Remark> found = signals::check_emg(emg, {.remedies = signals::EmgRemedies::none});
+  const bool raw = std::ranges::none_of(found, [](const Remark& f) { return f.code == RemarkCode::emg_envelope; });
+  faults = joined(std::move(faults), std::move(found));
+  if (!raw || emg.is_uniform(kUneven)) {
+    if (auto uneven = signals::check_clock_evenness(emg.time_s(), "EMG")) faults.push_back(std::move(*uneven));
+    return joined(std::move(faults), levels_alone(emg, raw, path.filename().string()));
+  }
+  faults.push_back({.code = RemarkCode::clock_uneven,
+                    .severity = Severity::error,
+                    .says = "the samples of the EMG are not evenly spaced, and no filter takes them",
+                    .remedy = "export them with an even clock, or give them one (myoid convert --rate)"});
+  return faults;
 }
 
 /// Returns the motion of a file in rad and m: the coordinates of the model or, without one, the columns that are angles
@@ -166,19 +205,7 @@ std::vector<Remark> check_recording(const std::filesystem::path& path,
     if (never) fault.severity = std::max(fault.severity, Severity::note);
   }
   add(std::move(of_markers));
-  if (const auto emg = voltages(path, file.analog, file.plates)) {
-    require_finite(*emg, path.string());
-    constexpr Eigen::Index kFewest = 10;
-    if (emg->sample_count() < kFewest)
-      throw ReadError(path, 0,
-                      fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
-                                  emg->sample_count() == 1 ? "" : "s", kFewest));
-    std::vector<Remark> faults = signals::check_emg(*emg, {.remedies = signals::EmgRemedies::none});
-    const bool raw = std::ranges::none_of(faults, [](const Remark& f) { return f.code == RemarkCode::emg_envelope; });
-    add(std::move(faults));
-    add(levels_alone(*emg, raw, where));
-    if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});
-  }
+  if (const auto emg = voltages(path, file.analog, file.plates)) add(check_channels_of_emg(path, *emg));
   for (const recording::PlateSetup& plate : file.plates) {
     if (standing) add(signals::check_force_plate(file.force_plate(plate)));
   }

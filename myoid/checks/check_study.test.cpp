@@ -234,6 +234,37 @@ TEST(CheckRecording, NoiseAloneIsNoEmg) {
   EXPECT_LT(*found[0].value, 2.0);
 }
 
+/// EMG at 1 kHz with rest and efforts; `time_of` gives the time of a sample.
+template <typename TimeOf>
+std::string emg_text(int samples, const TimeOf& time_of) {
+  std::string text = "time,EMG [mV]\n";
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  for (int i = 0; i < samples; ++i)
+    text += fmt::format("{:.4f},{:.9f}\n", time_of(i), (i / 1000 % 2 == 0 ? 0.003 : 0.3) * normal(random));
+  return text;
+}
+
+TEST(CheckRecording, OfOneThatPausesTheLongestPartIsChecked) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "emg.csv", emg_text(7000, [](int i) { return 0.001 * i + (i < 3000 ? 0.0 : 2.0); }));
+  const std::vector<Remark> found = warnings_of(folder / "emg.csv");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, RemarkCode::clock_pause);
+  EXPECT_EQ(found[0].where, "emg.csv");
+  EXPECT_NE(found[0].says.find("its longest part, from 5 to 8.999 s"), std::string::npos) << found[0].says;
+}
+
+TEST(CheckRecording, UnevenSamplesAreAnErrorOfTheFile) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "emg.csv", emg_text(4000, [](int i) { return 0.001 * i + 0.0003 * (i % 2); }));
+  const std::vector<Remark> found = check_recording(folder / "emg.csv");
+  const auto fault = std::ranges::find(found, Severity::error, &Remark::severity);
+  ASSERT_NE(fault, found.end());
+  EXPECT_EQ(fault->code, RemarkCode::clock_uneven);
+  EXPECT_EQ(fault->where, "emg.csv");
+}
+
 TEST(CheckRecording, OneSampleIsNoRecording) {
   const test::TemporaryFolder folder;
   recording::write_file(folder / "emg.csv", "time,a [mV]\n0,1\n");

@@ -93,6 +93,21 @@ TEST(EmgFunction, APartBeforeOrBehindAPauseIsTaken) {
   EXPECT_THROW((void)emg(o), ReadError);
 }
 
+TEST(EmgFunction, UnevenSamplesAreRefusedWithTheNameOfTheFile) {
+  const test::TemporaryFolder folder;
+  std::string text = "time,BIC [V]\n";
+  for (int i = 0; i < 4000; ++i) text += fmt::format("{:.4f},{}\n", 0.001 * i + 0.0003 * (i % 2), i % 7 - 3);
+  recording::write_file(folder / "a.csv", text);
+  EmgOptions o;
+  o.in = {folder / "a.csv"};
+  try {
+    (void)emg(o);
+    FAIL() << "not refused";
+  } catch (const ReadError& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("a.csv: the samples are not evenly"), HasSubstr("--rate")));
+  }
+}
+
 /// Four seconds at 2000 Hz: noise of 200 uV in bursts on BIC, with a spike if there is one, and 2 uV throughout on TRI.
 std::string burst_and_noise(double spike_v) {
   std::mt19937_64 engine(3);

@@ -114,11 +114,21 @@ void warn_of_faults(const std::string& path,
   }
 }
 
+/// Returns the samples. Throws ReadError if they are too uneven for the filters.
+TimeSeries evenly_spaced(const std::string& path, TimeSeries emg) {
+  constexpr double kUneven = 0.2;  // as in the filters
+  if (!emg.is_uniform(kUneven))
+    throw ReadError(path, 0,
+                    "the samples are not evenly spaced, and no filter takes them; export them with an even clock, or "
+                    "give them one (myoid convert --rate)");
+  return emg;
+}
+
 /// Returns the part between two pauses of the recording that holds all times asked for, or all samples where there is
 /// no pause. Filters cannot bridge a pause. Throws ReadError where a pause is among the times asked for.
 TimeSeries between_pauses(const std::string& path, TimeSeries emg, const Call& call, GroupedWarnings& warnings) {
   const signals::ClockGaps gaps = signals::find_clock_gaps(emg.time_s());
-  if (gaps.count == 0) return emg;
+  if (gaps.count == 0) return evenly_spaced(path, std::move(emg));
   const double begin_s = call.start_s.value_or(-kInfinity), end_s = call.end_s.value_or(kInfinity);
   std::vector<Stretch> asked;
   for (const Stretch& stretch : signals::clock_stretches(emg.time_s(), 2.5 * gaps.usual_interval_s))
@@ -131,7 +141,7 @@ TimeSeries between_pauses(const std::string& path, TimeSeries emg, const Call& c
   warnings.add(RemarkCode::clock_pause, path, "pauses",
                fmt::format("{}: the recording pauses ({}); its part from {:.6g} to {:.6g} s is taken", path,
                            gaps.text(), asked[0].begin_s, asked[0].end_s));
-  return emg.slice(asked[0].begin_s, asked[0].end_s);
+  return evenly_spaced(path, emg.slice(asked[0].begin_s, asked[0].end_s));
 }
 
 /// Reads a file's EMG.

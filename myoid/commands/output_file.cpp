@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/byte_source.h"
+#include "myoid/files/input_log.h"
 #include "myoid/files/result_record.h"
 
 namespace myoid::commands {
@@ -36,7 +36,7 @@ void check_companion(const std::filesystem::path& path,
   check_output(path, inputs, overwrite);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return;
-  if (!recording::read_bytes(path).starts_with(begins))
+  if (!recording::begins_with(path, begins))
     throw InvalidInput(fmt::format(
         "{} stands in the way of a second file of this command and does not begin with '{}', as its results do; move "
         "it elsewhere, or give another --out",

@@ -155,6 +155,13 @@ std::vector<std::string> load_channels(const TimeSeries& analog, const std::vect
   return found;
 }
 
+bool only_torques(const TimeSeries& analog, const std::vector<std::string>& names) {
+  return !names.empty() && std::ranges::all_of(names, [&](const std::string& name) {
+    const auto column = analog.find(name);
+    return column && analog.channels()[static_cast<std::size_t>(*column)].unit == Unit::newton_meter;
+  });
+}
+
 void ask_for_loads(const std::string& stem, const LoadHints& hints, bool own_model, bool& asked, DraftText& out) {
   std::vector<std::string> objects = hints.object_markers;
   std::vector<std::string> channels = hints.channels;
@@ -165,8 +172,10 @@ void ask_for_loads(const std::string& stem, const LoadHints& hints, bool own_mod
     out.todo(fmt::format("{} move as one rigid body that is not the person's: was it held, and how heavy is it?",
                          fmt::join(objects, ", ")));
   if (!channels.empty())
-    out.todo(fmt::format("{} are of no force plate: a load cell? Then [load_cell] and load_cell say how it acts",
-                         fmt::join(channels, ", ")));
+    out.todo(fmt::format("{} {} of no force plate{}", fmt::join(channels, ", "), channels.size() == 1 ? "is" : "are",
+                         hints.only_torques ? ", in N m: a dynamometer? Then external_torque names a table with it as "
+                                              "<coordinate>_moment, which myoid convert writes"
+                                            : ": a load cell? Then [load_cell] and load_cell say how it acts"));
   const std::string where = own_model ? " Then [model] held_mass must say where it acts" : "";
   if (const auto mass = mass_in_name(stem)) {
     const std::string unit = mass->unit.empty() ? " without a unit (kg? lb?)" : " " + mass->unit;

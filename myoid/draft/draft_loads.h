@@ -33,9 +33,13 @@ struct NamedMass {
 [[nodiscard]] std::vector<std::string> load_channels(const TimeSeries& analog,
                                                      const std::vector<recording::PlateSetup>& plates);
 
+/// Returns true if all channels of these names are in N m, as a dynamometer's are; a load cell has forces.
+[[nodiscard]] bool only_torques(const TimeSeries& analog, const std::vector<std::string>& names);
+
 /// Signs of loads on the person that a recording holds.
 struct LoadHints {
   std::vector<std::string> object_markers = {}, channels = {};
+  bool only_torques = false;  ///< All `channels` are in N m.
 };
 
 /// Asks what was held in a trial whose loads no file states, with the mass that its name tells. `asked`: the question

@@ -97,5 +97,21 @@ TEST(AskForLoads, AsksOnceAndPrefillsWhatTheNameTells) {
   EXPECT_THAT(out.toml, HasSubstr("# held_mass_kg = 5.5\n"));
 }
 
+TEST(AskForLoads, ATorqueIsOfADynamometerAndNotOfALoadCell) {
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(50, 0.0, 1.0);
+  Eigen::MatrixXd values(50, 2);
+  values << t, t;
+  const TimeSeries analog(t, {{"Fz", Unit::newton}, {"Torque", Unit::newton_meter}}, values);
+  EXPECT_TRUE(only_torques(analog, {"Torque"}));
+  EXPECT_FALSE(only_torques(analog, {"Torque", "Fz"}));
+  EXPECT_FALSE(only_torques(analog, {}));
+  DraftText out;
+  bool asked = true;
+  ask_for_loads("ramp", {.channels = {"Torque"}, .only_torques = true}, false, asked, out);
+  EXPECT_THAT(out.toml, HasSubstr("Torque is of no force plate, in N m: a dynamometer? Then external_torque"));
+  ask_for_loads("lift", {.channels = {"Torque", "Fz"}}, false, asked, out);
+  EXPECT_THAT(out.toml, HasSubstr("Torque, Fz are of no force plate: a load cell?"));
+}
+
 }  // namespace
 }  // namespace myoid

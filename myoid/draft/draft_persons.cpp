@@ -36,6 +36,28 @@ std::pair<std::string, std::string> numbered_trial(const FoundRecording& f) {
   return {};
 }
 
+/// Returns for each recording the name of its folder if that folder is a person's: two or more of its recordings of
+/// markers have the names of those in a sister folder. A folder of one trial holds one such recording.
+std::vector<std::string> folders_of_persons(const std::vector<FoundRecording>& found) {
+  const auto folder_of = [](const FoundRecording& f) { return fs::absolute(f.path).lexically_normal().parent_path(); };
+  std::map<fs::path, std::set<std::string>> trials;
+  for (const FoundRecording& f : found)
+    if (f.markers.frame_count() > 0) trials[folder_of(f)].insert(f.stem);
+  const auto is_person = [&](const fs::path& folder) {
+    return std::ranges::any_of(trials, [&](const auto& sister) {
+      if (sister.first == folder || sister.first.parent_path() != folder.parent_path()) return false;
+      return std::ranges::count_if(trials[folder],
+                                   [&](const std::string& trial) { return sister.second.contains(trial); }) >= 2;
+    });
+  };
+  std::vector<std::string> persons;
+  for (const FoundRecording& f : found) {
+    const fs::path folder = folder_of(f);
+    persons.push_back(trials.contains(folder) && is_person(folder) ? folder.filename().string() : "");
+  }
+  return persons;
+}
+
 }  // namespace
 
 std::vector<std::string> person_of_each(const std::vector<FoundRecording>& found) {
@@ -63,7 +85,8 @@ std::vector<std::string> person_of_each(const std::vector<FoundRecording>& found
       persons.push_back(!number.empty() && shares_trials(number) ? number : "");
     }
   }
-  return persons;
+  const bool nobody = std::ranges::all_of(persons, [](const std::string& person) { return person.empty(); });
+  return nobody ? folders_of_persons(found) : persons;
 }
 
 std::vector<std::string> persons_in(const std::vector<FoundRecording>& found) {

@@ -13,7 +13,8 @@ namespace myoid {
 
 /// Returns the names of the persons that the names of the recordings or of their folders speak of: "sub-01" (BIDS), a
 /// number after a word such as "subject"; else the numbers (with "S" or "P" before them) that stand alone as a folder
-/// or begin a name, if two trials or more have each of them, as those of a protocol do. In order, each once.
+/// or begin a name, if two trials or more have each of them, as those of a protocol do; else the folders side by side
+/// that share two names of recordings of markers or more ("Anna/lift.c3d", "Bob/lift.c3d"). In order, each once.
 [[nodiscard]] std::vector<std::string> persons_in(const std::vector<FoundRecording>& found);
 
 /// One person of several.

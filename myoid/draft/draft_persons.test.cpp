@@ -9,12 +9,17 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-std::vector<std::string> persons_of(const std::vector<std::string>& files) {
+std::vector<std::string> persons_of(const std::vector<std::string>& files, bool with_markers = false) {
   std::vector<FoundRecording> found;
   for (const std::string& file : files) {
     FoundRecording f;
     f.path = file;
     f.stem = trial_stem(file);
+    if (with_markers) {
+      f.markers.names = {"m"};
+      f.markers.time_s.setZero(1);
+      f.markers.positions_m.setZero(1, 3);
+    }
     found.push_back(f);
   }
   return persons_in(found);
@@ -35,6 +40,18 @@ TEST(DraftPersons, AreNumbersThatSeveralTrialsShare) {
               ElementsAre("01", "17"));
   EXPECT_THAT(persons_of({"/d/P01/walk.trc", "/d/P01/run.trc", "/d/P02/walk.trc", "/d/P02/run.trc"}),
               ElementsAre("P01", "P02"));
+}
+
+TEST(DraftPersons, AreFoldersWhoseTrialsHaveTheSameNames) {
+  EXPECT_THAT(
+      persons_of({"/d/Anna M/lift 2 kg.c3d", "/d/Anna M/mvc.c3d", "/d/Bob/lift 2 kg.c3d", "/d/Bob/mvc.c3d"}, true),
+      ElementsAre("Anna M", "Bob"));
+  // Folders of one trial each; folders that are not side by side; other trials of the same person.
+  EXPECT_THAT(persons_of({"/d/walk/markers.trc", "/d/run/markers.trc"}, true), IsEmpty());
+  EXPECT_THAT(persons_of({"/d/a/x/lift.c3d", "/d/a/x/mvc.c3d", "/d/b/y/lift.c3d", "/d/b/y/mvc.c3d"}, true), IsEmpty());
+  EXPECT_THAT(persons_of({"/d/day1/lift.c3d", "/d/day1/mvc.c3d", "/d/day2/throw.c3d", "/d/day2/mvc.c3d"}, true),
+              IsEmpty());
+  EXPECT_THAT(persons_of({"/d/walk36/ik.sto", "/d/walk36/id.sto", "/d/walk45/ik.sto", "/d/walk45/id.sto"}), IsEmpty());
 }
 
 // Numbers of trials, loads and repetitions of one person.

@@ -109,7 +109,8 @@ class TrialWriter {
       out_.line(fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the person stood on them",
                             f.plates));
     }
-    const bool needed = use == "calibration" || mass_in_name(f.stem) || !f.loads.object_markers.empty();
+    const bool needed = use == "calibration" || mass_in_name(f.stem) || !f.loads.object_markers.empty() ||
+                        f.loads.only_torques;  // a maximal contraction whose torque was measured is fitted
     if (!stated && needed) ask_for_loads(f.stem, f.loads, around_.own_model, asked_for_loads_, out_);
     out_.line("");
   }

@@ -143,8 +143,10 @@ class Draft {
       f.body = recording::read_stated_body(path);
       note_up(path, file);
       f.markers = std::move(file.markers);
-      if (format != recording::FileFormat::storage && !file.analog.empty())
+      if (format != recording::FileFormat::storage && !file.analog.empty()) {
         f.loads.channels = load_channels(file.analog.series(), file.plates);
+        f.loads.only_torques = only_torques(file.analog.series(), f.loads.channels);
+      }
       for (const Channel& c : file.analog.channels()) {
         if (format == recording::FileFormat::storage && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
         torques = torques || std::ranges::any_of(model_.coordinates, [&](const model::Coordinate& q) {

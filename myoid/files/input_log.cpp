@@ -1,7 +1,9 @@
 #include "myoid/files/input_log.h"
 
+#include <fstream>
 #include <mutex>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace myoid::recording {
@@ -61,6 +63,14 @@ bool is_input(const struct stat& file) {
 bool is_input(const std::filesystem::path& path) {
   struct stat status {};
   return stat(path.c_str(), &status) == 0 && is_input(status);
+}
+
+bool begins_with(const std::filesystem::path& path, std::string_view bytes) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(bytes.size(), '\0');
+  return file.read(head.data(), static_cast<std::streamsize>(head.size())) && head == bytes;
 }
 
 }  // namespace myoid::recording

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include <sys/stat.h>
 
@@ -27,5 +28,8 @@ void note_own_file(int descriptor);
 /// Returns true if the file is an input.
 [[nodiscard]] bool is_input(const struct stat& file);
 [[nodiscard]] bool is_input(const std::filesystem::path& path);
+
+/// Returns true if a regular file begins with these bytes. Looked at this way, the file becomes no input.
+[[nodiscard]] bool begins_with(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace myoid::recording

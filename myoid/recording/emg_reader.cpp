@@ -1,5 +1,6 @@
 #include "myoid/recording/emg_reader.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -27,6 +28,14 @@
 
 namespace myoid::recording {
 namespace {
+
+/// Returns the first names of a list, and how many more there are.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 8;
+  const std::size_t shown = std::min(kShown, names.size());
+  return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                     shown < names.size() ? fmt::format(" and {} more", names.size() - shown) : "");
+}
 
 /// Reads a word for a voltage in free text: "microvolt", "uV", "[mV]".
 std::optional<double> voltage_in(std::string_view text) {
@@ -150,14 +159,14 @@ CsvSeries channels_of_c3d(const std::filesystem::path& path, bool voltages_only)
   if (file.analog.empty()) throw ReadError(path, 0, "the C3D file holds no analog channels, so no EMG");
   CsvSeries series;
   std::vector<std::string> names;
-  std::size_t others = 0;
+  std::vector<std::string> others;
   std::set<Eigen::Index> of_plates;
   for (const PlateSetup& plate : file.plates) of_plates.insert(plate.channels.begin(), plate.channels.end());
   for (std::size_t c = 0; c < has_unit.size(); ++c) {
     const Channel& channel = file.analog.channels()[c];
     if (voltages_only &&
         ((has_unit[c] && channel.unit != Unit::volt) || of_plates.contains(static_cast<Eigen::Index>(c)))) {
-      ++others;
+      others.push_back(channel.name);
       continue;
     }
     names.push_back(channel.name);
@@ -165,7 +174,7 @@ CsvSeries channels_of_c3d(const std::filesystem::path& path, bool voltages_only)
   }
   if (names.empty())
     throw ReadError(path, 0, "none of the analog channels is a voltage beside the force plates', so there is no EMG");
-  if (others > 0) note(file.repairs, "{} analog channels are no voltages or belong to force plates; left out", others);
+  if (!others.empty()) note(file.repairs, "no voltage, or of a force plate, left out: {}", some_of(others));
   series.data = file.analog.select(names);
   series.repairs = std::move(file.repairs);
   return series;
@@ -217,8 +226,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
   std::vector<bool> has_unit;
   std::vector<Channel> renewed;
   std::vector<double> factors;
-  std::vector<std::string> bad;
-  std::size_t others = 0;
+  std::vector<std::string> bad, others;
   for (const BidsChannel& channel : *channels) {
     const auto column = series.data.find(channel.name);
     if (!column) {
@@ -226,7 +234,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
       continue;
     }
     if (!equal_ignoring_case(channel.type, "EMG")) {
-      ++others;
+      others.push_back(channel.name);
       continue;
     }
     if (channel.bad) {
@@ -243,7 +251,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
     if (!channel.target_muscle.empty()) file.target_muscle[channel.name] = channel.target_muscle;
   }
   if (kept.empty()) throw ReadError(path, 0, "none of the channels of its _channels.tsv is EMG and good");
-  if (others > 0) note(series.repairs, "{} channels are no EMG by the _channels.tsv; left out", others);
+  if (!others.empty()) note(series.repairs, "no EMG by the _channels.tsv, left out: {}", some_of(others));
   if (!bad.empty()) note(series.repairs, "channels marked as bad are left out: {}", fmt::join(bad, ", "));
   Eigen::MatrixXd values = series.data.select(kept).values();
   for (std::size_t c = 0; c < factors.size(); ++c) values.col(static_cast<Eigen::Index>(c)) *= factors[c];

@@ -1,10 +1,14 @@
 #include "myoid/recording/emg_reader.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/c3d/c3d_writer.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 
+#include "tests/support/plate_recording.h"
+#include "tests/support/repair_lines.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::recording {
@@ -42,6 +46,19 @@ TEST(ReadEmg, WithoutAUnitItAsksForOne) {
   }
   EXPECT_DOUBLE_EQ(read_emg(folder / "e.sto", "mV", false).data.values()(0, 0), 0.1);
   EXPECT_EQ(read_emg(folder / "e.sto", "", true).data.values()(0, 0), 100.0);
+}
+
+TEST(ReadEmg, NamesTheChannelsOfAC3dFileThatItLeavesOut) {
+  const test::TemporaryFolder folder;
+  C3dFile c3d = test::plate_recording(2);
+  c3d.channels.push_back({"EMG", "V", 0.0, 1.0});
+  c3d.channels.push_back({"Torque", "Nm", 0.0, 1.0});
+  c3d.analog.conservativeResize(Eigen::NoChange, 8);
+  c3d.analog.rightCols(2).setConstant(0.5F);
+  write_c3d(folder / "f.c3d", c3d);
+  const EmgFile file = read_emg(folder / "f.c3d", "", false);
+  ASSERT_EQ(file.data.channel_count(), 1);
+  EXPECT_THAT(test::repair_lines(file.repairs), testing::HasSubstr("left out: Fx, Fy, Fz, Mx, My, Mz, Torque\n"));
 }
 
 }  // namespace

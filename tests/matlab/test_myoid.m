@@ -119,6 +119,11 @@ function reads_rows_one_by_one(work)
   fails(@() myoid.read_parameters(parameters), 'myoid:badInput', '1;5');
   write_text(parameters, sprintf('muscle,estimate\nBIC\n'));
   fails(@() myoid.read_parameters(parameters), 'myoid:badInput', 'row 2 has 1 cells');
+  write_text(parameters, ['muscle,estimate' char([13 10]) '"say ""x"", y' char(10) 'z",1' char([13 10]) '"",2' ...
+                          char(10) repmat('n', 1, 1e6) ',3']);
+  p = myoid.read_parameters(parameters);
+  assert(isequal(p.muscle, {['say "x", y' char(10) 'z']; ''; repmat('n', 1, 1e6)}));
+  assert(isequal(p.estimate, [1; 2; 3]));
 end
 
 function refuses_values_it_does_not_understand()

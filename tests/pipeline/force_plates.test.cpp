@@ -83,6 +83,8 @@ TEST_P(PlatesOfType, ConvertedTheyLoadTheJointAsTheClosedFormSays) {
   const Finished made = myoid({"convert", at("f.c3d"), at("out"), "--body", "rod"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("up is z"));
+  const Finished again = myoid({"convert", at("f.c3d"), at("out"), "--body", "rod", "--overwrite"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
   const TimeSeries load = ::myoid::recording::read_storage(at("out/f_grf.mot")).data;
   ASSERT_EQ(load.sample_count(), 1010);
   for (Eigen::Index i = 0; i < load.sample_count(); i += 101) {

@@ -585,4 +585,17 @@ TEST_F(NothingIsLost, WhereAFileIsTheOutput) {
   EXPECT_GT(cases.size(), 100U);
 }
 
+TEST_F(NothingIsLost, AndEveryCommandReplacesItsOwnResults) {
+  const std::vector<Recipe> all = recipes();
+  for (const Recipe& recipe : all) {
+    const TemporaryFolder folder;
+    const fs::path& D = folder.path();
+    make_inputs(recipe, D);
+    const fs::path out = recipe.to_folder ? D / "out" : D / ("x" + recipe.ending);
+    const Finished first = call(recipe, D, out, recipe.command == "report");
+    const Finished again = call(recipe, D, out, true);
+    EXPECT_EQ(again.exit_code, first.exit_code) << recipe.command << " a second time:\n" << again.err;
+  }
+}
+
 }  // namespace

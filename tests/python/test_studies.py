@@ -5,6 +5,7 @@ import copy
 import pickle
 import re
 import shutil
+import signal
 import threading
 import time
 import warnings
@@ -250,6 +251,7 @@ def test_mistakes_are_the_errors_of_the_library(recording, result, tmp_path):
 
 
 def test_ctrl_c_stops_a_call_and_leaves_no_folder(protocol, tmp_path):
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's job in the background ignores it
     threading.Timer(0.5, _thread.interrupt_main).start()
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt), warnings.catch_warnings():

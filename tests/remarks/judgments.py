@@ -30,6 +30,7 @@ JUDGED = [
      "LWRA is 9 cm off in the single frame at 8 s"),
     ("marker_jump", "c3d/sample09/*", ANY, True, "LFEA is a center that was computed: it breaks off by 24 mm"),
     ("marker_jump", "c3d/others/duplicate_labels.c3d", ANY, True, "ELD_2 exchanges places for one frame at 6.95 s"),
+    ("clock_pause", "round3/recordings/*", ANY, True, "the file states that it pauses there"),
     # EMG.
     ("emg_amplitude", "c3d/*", ANY, True,
      "by kind: 37 V to 33 kV on skin are counts of a converter or another unit"),
