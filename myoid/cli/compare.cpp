@@ -48,7 +48,8 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
           {"remarks", comparison.remarks}};
 }
 
-void print(const RunComparison& comparison) {
+/// Prints the sentence and the numbers that both sessions tell; with `all` the others, too.
+void print(const RunComparison& comparison, bool all) {
   std::size_t owner = 6, parameter = 16;
   const auto labelled = [](const ComparedParameter& p) {
     return fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit));
@@ -61,7 +62,7 @@ void print(const RunComparison& comparison) {
   say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", owner, "parameter [unit]", parameter, "first",
       "second", "difference", "%", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
-    if (!rests_on_measurement(p.first.method)) continue;  // in the report
+    if (!rests_on_measurement(p.first.method) || (!all && p.change == Change::cannot_tell)) continue;  // in the report
     say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", in_column(p.muscle), owner, labelled(p), parameter,
         report::format_value(p.of_first.value), report::format_value(p.of_second.value),
         report::format_value(p.difference),
@@ -93,7 +94,7 @@ void add_compare(CLI::App& app, Context& context) {
       say_whole(json_text(to_json(result.comparison)) + "\n");
       return;
     }
-    print(result.comparison);
+    print(result.comparison, context.verbose);
     if (!out->empty()) say("{}/report.html\n", *out);
   });
 }

@@ -33,7 +33,7 @@ std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
   return changes;
 }
 
-/// Returns the persons' changes: "P7: BIC stronger by 150 N (25 %, ...)."
+/// Returns the persons' changes: "P7: Biceps stronger by 150 N (25 %, ...)."
 std::string change_sentence(const std::vector<PersonChange>& changes) {
   constexpr std::size_t kNamed = 4;
   std::vector<std::string> found;

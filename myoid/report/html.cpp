@@ -35,7 +35,7 @@ p { margin: 6px 0 10px; max-width: 74ch; }
 .forest { margin: 10px 0 22px; }
 .forest table { width: 100%; max-width: 1180px; }
 .forest td, .forest th { padding: 1px 12px 1px 0; vertical-align: middle; }
-.forest .bar { width: 34%; min-width: 120px; overflow: visible; padding-right: 22px; }
+.forest .bar { width: 28%; min-width: 120px; overflow: visible; padding-right: 22px; }
 .forest svg.bar { width: 100%; display: block; padding: 0; }
 .forest .number, .forest .badge { white-space: nowrap; }
 .forest .bar text { font-size: 11px; fill: #5a626b; }
@@ -93,7 +93,7 @@ li { margin: 3px 0; max-width: 74ch; }
   .gates table { min-width: 0; } .gates thead { display: none; } .gates tr { display: block; padding: 8px 0; border-bottom: 1px solid #e6e8eb; }
   .gates td { display: block; border: 0; padding: 1px 0; } .gates td:nth-child(2) { font-weight: 600; }
   .gates td:nth-child(3)::before { content: "Found: "; } .gates td:nth-child(4)::before { content: "Asked for: "; } }
-@media (max-width: 560px) { .forest .bar { display: none; } .forest .number { white-space: normal; } }
+@media (max-width: 560px) { .forest .bar { display: none; } }
 @media (prefers-reduced-motion: reduce) { * { animation: none !important; transition: none !important; scroll-behavior: auto !important; } }
 code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } nav { display: none; }

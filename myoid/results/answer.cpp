@@ -33,20 +33,19 @@ bool is_counted(const ParameterEstimate& e) {
   return !identification::is_nuisance(e) && e.tied_to.empty() && !identification::is_voluntary(e.parameter);
 }
 
-/// Lists the numbers that are identified: "max isometric force of BIC, TRI; delay".
-std::string identified_numbers(const IdentificationResult& fit) {
+/// Lists the numbers that are identified: "max isometric force of Biceps, Triceps; emg delay of the person".
+std::string identified_numbers(const IdentificationResult& fit, std::size_t muscle_count) {
   std::vector<std::pair<std::string, std::vector<std::string>>> owners;
-  for (const ParameterEstimate& e : fit.estimates) {
+  for (const EstimateLine& line : estimate_lines(fit, muscle_count)) {
+    const ParameterEstimate& e = *line.estimate;
     if (!is_counted(e) || e.verdict != Verdict::identified) continue;
     auto of = std::ranges::find(owners, e.parameter, [](const auto& entry) { return entry.first; });
     if (of == owners.end()) of = owners.insert(owners.end(), {e.parameter, {}});
-    of->second.push_back(report::plain_muscle(e.muscle));
+    of->second.push_back(e.muscle == "subject" ? "the person" : plain_owner(line));
   }
   std::vector<std::string> parts;
   for (const auto& [parameter, muscles] : owners)
-    parts.push_back(
-        fmt::format("{} of {}", report::spelled(parameter),
-                    muscles.front() == "subject" ? "the person" : fmt::format("{}", fmt::join(muscles, ", "))));
+    parts.push_back(fmt::format("{} of {}", report::spelled(parameter), fmt::join(muscles, ", ")));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -160,10 +159,9 @@ std::vector<AnswerRow> answer_rows(const IdentificationResult& method, std::size
     if (!is_told(*line.torque)) continue;
     const bool placed = line.angle != nullptr && is_told(*line.angle);
     const identification::VoluntaryCurve& curve = *line.curve;
-    const std::string owner =
-        curve.of_joint ? fmt::format("{}{}, {} muscles", report::spelled(curve.joint),
-                                     curve.direction > 0 ? "" : " (negative direction)", curve.muscles.size())
-                       : line.name;
+    const std::string owner = curve.of_joint ? fmt::format("{} together{}", report::spelled(curve.joint),
+                                                           curve.direction > 0 ? "" : " (negative direction)")
+                                             : line.name;
     rows.push_back(row_of(owner + (maximal ? ", greatest torque" : ", at the largest EMG"), *line.torque,
                           placed ? line.place : ""));
   }
@@ -189,7 +187,7 @@ std::string fit_sentences(const StudyResult& result, bool with_names) {
   }
   std::string text = sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
                                : fmt::format("This recording identifies {} of {} parameters", sure, total);
-  if (sure > 0 && with_names) text += ": " + identified_numbers(*best);
+  if (sure > 0 && with_names) text += ": " + identified_numbers(*best, result.fit_input.data.muscles.size());
   text += ".";
   if (repeat > 0)
     text += fmt::format(" {} {} reproducible: given geometry and sensors, for comparing sessions of this person.",

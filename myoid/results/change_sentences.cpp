@@ -7,22 +7,30 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/counted.h"
+#include "myoid/report/muscle_names.h"
+#include "myoid/report/plain_unit.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
 
 namespace myoid {
 namespace {
 
-/// Returns "stronger", "optimal fiber length shorter".
+/// Returns "stronger", "optimal fiber length larger".
 std::string direction(const std::string& parameter, double difference) {
   const bool more = difference > 0.0;
-  if (parameter == "max_isometric_force") return more ? "stronger" : "weaker";
+  const bool torque =
+      identification::is_voluntary(parameter) && !parameter.starts_with(identification::kVoluntaryAngle);
+  if (parameter == "max_isometric_force" || torque) return more ? "stronger" : "weaker";
   return fmt::format("{} {}", report::spelled(parameter), more ? "larger" : "smaller");
 }
 
 std::string with_unit(double value, Unit unit) {
-  return report::format_value(value) + (unit == Unit::dimensionless ? "" : fmt::format(" {}", symbol(unit)));
+  const report::PlainUnit plain = report::plain_unit(unit);
+  return report::format_value(value * plain.per_si) + (plain.symbol.empty() ? "" : fmt::format(" {}", plain.symbol));
 }
+
+/// Returns the owners for people: "Biceps" of BIC, "elbow flexion" of a joint; several as they are.
+std::string owner_of(const ComparedParameter& p) { return report::spelled(report::plain_muscle(p.muscle)); }
 
 /// Returns "8 %", or the size itself where the number of the first session is no scale.
 std::string share_or_size(const ComparedParameter& p, double size) {
@@ -47,18 +55,19 @@ std::vector<const ComparedParameter*> counted_parameters(const RunComparison& co
 std::string change_text(const ComparedParameter& p) {
   if (p.change == Change::cannot_tell) {
     if (!rests_on_measurement(p.first.method))
-      return fmt::format("{}: not compared: method {} fits forces that nobody measured", p.muscle, p.first.method);
-    return fmt::format("{}: not compared: {} in the first session, {} in the second", p.muscle, name(p.first.verdict),
-                       name(p.second.verdict));
+      return fmt::format("{}: not compared: method {} fits forces that nobody measured", owner_of(p), p.first.method);
+    return fmt::format("{}: not compared: {} in the first session, {} in the second", owner_of(p),
+                       name(p.first.verdict), name(p.second.verdict));
   }
   const double seen = *p.smallest_detectable, size = std::abs(p.difference);
   const std::string unseen = fmt::format("a change below {} would not have been seen", share_or_size(p, seen));
   if (p.change == Change::no_change)
-    return fmt::format("{}: no change of {} shows; {}", p.muscle, report::spelled(p.first.parameter), unseen);
+    return fmt::format("{}: no change of {} shows; {}", owner_of(p), report::spelled(p.first.parameter), unseen);
   const std::string share =
       std::abs(p.of_first.value) > 0.0 ? fmt::format("{:.2g} %, ", 100.0 * size / std::abs(p.of_first.value)) : "";
-  return fmt::format("{} {} by {} ({}95 % {} to {}); {}", p.muscle, direction(p.first.parameter, p.difference),
-                     with_unit(size, p.first.unit), share, report::format_value(size - seen),
+  return fmt::format("{} {} by {} ({}95 % {} to {}); {}", owner_of(p), direction(p.first.parameter, p.difference),
+                     with_unit(size, p.first.unit), share,
+                     report::format_value((size - seen) * report::plain_unit(p.first.unit).per_si),
                      with_unit(size + seen, p.first.unit), unseen);
 }
 

@@ -170,11 +170,12 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
   EXPECT_EQ(*c.trials[0].rmse_second_nm, 2.0);
   report::validate(comparison_report(c));
   // 180 N of 600 N, 1.96 standard errors 98 N; 11 % are 1.96 * sqrt(40^2 + 40^2) of 900 N.
-  EXPECT_EQ(changes_sentence(c),
-            "BIC stronger by 180 N (30 %, 95 % 82 to 278 N); a change below 16 % would not have been seen. 2 numbers "
-            "show no change, and of 1 a recording does not tell enough.");
+  EXPECT_EQ(
+      changes_sentence(c),
+      "Biceps stronger by 180 N (30 %, 95 % 82 to 278 N); a change below 16 % would not have been seen. 2 numbers "
+      "show no change, and of 1 a recording does not tell enough.");
   EXPECT_EQ(change_text(c.parameters[1]),
-            "BRA: no change of max isometric force shows; a change below 12 % would not have been seen");
+            "Brachialis: no change of max isometric force shows; a change below 12 % would not have been seen");
 }
 
 TEST(CompareRuns, APowerFollowsFromTheTorqueAndIsNoFurtherComparison) {

@@ -228,13 +228,15 @@ report::Section voluntary_section(const StudyResult& result, const Identificatio
   report::Section section{.id = "voluntary",
                           .heading = "How strong is each muscle, and at which angle",
                           .before_numbers = true,
-                          .paragraphs = voluntary_sentences(method),
                           .tables = {table_of(result, method)},
                           .figures = {figure_of(method)}};
-  section.paragraphs.insert(section.paragraphs.begin(),
-                            "The greatest torque that each muscle makes about the joint by itself. The size of its "
-                            "moment arm, the effort of the maximal contraction and the scale of the EMG cancel in it, "
-                            "so that it is known better than the muscle's force.");
+  section.paragraphs.push_back(
+      "The greatest torque that each muscle makes about the joint by itself. The size of its "
+      "moment arm, the effort of the maximal contraction and the scale of the EMG cancel in it, "
+      "so that it is known better than the muscle's force.");
+  if (!std::ranges::all_of(method.voluntary, &VoluntaryCurve::from_mvc))
+    section.paragraphs.push_back(
+        "No maximal contraction was recorded: these are the torques at the largest recorded EMG.");
   if (std::ranges::any_of(method.voluntary, &VoluntaryCurve::averaged))
     section.paragraphs.push_back(
         "Other joints move these muscles, too: the torque at an angle is that of their mean length there.");

@@ -104,6 +104,10 @@ TEST(VoluntarySection, HasTheTableAndTheCurve) {
   EXPECT_EQ(row[9].badge, report::Badge::good);
   ASSERT_EQ(section.figures.size(), 1U);
   EXPECT_EQ(section.figures[0].panels[0].series[2].y[1], 41.0);
+  EXPECT_EQ(section.paragraphs.size(), 1U);
+  IdentificationResult without = biceps();
+  without.voluntary[0].from_mvc = false;
+  EXPECT_THAT(voluntary_section(result, without).paragraphs.back(), HasSubstr("No maximal contraction"));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The report's sections below the workbench, folded on screen: what one asks for opens. Paper has everything.
 import { el } from './element.js';
 
-const OPEN = new Set(['numbers', 'workbench', 'quality', 'recordings', 'parameters', 'next']);
+const OPEN = new Set(['voluntary', 'numbers', 'workbench', 'quality', 'recordings', 'parameters', 'next']);
 const LONG = 8;  // rows of a table that is not folded, at most
 
 function fold(box, heading, open) {
