@@ -57,17 +57,15 @@ struct Run {
   std::map<MethodAndTrial, std::optional<double>> rmse_nm;
 };
 
-/// Returns the number of a muscle that this torque or angle of a joint repeats, because one muscle makes the joint's
-/// torque; null: none.
-const Key* repeated(const Run& run, const ParameterEstimate& e) {
+/// Returns true for a torque or an angle of a joint that one muscle makes: it is that muscle's number.
+bool repeats_a_muscle(const Run& run, const ParameterEstimate& e) {
   const std::size_t end = std::min(e.parameter.rfind("_positive"), e.parameter.rfind("_negative"));
-  if (!identification::is_voluntary(e.parameter) || end == std::string::npos) return nullptr;
-  const auto same = std::ranges::find_if(run.order, [&](const Key& key) {
+  if (!identification::is_voluntary(e.parameter) || end == std::string::npos) return false;
+  return std::ranges::any_of(run.order, [&](const Key& key) {
     const ParameterEstimate& other = run.estimates.at(key);
     return other.parameter == e.parameter.substr(0, end) && other.method == e.method && other.estimate == e.estimate &&
            other.ci_low == e.ci_low && other.ci_high == e.ci_high;
   });
-  return same == run.order.end() ? nullptr : &*same;
 }
 
 Run read_run(const std::filesystem::path& folder) {
@@ -86,10 +84,7 @@ Run read_run(const std::filesystem::path& folder) {
           run.sharers[key].push_back(e->muscle);
           continue;
         }
-        if (const Key* of_muscle = repeated(run, *e)) {
-          run.sharers[*of_muscle].push_back(e->muscle);
-          continue;
-        }
+        if (repeats_a_muscle(run, *e)) continue;
         run.order.push_back(key);
         run.estimates[key] = std::move(*e);
       }
