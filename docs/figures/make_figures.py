@@ -54,7 +54,7 @@ PICTURES = [
     Picture("gait.webp", "gait", "trial=walk&t=0.55&view=oblique&hide=activation,force", begin="#workbench", height=900),
     Picture("motion_page.webp", "walk", "t=0.6&view=oblique", height=800),
     Picture("box_lift.webp", "box_lift", "trial=lift&t=2.3&view=oblique", begin="#workbench", height=755),
-    Picture("elbow_numbers.webp", "elbow_emg", height=1010),
+    Picture("elbow_numbers.webp", "elbow_emg", begin="#numbers", height=860),
     Picture("elbow_strength.webp", "elbow_emg", begin="figure#voluntary_torque",
             end="figure#voluntary_torque", width=800, script=UNFOLD.format("#voluntary")),
     Picture("elbow_workbench.webp", "elbow_emg", "trial=load2p75_T3&t=11", begin="#workbench", height=1042),

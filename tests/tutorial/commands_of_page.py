@@ -38,11 +38,12 @@ def name_of(command):
 
 
 def run_all(program, checkout, commands):
-    """Runs the commands; returns what each printed."""
+    """Runs the commands; returns what each printed. A run prints its answer and all numbers and gates."""
     printed = {}
     for command, _ in commands:
         print("$", *command, flush=True)
-        done = subprocess.run([program, *command[1:]], cwd=checkout, stdout=subprocess.PIPE,
+        everything = ["--verbose"] if command[1] == "run" else []
+        done = subprocess.run([program, *command[1:], *everything], cwd=checkout, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False)  # fmt: skip
         if done.returncode not in (0, 4):
             sys.exit(f"exit code {done.returncode}\n{done.stdout}")

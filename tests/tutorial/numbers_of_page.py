@@ -146,7 +146,7 @@ def expected(estimate, scale, form):
 
 
 def planned(r):
-    before, = r.found(ELBOW, r"median 95 % interval \+-(\d+) %")
+    before, = r.found(ELBOW, r"are identified now, median 95 % interval \+-(\d+) %")
     steps = re.findall(r"identified, \+-(\d+) %", r.printed[ELBOW])
     return [before, steps[-1]]
 
