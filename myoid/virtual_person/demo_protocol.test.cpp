@@ -12,7 +12,7 @@ namespace {
 
 TEST(DemoProtocol, IsTheExample) {
   EXPECT_EQ(demo_protocol_text(), recording::read_text_file(test::source_dir() / "examples/demo/protocol.toml"));
-  EXPECT_EQ(protocol_named("demo").trials.size(), 14U);
+  EXPECT_EQ(protocol_named("demo").trials.size(), 26U);  // seven angles in each direction
 }
 
 TEST(DemoProtocol, IsNoOtherFile) {
