@@ -307,7 +307,7 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
       {"", "fails",
        fmt::format("errors larger than the torque, or than {:g} % of it at an R² below {:g}; of the fitted samples an "
                    "R² below {:g}",
-                   percent(l.unrelated_share), l.unrelated, l.mean)},
+                   percent(l.unrelated_share), l.mean, l.mean)},
       {"a reservation of the fit", "warning",
        "any: several minima, a wrong model, or motion that determines the torque without EMG"},
       {"an outlier among the trials left out", "warning",

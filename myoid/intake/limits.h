@@ -92,8 +92,7 @@ struct GateLimits {
   double least_range_deg = 5.0;   ///< A joint that moves less was not moved.
   double explains = 0.5;          ///< R2 of a good prediction.
   double mean = 0.0;              ///< R2 of the torque's mean; a fit below describes nothing.
-  double unrelated = -1.0;        ///< R2 of a prediction unrelated to the torque.
-  double unrelated_share = 0.5;   ///< Share of the torque that its errors must exceed, too.
+  double unrelated_share = 0.5;   ///< Share of the torque that the errors of a prediction below must exceed, too.
   double far_fold = 3.0;          ///< Robust deviations of an error from the other folds' errors.
   double larger_fold = 1.5;       ///< Ratio of an error to the other folds' median.
 };

@@ -79,7 +79,7 @@ double log_share(const identification::Score& s) {
 /// Returns the limits of `is_wrong` in words.
 std::string when_wrong() {
   return fmt::format("fails if the errors are larger than the torque, or than {:g} % of it at an R2 below {:g}",
-                     100.0 * kGateLimits.unrelated_share, kGateLimits.unrelated);
+                     100.0 * kGateLimits.unrelated_share, kGateLimits.mean);
 }
 
 /// Returns the status of a prediction; it passes only if it is `good` by another measure, too.
@@ -112,8 +112,7 @@ Gate distance_gate(const IdentificationResult& fit) {
 double Explained::r2() const { return spread_nm > 0.0 ? 1.0 - rms_nm * rms_nm / (spread_nm * spread_nm) : 0.0; }
 
 bool Explained::is_wrong() const {
-  return rms_nm > torque_rms_nm ||
-         (r2() < kGateLimits.unrelated && rms_nm > kGateLimits.unrelated_share * torque_rms_nm);
+  return rms_nm > torque_rms_nm || (r2() < kGateLimits.mean && rms_nm > kGateLimits.unrelated_share * torque_rms_nm);
 }
 
 std::string Explained::text() const {
@@ -179,8 +178,7 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   }
   if (const Explained held = explained(fit, false); held.samples > 0) {
     gates.push_back({"Predicts the trials held back", status_of(held, true), held.text(),
-                     "R2 above 0.5; " + when_wrong(),
-                     "Below 0 their mean torque predicts them better, below -1 an unrelated torque of the same size."});
+                     "R2 above 0.5; " + when_wrong(), "Below 0 their mean torque predicts them better."});
   }
   if (!fit.prior_distances.empty()) gates.push_back(distance_gate(fit));
   // The distances have a gate of their own.

@@ -22,9 +22,8 @@ struct Explained {
   double torque_rms_nm = 0.0;  ///< RMS error of a prediction of 0.
 
   [[nodiscard]] double r2() const;
-  /// Returns true if a prediction of 0 has a smaller error, or if R2 is below -1 and the error at least half of the
-  /// torque. R2 below -1 means a larger error than that of an unrelated torque of the same size. The second condition
-  /// spares nearly constant torques, whose R2 is easily negative.
+  /// Returns true if a prediction of 0 has a smaller error, or if R2 is below 0 (the mean predicts better) and the
+  /// error at least half of the torque. The last condition spares nearly constant torques, whose R2 is easily negative.
   [[nodiscard]] bool is_wrong() const;
   /// Returns "R2 0.93: 0.74 N m rms below 1.5 Hz, where the torque is 4.10 rms and varies
   /// by 2.80".
