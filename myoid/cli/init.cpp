@@ -6,6 +6,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
+#include "myoid/files/quoted_text.h"
 
 namespace myoid::cli {
 
@@ -34,7 +35,7 @@ void add_init(CLI::App& app, Context& context) {
     }
     say("{}\n", file.string());
     for (const std::string& todo : todos) say("TODO {}\n", todo);
-    say("next: myoid check {}\n", file.string());
+    say("next: myoid check {}\n", recording::shell_word(file.string()));
   });
 }
 

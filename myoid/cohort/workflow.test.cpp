@@ -30,7 +30,7 @@ TEST(Workflow, EveryEngineCallsOneScriptAPerson) {
   for (const Engine engine : {Engine::snakemake, Engine::slurm, Engine::parallel}) {
     const Workflow w = workflow(engine, kManifest, "/out/c", "--study /s.toml");
     EXPECT_EQ(text_of(w, "persons.txt"), "A\nB\n");
-    EXPECT_THAT(text_of(w, "person.sh"), HasSubstr("cohort '/data/my lab/m.csv' --out '/out/c' --study /s.toml "
+    EXPECT_THAT(text_of(w, "person.sh"), HasSubstr("cohort '/data/my lab/m.csv' --out /out/c --study /s.toml "
                                                    "--person \"$1\""));
     EXPECT_THAT(text_of(w, "group.sh"), HasSubstr("--study /s.toml --group"));
     EXPECT_THAT(w.start, HasSubstr("/out/c/workflow/"));

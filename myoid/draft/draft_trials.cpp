@@ -4,6 +4,7 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -44,6 +45,15 @@ const FoundRecording* emg_of(const FoundRecording& motion, const std::vector<Fou
     best = &f;
   }
   return best;
+}
+
+/// Returns the trial of a table of torques: "flex_2kg" of "flex_2kg_torque.sto".
+std::string stem_of_torques(const std::filesystem::path& path) {
+  std::string stem = trial_stem(path);
+  for (const std::string_view word : {"_torque", "_torques", "_moment", "_moments", "_dynamometer", "_id"}) {
+    if (stem.size() > word.size() && stem.ends_with(word)) return stem.substr(0, stem.size() - word.size());
+  }
+  return stem;
 }
 
 /// Writes the [[trial]] tables one after another.
@@ -109,10 +119,24 @@ class TrialWriter {
       out_.line(fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the person stood on them",
                             f.plates));
     }
+    const bool measured = offer_torque(f.stem);
     const bool needed = use == "calibration" || mass_in_name(f.stem) || !f.loads.object_markers.empty() ||
                         f.loads.only_torques;  // a maximal contraction whose torque was measured is fitted
-    if (!stated && needed) ask_for_loads(f.stem, f.loads, around_.own_model, asked_for_loads_, out_);
+    if (!stated && !measured && needed) ask_for_loads(f.stem, f.loads, around_.own_model, asked_for_loads_, out_);
     out_.line("");
+  }
+
+  /// Offers the table of torques of a trial, which may be measured or computed; false if there is none.
+  bool offer_torque(const std::string& stem) {
+    const auto table = std::ranges::find(around_.torques, stem, stem_of_torques);
+    if (table == around_.torques.end()) return false;
+    if (!asked_for_torque_)
+      out_.todo(
+          "a table of joint torques has the trial's name: did a dynamometer measure them? Take the # away. Computed by "
+          "inverse dynamics: leave it, and say what was held with held_mass_kg");
+    asked_for_torque_ = true;
+    out_.line("# external_torque = " + toml_text(around_.relative(*table)));
+    return true;
   }
 
   /// Says why a trial has no EMG: `other` is of the kind that the study does not take, or null.
@@ -153,7 +177,7 @@ class TrialWriter {
   DraftText& out_;
   std::set<std::string> names_;
   std::vector<std::string> notes_;
-  bool two_clocks_ = false, any_calibration_ = false, asked_for_loads_ = false;
+  bool two_clocks_ = false, any_calibration_ = false, asked_for_loads_ = false, asked_for_torque_ = false;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace myoid {
 /// The facts of a draft that all its trials share.
 struct TrialSurroundings {
   std::vector<std::filesystem::path> external_loads;
+  std::vector<std::filesystem::path> torques;                         ///< Tables of joint torques.
   bool own_model = false;                                             ///< The study names a model file.
   bool raw_emg = true;                                                ///< Else envelopes.
   std::function<std::string(const std::filesystem::path&)> relative;  ///< A path as in the study.
@@ -27,8 +28,9 @@ struct TrialSurroundings {
 [[nodiscard]] bool takes_raw_emg(const std::vector<FoundRecording>& found);
 
 /// Writes the [[trial]] tables of a draft and marks the recordings that it takes: joint angles or markers with the EMG
-/// of the same name and its external loads, then EMG alone. EMG alone is a maximal contraction where its name says so,
-/// and else a remark: a movement must not define activation 1. The use of a trial follows from its name.
+/// of the same name, its external loads and, as a remark with a question, its table of torques; then EMG alone. EMG
+/// alone is a maximal contraction where its name says so, and else a remark: a movement must not define activation 1.
+/// The use of a trial follows from its name.
 void draft_trials(std::vector<FoundRecording>& found, const TrialSurroundings& around, DraftText& out);
 
 }  // namespace myoid

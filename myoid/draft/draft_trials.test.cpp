@@ -75,6 +75,22 @@ TEST(DraftTrials, AFolderWithOneSetOfFilesIsATrial) {
   EXPECT_TRUE(out.questions.empty());
 }
 
+TEST(DraftTrials, OfferATableOfTorquesOfTheirNameAndAskOnceWhetherItWasMeasured) {
+  std::vector<FoundRecording> files{found("bend.mot", true, false), found("bend_emg.sto", false, true),
+                                    found("hold.mot", true, false), found("hold_emg.sto", false, true),
+                                    found("pull.mot", true, false), found("pull_emg.sto", false, true)};
+  DraftText out;
+  draft_trials(files,
+               {.torques = {"bend_torque.sto", "hold_id.sto", "bender_torque.sto"},
+                .own_model = true,
+                .relative = [](const std::filesystem::path& path) { return path.string(); }},
+               out);
+  EXPECT_THAT(out.toml, HasSubstr("# external_torque = \"bend_torque.sto\"\n\n"));
+  EXPECT_THAT(out.toml, HasSubstr("use = \"calibration\"\n# external_torque = \"hold_id.sto\"\n\n"));
+  EXPECT_EQ(out.toml.find("bender"), std::string::npos);
+  EXPECT_EQ(out.questions.size(), 2U);  // the torques of two trials, and what was held in the third
+}
+
 TEST(DraftTrials, TakeTheKindOfEmgOfMostMovementsAndSayWhichKindTheOthersHave) {
   std::vector<FoundRecording> files{found("bend.mot", true, false),      found("bend_emg.sto", false, true),
                                     found("stretch.mot", true, false),   found("stretch_emg.sto", false, true),

@@ -70,6 +70,7 @@ class Draft {
     muscle_tables();
     draft_trials(found_,
                  {.external_loads = beside.external_loads,
+                  .torques = torques_,
                   .own_model = model_file_.has_value(),
                   .raw_emg = raw_emg_,
                   .relative = [&](const fs::path& path) { return relative(path); }},
@@ -161,11 +162,12 @@ class Draft {
     }
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
+      if (torques) torques_.push_back(path);
       draft_.notes.push_back(fmt::format(
-          "{}: {}; not used", path.filename().string(),
-          torques
-              ? "joint torques, which a study computes from motion and forces (`myoid identify --torques` reads them)"
-              : "no markers, no coordinate of the model, no EMG"));
+          "{}: {}", path.filename().string(),
+          torques ? "joint torques; a study takes measured ones as external_torque of a trial, and computes the others "
+                    "(`myoid identify --torques` reads them)"
+                  : "no markers, no coordinate of the model, no EMG; not used"));
       return;
     }
     if (f.markers.frame_count() > 0) {
@@ -447,6 +449,7 @@ class Draft {
   std::string coordinate_;
   bool guessed_coordinate_ = false;
   std::set<fs::path> loads_data_;
+  std::vector<fs::path> torques_;
   std::vector<FoundRecording> found_;
   OnePerson person_;
   bool raw_emg_ = true;

@@ -50,6 +50,9 @@ std::string toml_number(double value) {
 }
 
 std::string shell_word(std::string_view word) {
+  // Letters, digits and marks that no shell reads as its own stay as they are.
+  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._/-+:@%,";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) return std::string(word);
   return in_single_quotes(word, [](char c) { return c == '\'' ? std::string("'\\''") : std::string(1, c); });
 }
 

@@ -14,7 +14,7 @@ namespace myoid::recording {
 /// Returns a TOML float: with a point or an exponent, and read back to the same bits.
 [[nodiscard]] std::string toml_number(double value);
 
-/// Quotes a word for a POSIX shell.
+/// Quotes a word for a POSIX shell, if a shell would read it otherwise.
 [[nodiscard]] std::string shell_word(std::string_view word);
 
 /// Quotes a word of GNU parallel's command for the shell that reads the script. GNU parallel replaces {}, {1}, {.} ...

@@ -35,6 +35,8 @@ bool has_program(const std::string& name) {
 
 TEST(ShellWord, IsReadByAShellAsItIs) {
   for (const std::string& word : kWords) EXPECT_EQ(output_of("printf %s " + shell_word(word)), word);
+  EXPECT_EQ(shell_word("study/flex_2.5kg.toml"), "study/flex_2.5kg.toml");
+  EXPECT_EQ(shell_word(""), "''");
 }
 
 TEST(ParallelWord, IsReadByBothShellsOfGnuParallelAsItIs) {
