@@ -90,14 +90,22 @@ std::string truth_sentence(const StudyResult& result, const IdentificationResult
   return known == 0 ? "" : fmt::format("Of {} numbers with a known truth {} intervals hold it.", known, held);
 }
 
+std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
+
+/// Returns a reason in at most two lines, with the expected value where there is room.
+std::string reason_lines(const report::Gate& gate, std::size_t width) {
+  const std::string found = recording::with_short_words(fmt::format("- {}: {}", gate.name, gate.value), width);
+  std::string text = wrapped(fmt::format("{} (expected: {})", found, gate.threshold), width);
+  for (std::size_t room = 2 * width; line_count(text) > 2; room -= width / 8)
+    text = wrapped(recording::elided(found, room), width);
+  return text;
+}
+
 std::string light_lines(const std::vector<report::Gate>& gates, std::size_t width) {
   const report::Light light = report::light_of(gates);
   std::string text = wrapped(fmt::format("{}. {}{}", light.head, light.answered, light.leads_to), width);
   for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i) {
-    const report::Gate& gate = light.reasons[i];
-    const std::string found = fmt::format("- {}: {}", gate.name, gate.value);
-    const std::string expected = fmt::format("{} (expected: {})", found, gate.threshold);
-    text += (columns_of(expected) <= width ? expected : recording::elided(found, width)) + "\n";
+    text += reason_lines(light.reasons[i], width);
   }
   if (light.reasons.size() > kMostReasons) text += fmt::format("- and {} more\n", light.reasons.size() - kMostReasons);
   return text;
@@ -147,8 +155,6 @@ std::string next_lines(const StudyResult& result, std::size_t width) {
                   median_half_width(then), median_half_width(next.beforehand)),
       width);
 }
-
-std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
 
 }  // namespace
 
