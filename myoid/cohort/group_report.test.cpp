@@ -39,7 +39,8 @@ fs::path run(const fs::path& folder, double strength) {
                                       {{"identified": {{"r2": 0.7, "rmse_nm": 1}}}},
                                       {{"identified": {{"r2": null, "rmse_nm": 2}}}}]}})",
                             strength, strength - 40, strength + 40));
-  recording::write_file(folder / "report.json", R"({"gates": [{"status": "pass"}, {"status": "warn"}]})");
+  recording::write_file(folder / "report.json",
+                        R"({"gates": [{"name": "a", "status": "pass"}, {"name": "b", "status": "warn"}]})");
   recording::write_file(folder / "report.html", "<html></html>");
   recording::write_file(folder / "lift/ik_marker_errors.sto",
                         "e\nversion=1\nnRows=3\nnColumns=2\nendheader\ntime\tmarker_error_RMS\n"

@@ -16,6 +16,7 @@ CompareResult compare(const CompareOptions& o) {
   CompareResult result;
   result.comparison = compare_runs(o.first, o.second);
   for (const std::string& folder : {o.first, o.second}) remarks.warn_of_changes(folder, {"parameters.json"});
+  for (const std::string& text : result.comparison.failed) remarks.warn(text);
   for (const std::string& text : result.comparison.unlike)
     remarks.warn(fmt::format("{} and {}: {}", o.first, o.second, text));
   result.remarks = remarks.list();

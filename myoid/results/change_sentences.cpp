@@ -56,6 +56,12 @@ std::string change_text(const ComparedParameter& p) {
   if (p.change == Change::cannot_tell) {
     if (!rests_on_measurement(p.first.method))
       return fmt::format("{}: not compared: method {} fits forces that nobody measured", owner_of(p), p.first.method);
+    const auto told = [](const identification::ParameterEstimate& e) {
+      return e.verdict == identification::Verdict::identified || e.verdict == identification::Verdict::reproducible ||
+             e.verdict == identification::Verdict::weak;
+    };
+    if (told(p.first) && told(p.second))
+      return fmt::format("{}: not compared: a gate of a session failed, or the recorded range ends there", owner_of(p));
     return fmt::format("{}: not compared: {} in the first session, {} in the second", owner_of(p),
                        name(p.first.verdict), name(p.second.verdict));
   }
@@ -73,6 +79,8 @@ std::string change_text(const ComparedParameter& p) {
 
 std::string changes_sentence(const RunComparison& comparison) {
   constexpr std::size_t kNamed = 4;
+  if (!comparison.failed.empty())
+    return fmt::format("No number is compared: {}. Mend that first.", fmt::join(comparison.failed, "; "));
   std::vector<std::string> found;
   std::size_t same = 0, untold = 0;
   for (const ComparedParameter* p : counted_parameters(comparison)) {

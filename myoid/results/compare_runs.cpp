@@ -22,6 +22,7 @@
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/report/tables.h"
 #include "myoid/results/change_sentences.h"
+#include "myoid/results/read_gates.h"
 #include "myoid/study/run_identity.h"
 
 namespace myoid {
@@ -245,8 +246,9 @@ report::Panel panel_of(const RunComparison& comparison,
   return panel;
 }
 
-/// Returns a number of both sessions with its difference, before the adjustment.
-ComparedParameter compared(const Run& run, const Key& key, const ParameterEstimate& second) {
+/// Returns a number of both sessions with its difference, before the adjustment; without one if a session is not
+/// `usable`.
+ComparedParameter compared(const Run& run, const Key& key, const ParameterEstimate& second, bool usable) {
   ComparedParameter p{.muscle = std::get<0>(key), .first = run.estimates.at(key), .second = second};
   if (const auto sharers = run.sharers.find(key); sharers != run.sharers.end())
     p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
@@ -254,7 +256,7 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
   p.of_first = one.shown;
   p.of_second = other.shown;
   p.difference = other.shown.value - one.shown.value;
-  if (told(p.first) && told(p.second)) {
+  if (usable && told(p.first) && told(p.second)) {
     const double se = std::hypot(one.sd, other.sd);
     p.smallest_detectable = kNormal95 * se;
     p.p_value = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
@@ -355,6 +357,12 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   IdentityDifferences unlike = differences(read_run_identity(first), read_run_identity(second));
   comparison.unlike = std::move(unlike.grave);
   std::ranges::move(unlike.other, std::back_inserter(comparison.unlike));
+  const auto add_failed = [&](std::string_view which, const std::filesystem::path& folder) {
+    if (const UnpassedGates gates = read_gates(folder); !gates.failed.empty())
+      comparison.failed.push_back(fmt::format("the {} session failed: {}", which, fmt::join(gates.failed, "; ")));
+  };
+  add_failed("first", first);
+  add_failed("second", second);
   if (a.posterior != b.posterior)
     comparison.unlike.push_back(
         "one is by the posterior, the other of exact data or by the estimator of an earlier version, whose F_max and "
@@ -364,7 +372,7 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
     if (other == b.estimates.end())
       comparison.remarks.push_back(text_of(key) + " is in the first session only");
     else
-      comparison.parameters.push_back(compared(a, key, other->second));
+      comparison.parameters.push_back(compared(a, key, other->second, comparison.failed.empty()));
   }
   for (const Key& key : b.order) {
     if (!a.estimates.contains(key)) comparison.remarks.push_back(text_of(key) + " is in the second session only");

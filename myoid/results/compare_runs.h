@@ -47,6 +47,7 @@ struct RunComparison {
   std::string first_date, second_date;  ///< Days on which the results were written, as "2026-03-01" (UTC).
   std::vector<ComparedParameter> parameters;
   std::vector<ComparedTrial> trials;
+  std::vector<std::string> failed;   ///< Sessions with a failed gate, in sentences: their numbers are not compared.
   std::vector<std::string> unlike;   ///< Differences of model, person, muscles or estimator.
   std::vector<std::string> remarks;  ///< Numbers that only one session has.
 };
@@ -57,8 +58,9 @@ struct RunComparison {
 /// have a second reading, numbers and standard errors are those of the reading given geometry and sensors, because
 /// errors of moment arms, tendons and the torque's scale are the same in both sessions. A parameter with a verdict
 /// prior_dominated, not_identifiable or non_physical is not compared: both may agree on the prior alone; nor is a
-/// number of method `paper`, whose forces nobody measured. The sessions count as independent; a shared prior makes the
-/// test cautious. Throws ReadError if a folder holds no parameters.json of a run.
+/// number of method `paper`, whose forces nobody measured, nor any number of a run with a failed gate. The sessions
+/// count as independent; a shared prior makes the test cautious. Throws ReadError if a folder holds no parameters.json
+/// of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second);
 
 /// Returns the comparison as a report: table, and both intervals of every parameter side by side.

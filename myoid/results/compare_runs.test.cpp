@@ -64,6 +64,26 @@ TEST(CompareRuns, OneUnknownOfSeveralMusclesIsOneNumberAndCountsOnce) {
   EXPECT_EQ(c.parameters[0].change, Change::differs);
 }
 
+TEST(CompareRuns, ASessionWithAFailedGateTellsNoChange) {
+  const test::TemporaryFolder folder;
+  const auto first = run(folder.path() / "one", {{"BIC", 600, 5, "identified"}}, 1.0);
+  const auto second = run(folder.path() / "two", {{"BIC", 900, 5, "weak"}}, 1.0);
+  EXPECT_EQ(compare_runs(first, second).parameters[0].change, Change::differs);
+  for (const char* status : {"warn", "fail"}) {
+    recording::write_file(second / "report.json",
+                          fmt::format(R"({{"gates": [{{"name": "Markers fit", "status": "pass"}},
+                                                     {{"name": "Predicts", "status": "{}"}}]}})",
+                                      status));
+    const RunComparison c = compare_runs(first, second);
+    const bool fails = std::string_view(status) == "fail";
+    EXPECT_EQ(c.parameters[0].change, fails ? Change::cannot_tell : Change::differs);
+    EXPECT_EQ(c.failed.size(), fails ? 1U : 0U);
+    EXPECT_FALSE(fails && c.parameters[0].p_value);
+  }
+  EXPECT_THAT(changes_sentence(compare_runs(first, second)),
+              ::testing::HasSubstr("the second session failed: Predicts"));
+}
+
 TEST(CompareRuns, WhatErrsAlikeInBothSessionsHidesNoChange) {
   const test::TemporaryFolder folder;
   const auto session = [&](const char* name, double strength) {
