@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/record_list.h"
 #include "myoid/files/text_file.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/osim/osim_xml.h"
@@ -54,6 +56,17 @@ std::vector<std::string> words_of(const std::string& stem) {
 bool says_emg(const std::string& text) {
   const auto has = [&](const char* word) { return text.find(word) != std::string::npos; };
   return has("emg") || has("electromyo") || has("excitation") || has("activation");
+}
+
+/// Returns true for a folder inside the named ones that holds results of an identification, or a virtual person's
+/// truth.
+bool holds_results(const fs::path& folder) {
+  constexpr std::string_view kTruth = "truth";
+  if (recording::read_record(folder).files.contains("parameters.json")) return true;
+  if (folder.filename() != kTruth) return false;
+  const recording::RecordContent around = recording::read_record(folder.parent_path());
+  return std::ranges::any_of(around.files,
+                             [&](const auto& entry) { return entry.first.starts_with(fmt::format("{}/", kTruth)); });
 }
 
 }  // namespace
@@ -144,6 +157,10 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
     for (auto it = fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied, error);
          !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
       if (it.depth() > kDeep) it.disable_recursion_pending();
+      if (it->is_directory(error) && holds_results(it->path())) {
+        beside.results.push_back(it->path());
+        it.disable_recursion_pending();
+      }
       if (!it->is_regular_file(error)) continue;
       const auto format = recording::format_of(it->path());
       if (!format) continue;

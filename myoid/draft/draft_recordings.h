@@ -33,10 +33,12 @@ struct FoundRecording {
 struct FoundBeside {
   std::vector<std::filesystem::path> models;          ///< .osim
   std::vector<std::filesystem::path> external_loads;  ///< .xml with <ExternalLoads>.
+  std::vector<std::filesystem::path> results;         ///< Folders of this program's results; no recordings.
 };
 
 /// Finds the recordings among the files and in the folders and their folders, by name. Models and
-/// loads are added to `beside`.
+/// loads are added to `beside`. A folder that its list names the result of an identification, or the truth of a virtual
+/// recording, is left out and added there, too.
 [[nodiscard]] std::vector<std::filesystem::path> recordings_in(const std::vector<std::filesystem::path>& from,
                                                                FoundBeside& beside);
 

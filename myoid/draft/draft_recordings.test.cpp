@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/record_list.h"
 #include "myoid/tables/series_file.h"
 
 #include "tests/support/temporary_folder.h"
@@ -45,6 +46,25 @@ TEST(RecordingsIn, AFolderAreThoseWithAKnownEndingInItAndItsFolders) {
   EXPECT_EQ(files[2].filename(), "c.txt");
   EXPECT_EQ(files[3].filename(), "d.edf");
   EXPECT_EQ(beside.models.size(), 1U);
+}
+
+TEST(RecordingsIn, AFolderAreNoResultsOfThisProgram) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"lab/a.trc", "lab/truth/a.sto", "done/a/ik.sto", "mine/truth/b.trc", "ik/c.sto"})
+    recording::write_file(folder / name, "x");
+  const auto list = [&](const char* in, const std::vector<std::string>& names) {
+    std::string text(recording::kSignature);
+    for (const std::string& name : names) text += recording::record_line(std::string(64, '0'), name) + "\n";
+    recording::write_file(folder / in / recording::kRecordFile, text);
+  };
+  list("lab", {"a.trc", "truth/a.sto"});
+  list("done", {"parameters.json", "a/ik.sto"});
+  list("ik", {"c.sto"});  // a motion that a command computed is one
+  FoundBeside beside;
+  const auto files = recordings_in({folder.path()}, beside);
+  EXPECT_THAT(files, ::testing::ElementsAre(folder / "ik/c.sto", folder / "lab/a.trc", folder / "mine/truth/b.trc"));
+  EXPECT_THAT(beside.results, ::testing::UnorderedElementsAre(folder / "lab/truth", folder / "done"));
+  EXPECT_EQ(recordings_in({folder / "done"}, beside).size(), 1U) << "a folder that is named is taken";
 }
 
 TEST(FindEmg, VoltagesThatGoThroughTheirMedianOftenAreRaw) {

@@ -119,16 +119,22 @@ class TrialWriter {
       out_.line(fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the person stood on them",
                             f.plates));
     }
-    const bool measured = offer_torque(f.stem);
+    const bool measured = offer_torque(f);
     const bool needed = use == "calibration" || mass_in_name(f.stem) || !f.loads.object_markers.empty() ||
                         f.loads.only_torques;  // a maximal contraction whose torque was measured is fitted
     if (!stated && !measured && needed) ask_for_loads(f.stem, f.loads, around_.own_model, asked_for_loads_, out_);
     out_.line("");
   }
 
-  /// Offers the table of torques of a trial, which may be measured or computed; false if there is none.
-  bool offer_torque(const std::string& stem) {
-    const auto table = std::ranges::find(around_.torques, stem, stem_of_torques);
+  /// Offers the table of torques of a trial, which may be measured or computed, that beside
+  /// the motion first; false if there is none.
+  bool offer_torque(const FoundRecording& motion) {
+    auto table = around_.torques.end();
+    for (auto other = around_.torques.begin(); other != around_.torques.end(); ++other) {
+      if (stem_of_torques(*other) != motion.stem) continue;
+      const bool beside = other->parent_path() == motion.path.parent_path();
+      if (table == around_.torques.end() || beside) table = other;
+    }
     if (table == around_.torques.end()) return false;
     if (!asked_for_torque_)
       out_.todo(

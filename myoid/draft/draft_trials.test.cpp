@@ -81,7 +81,7 @@ TEST(DraftTrials, OfferATableOfTorquesOfTheirNameAndAskOnceWhetherItWasMeasured)
                                     found("pull.mot", true, false), found("pull_emg.sto", false, true)};
   DraftText out;
   draft_trials(files,
-               {.torques = {"bend_torque.sto", "hold_id.sto", "bender_torque.sto"},
+               {.torques = {"bend_torque.sto", "id/bend_torque.sto", "hold_id.sto", "bender_torque.sto"},
                 .own_model = true,
                 .relative = [](const std::filesystem::path& path) { return path.string(); }},
                out);

@@ -47,6 +47,8 @@ class Draft {
     FoundBeside beside;
     const std::vector<fs::path> files = recordings_in(options_.from, beside);
     for (const fs::path& loads : beside.external_loads) loads_data_.insert(loads_data_file(loads).lexically_normal());
+    for (const fs::path& results : beside.results)
+      draft_.notes.push_back(fmt::format("{}: results of this program, no recordings; left out", relative(results)));
     choose_model(beside.models, files);
     for (const fs::path& file : files) read(file);
     if (std::ranges::any_of(options_.from, [](const fs::path& path) { return fs::is_directory(path); }))
