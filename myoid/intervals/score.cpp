@@ -27,9 +27,13 @@ double Score::vaf() const { return sst > 0.0 ? 1.0 - error_spread_nm2 / sst : 0.
 Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
   if (measured.size() == 0) return {};
   const Eigen::VectorXd error = predicted - measured;
+  const double sst = (measured.array() - measured.mean()).square().sum();
+  // The arithmetic alone spreads a constant torque by less than this.
+  constexpr double kRounding = 1e-9;
+  const bool is_constant = sst <= kRounding * kRounding * measured.squaredNorm();
   return {.n = static_cast<double>(measured.size()),
           .sse = error.squaredNorm(),
-          .sst = (measured.array() - measured.mean()).square().sum(),
+          .sst = is_constant ? 0.0 : sst,
           .mean_nm = measured.mean(),
           .range_nm = measured.maxCoeff() - measured.minCoeff(),
           .error_spread_nm2 = (error.array() - error.mean()).square().sum()};

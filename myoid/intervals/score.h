@@ -11,7 +11,7 @@ namespace myoid::identification {
 struct Score {
   double n = 0.0;                 ///< Samples.
   double sse = 0.0;               ///< Sum of the squared errors [N^2 m^2].
-  double sst = 0.0;               ///< Sum of the squares of the torque about its mean.
+  double sst = 0.0;               ///< Sum of the squares of the torque about its mean; 0 for a constant torque.
   double mean_nm = 0.0;           ///< Mean of the measured torque.
   double range_nm = 0.0;          ///< Range of the measured torque: largest minus smallest.
   double error_spread_nm2 = 0.0;  ///< Sum of the squares of the error about its mean.

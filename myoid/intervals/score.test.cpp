@@ -19,6 +19,13 @@ TEST(Score, OfAKnownErrorIsWhatTheDefinitionsSay) {
   EXPECT_DOUBLE_EQ(score(measured, Eigen::Vector4d::Constant(1.5)).r2(), 0.0);
 }
 
+TEST(Score, OfATorqueThatIsConstantButForRoundingHasNoR2) {
+  const Eigen::VectorXd held =
+      Eigen::VectorXd::Constant(1001, -1.57) + 1e-16 * Eigen::VectorXd::LinSpaced(1001, -3.0, 3.0);
+  EXPECT_EQ(score(held, held.array() + 0.7).r2(), 0.0);
+  EXPECT_LT(score(held + 1e-3 * Eigen::VectorXd::LinSpaced(1001, -1.0, 1.0), held.array() + 0.7).r2(), -1e5);
+}
+
 TEST(R2Text, IsShortHoweverFarBelowZero) {
   EXPECT_EQ(r2_text(0.9312), "0.931");
   EXPECT_EQ(r2_text(-98.9), "-98.900");

@@ -10,13 +10,13 @@
 #include "myoid/core/wrapped_text.h"
 #include "myoid/design/design_study.h"
 #include "myoid/files/quoted_text.h"
-#include "myoid/math/statistics.h"
 #include "myoid/report/light.h"
 #include "myoid/report/muscle_names.h"
 #include "myoid/report/plain_unit.h"
 #include "myoid/report/typeset.h"
 #include "myoid/results/parameter_tables.h"
 #include "myoid/results/voluntary_report.h"
+#include "myoid/run/prediction_gates.h"
 
 namespace myoid {
 namespace {
@@ -148,12 +148,18 @@ std::string next_lines(const StudyResult& result, std::size_t width) {
   std::vector<std::string> movements;
   for (std::size_t i = 0; i < named; ++i) movements.push_back(next.plan[i].movement.description());
   const std::vector<ParameterEstimate>& then = next.plan[named - 1].expected;
-  return wrapped(
-      fmt::format("Record next: {}. Of {} numbers {} would be identified (now {}), median 95 % interval "
-                  "+-{:.0f} % (now +-{:.0f} %).",
-                  fmt::join(movements, "; "), then.size(), identified_count(then), identified_count(next.beforehand),
-                  median_half_width(then), median_half_width(next.beforehand)),
-      width);
+  const double now = median_half_width(next.beforehand), narrower = median_half_width(then);
+  const int more = identified_count(then) - identified_count(next.beforehand);
+  constexpr double kLittle = 0.95;  // of the interval
+  if (more <= 0 && narrower > kLittle * now)
+    return wrapped(fmt::format("Further movements tell little more: {} would leave the median 95 % interval at "
+                               "+-{:.0f} % (now +-{:.0f} %).",
+                               fmt::join(movements, "; "), narrower, now),
+                   width);
+  return wrapped(fmt::format("Record next: {}. The median 95 % interval would be +-{:.0f} % (now +-{:.0f} %){}.",
+                             fmt::join(movements, "; "), narrower, now,
+                             more > 0 ? fmt::format(", and {} more would be identified", more) : ""),
+                 width);
 }
 
 }  // namespace
@@ -201,16 +207,13 @@ std::string fit_sentences(const StudyResult& result, bool with_names) {
   if (weak > 0) text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
   if (const std::string truth = truth_sentence(result, *best); !truth.empty()) text += " " + truth;
   if (!result.folds.empty()) {
-    std::vector<double> ours, theirs;
-    for (const identification::Fold& f : result.folds) {
-      ours.push_back(f.identified.r2());
-      theirs.push_back(f.literature.r2());
-    }
+    // Of all together: the torque of a single trial may hardly vary, and its R2 then says nothing.
     text += fmt::format(
-        " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (median; 1 is perfect, the "
+        " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (all together; 1 is perfect, the "
         "literature's muscles with a best gain reach {:.2f}).",
-        choice_name(result.source.study.identify.folds), math::median(std::move(ours)),
-        math::median(std::move(theirs)));
+        choice_name(result.source.study.identify.folds),
+        explained(result.folds, &identification::Fold::identified).r2(),
+        explained(result.folds, &identification::Fold::literature).r2());
   }
   return text;
 }

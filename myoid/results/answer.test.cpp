@@ -103,5 +103,25 @@ TEST(AnswerText, HasAtMost24LinesOfTheWidth) {
   }
 }
 
+TEST(AnswerText, AsksForAMovementOnlyIfItTellsMore) {
+  const auto expected = [](double half_width, Verdict verdict) {
+    return std::vector{
+        number("BIC", "optimal_fiber_length", Unit::meter, 0.1 - half_width, 0.1, 0.1 + half_width, verdict)};
+  };
+  StudyResult result;
+  result.fit.methods = {triceps()};
+  const auto text_after = [&](double half_width, Verdict verdict) {
+    DesignStudyResult next;
+    next.beforehand = expected(0.02, Verdict::weak);
+    next.plan.resize(1);
+    next.plan[0].expected = expected(half_width, verdict);
+    result.next = next;
+    return answer_text(result, {}, 100);
+  };
+  EXPECT_THAT(text_after(0.0198, Verdict::weak), HasSubstr("Further movements tell little more"));
+  EXPECT_THAT(text_after(0.012, Verdict::weak), HasSubstr("Record next: "));
+  EXPECT_THAT(text_after(0.0198, Verdict::identified), HasSubstr("and 1 more would be identified"));
+}
+
 }  // namespace
 }  // namespace myoid
