@@ -9,6 +9,8 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/say.h"
 #include "myoid/core/json_text.h"
+#include "myoid/report/plain_unit.h"
+#include "myoid/report/report.h"
 #include "myoid/results/change_sentences.h"
 
 namespace myoid::cli {
@@ -52,20 +54,23 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
 void print(const RunComparison& comparison, bool all) {
   std::size_t owner = 6, parameter = 16;
   const auto labelled = [](const ComparedParameter& p) {
-    return fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit));
+    const std::string_view unit = report::plain_unit(p.first.unit).symbol;
+    return unit.empty() ? p.first.parameter : fmt::format("{} [{}]", p.first.parameter, unit);
   };
   for (const ComparedParameter& p : comparison.parameters) {
     owner = std::max(owner, in_column(p.muscle).size());
     parameter = std::max(parameter, labelled(p).size());
   }
   say("{}\n\n", changes_sentence(comparison));
+  if (const std::string reading = reading_sentence(comparison); !reading.empty()) say("{}\n\n", reading);
   say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", owner, "parameter [unit]", parameter, "first",
       "second", "difference", "%", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
     if (!rests_on_measurement(p.first.method) || (!all && p.change == Change::cannot_tell)) continue;  // in the report
+    const double per_si = report::plain_unit(p.first.unit).per_si;
     say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", in_column(p.muscle), owner, labelled(p), parameter,
-        report::format_value(p.of_first.value), report::format_value(p.of_second.value),
-        report::format_value(p.difference),
+        report::format_value(per_si * p.of_first.value), report::format_value(per_si * p.of_second.value),
+        report::format_value(per_si * p.difference),
         p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value)),
         p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }

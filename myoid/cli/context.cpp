@@ -126,6 +126,7 @@ commands::Call Context::call() const {
           .end_s = end_s,
           .command = command_line,
           .progress = progress(),
+          .stage_ended = stage_ended(),
           .listener = [this](const Remark& remark) { tell(remark); }};
 }
 
@@ -136,6 +137,11 @@ Progress Context::progress() const {
     progress.report = [bar](double share, std::string_view what) { bar->draw(share, what); };
   }
   return progress;
+}
+
+std::function<void(std::string_view, double)> Context::stage_ended() const {
+  if (quiet || isatty(STDERR_FILENO) != 0) return {};
+  return [this](std::string_view work, double seconds) { log(fmt::format("{} ... {:.1f} s", work, seconds)); };
 }
 
 void Context::end_progress() const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,8 @@ struct Context {
 
   /// Progress bar with time left on a terminal, nothing elsewhere.
   [[nodiscard]] Progress progress() const;
+  /// A line for each stage where there is no terminal.
+  [[nodiscard]] std::function<void(std::string_view work, double seconds)> stage_ended() const;
   /// Ends the line of the progress bar.
   void end_progress() const;
   /// Checks the output with --overwrite. Remembers a folder that does not exist yet.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/cli/command_help.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
@@ -12,6 +13,7 @@
 #include "myoid/intervals/score.h"
 #include "myoid/methods/plain_fit.h"
 #include "myoid/report/report.h"
+#include "myoid/results/answer.h"
 #include "myoid/results/paper_tables.h"
 #include "myoid/results/voluntary_report.h"
 
@@ -155,7 +157,13 @@ void print_contest(const identification::NamedContest& named) {
   print_basins(c.basins);
 }
 
-void print_identify(const commands::IdentifyResult& result, const commands::IdentifyOptions& o) {
+/// Prints the answer; with `all`, and for the numbers of method `paper`, which have no intervals, everything.
+void print_identify(const commands::IdentifyResult& result, const commands::IdentifyOptions& o, bool all) {
+  const bool torque = o.method == "torque";
+  if (o.method != "paper")
+    say("{}", fit_answer_text(result.fit, torque ? result.folds : std::vector<identification::Fold>(), o.folds,
+                              result.data.muscles.size(), std::min(help_width(), kAnswerColumns)));
+  if (!all && o.method != "paper") return;
   print_result(result.fit, o.method != "paper" && !result.fit.exact && result.speed_may_be_free);
   print_samples(result.fit, result.data, o);
   print_fit(result.fit, result.data, o.method == "torque");
@@ -207,8 +215,9 @@ void add_identify(CLI::App& app, Context& context) {
     if (context.json) {
       say_whole(identify_json(result));
     } else {
-      print_identify(result, o);
-      say("{}/parameters.csv\n", *out);
+      print_identify(result, o, context.verbose);
+      say("{}/parameters.csv{}\n", *out,
+          context.verbose || o.method == "paper" ? "" : "; all numbers and errors: --verbose");
     }
     if (failed(result.fit, o.method, context.strict)) context.exit_code = kQualityGateFailed;
   });

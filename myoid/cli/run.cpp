@@ -25,8 +25,6 @@ namespace {
 
 using identification::ParameterEstimate;
 
-constexpr std::size_t kWidest = 110;  // columns of the answer
-
 void print_method(const identification::IdentificationResult& method, std::size_t muscle_count) {
   const std::vector<EstimateLine> lines = estimate_lines(method, muscle_count);
   std::size_t owner = 6;
@@ -147,7 +145,7 @@ void print_everything(const StudyResult& result, const std::vector<report::Gate>
 
 /// Prints the answer, then method `paper` where it was asked for, by the command or as the study's only one.
 void print_answer(const StudyResult& result, const std::vector<report::Gate>& gates, bool with_paper) {
-  say("{}", answer_text(result, gates, std::min(help_width(), kWidest)));
+  say("{}", answer_text(result, gates, std::min(help_width(), kAnswerColumns)));
   const identification::IdentificationResult* paper = method_of(result.fit, "paper");
   if (paper != nullptr && (with_paper || result.fit.methods.size() == 1)) print_paper(*paper);
 }
@@ -169,8 +167,11 @@ commands::RunResult compute_run(Context& context, commands::RunOptions options, 
   options.call = context.call();
   options.store = std::filesystem::path(out) / commands::kStageFolder;
   commands::RunResult result = commands::run(options);
+  const auto computed = std::chrono::steady_clock::now();
   commands::write_run(result, out);
   context.end_progress();
+  if (const auto ended = context.stage_ended())
+    ended("writes files and page", std::chrono::duration<double>(std::chrono::steady_clock::now() - computed).count());
   context.log(fmt::format("{:.1f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()));
   return result;
 }
@@ -186,7 +187,8 @@ void say_run(Context& context, const commands::RunResult& result, const std::str
   } else {
     print_answer(study, result.gates, with_paper);
     if (context.verbose) print_everything(study, result.gates);
-    say("{}report: {}/report.html\n", context.verbose ? "\n" : "", out);
+    say("{0}report: {1}/report.html; with an earlier session: myoid compare EARLIER {1}\n", context.verbose ? "\n" : "",
+        out);
   }
   if (result.failed(context.strict)) context.exit_code = kQualityGateFailed;
   if (failed_trials(study.trials) > 0) context.exit_code = kSomeTrialsFailed;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Call {
   std::optional<double> start_s, end_s;  ///< Time of the data in use [s].
   std::string command;                   ///< Written into results as the command that made them.
   Progress progress;
+  /// Receives the end of each stage of a run: its work, and its seconds; may be empty.
+  std::function<void(std::string_view work, double seconds)> stage_ended = {};
   /// Receives each remark at once, also from a command that throws later; may be empty.
   std::function<void(const Remark&)> listener;
 };

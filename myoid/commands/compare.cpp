@@ -4,6 +4,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/report/write_report.h"
+#include "myoid/results/comparison_report.h"
 
 namespace myoid::commands {
 

@@ -1,5 +1,6 @@
 #include "myoid/commands/report.h"
 
+#include "myoid/commands/study_days.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_workbench.h"
@@ -12,8 +13,10 @@ namespace myoid::commands {
 ReportResult report(const ReportOptions& o) {
   const RunRecord run = read_run_record(o.folder);
   ReportResult result;
-  result.study = run_study(read_filmed_study(run.study, o.video),
-                           {.start_s = run.start_s, .end_s = run.end_s, .progress = o.call.progress});
+  result.study = run_study(
+      read_filmed_study(run.study, o.video),
+      {.start_s = run.start_s, .end_s = run.end_s, .progress = o.call.progress, .stage_ended = o.call.stage_ended});
+  add_days(result.study);
   refuse_changed(result.study.source.files, run);
   result.provenance.command = run.command.empty() ? o.call.command : run.command;
   result.provenance.inputs = result.study.source.files;

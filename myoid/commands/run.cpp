@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/recording_findings.h"
+#include "myoid/commands/study_days.h"
 #include "myoid/files/result_record.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/result_files.h"
@@ -60,8 +61,12 @@ RunResult run(const RunOptions& o) {
   Study study = read_filmed_study(o.study, o.video);
   for (const std::string& text : study.identify.without_effect) remarks.warn(text);
   if (!o.methods.empty()) study.identify.methods = o.methods;
-  result.study = run_study(
-      study, {.start_s = o.call.start_s, .end_s = o.call.end_s, .progress = o.call.progress, .store = o.store});
+  result.study = run_study(study, {.start_s = o.call.start_s,
+                                   .end_s = o.call.end_s,
+                                   .progress = o.call.progress,
+                                   .stage_ended = o.call.stage_ended,
+                                   .store = o.store});
+  add_days(result.study);
   result.gates = quality_gates(result.study);
   result.provenance.command = o.call.command;
   result.provenance.inputs = result.study.source.files;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
@@ -81,11 +82,10 @@ std::string scale() {
   return svg + "</svg>";
 }
 
-/// Returns the verdict, which a keyboard or a finger opens to read its reason.
-std::string verdict_html(const ForestRow& row) {
-  const std::string verdict = fmt::format("<span class=\"badge {}\">{}</span>", name(row.badge), typeset(row.verdict));
-  if (row.why.empty()) return verdict;
-  return fmt::format("<details class=\"why\"><summary>{}</summary>{}</details>", verdict, typeset(row.why));
+/// Returns a text, which a keyboard or a finger opens to read the sentence behind it.
+std::string opening(const std::string& shown, const std::string& sentence) {
+  if (sentence.empty()) return shown;
+  return fmt::format("<details class=\"why\"><summary>{}</summary>{}</details>", shown, typeset(sentence));
 }
 
 std::string row_html(const ForestRow& row, bool first) {
@@ -95,9 +95,9 @@ std::string row_html(const ForestRow& row, bool first) {
       "<td class=\"number wide-only\">{}</td><td class=\"number wide-only\">{}</td>"
       "<td>{}</td></tr>\n",
       first ? " class=\"first\"" : "", escape_xml(row.verdict), escape_xml(typographic(row.why)),
-      typeset(spelled(row.owner)), typeset(row.name), bar(row), number(row, row.estimate),
+      typeset(spelled(row.owner)), opening(typeset(row.name), row.about), bar(row), number(row, row.estimate),
       row.unit.empty() ? "" : " " + escape_xml(row.unit), interval(row), given_interval(row), prior(row),
-      verdict_html(row));
+      opening(fmt::format("<span class=\"badge {}\">{}</span>", name(row.badge), typeset(row.verdict)), row.why));
 }
 
 /// The advice on numbers of a verdict, the best verdict first.
@@ -130,12 +130,33 @@ std::string legend(const std::vector<ForestRow>& rows) {
   return text + "</p>\n";
 }
 
+/// Returns a paragraph on the numbers whose readings differ by more than the second one allows.
+std::string readings_differ(const std::vector<ForestRow>& rows) {
+  std::vector<std::string> names;
+  for (const ForestRow& row : rows) {
+    const bool told = row.badge == Badge::good || row.badge == Badge::repeat || row.badge == Badge::weak;
+    if (told && has_given(row) && (row.estimate < *row.given_lower || row.estimate > *row.given_upper))
+      names.push_back(fmt::format("{} {}", spelled(row.owner), row.name));
+  }
+  return names.empty() ? "" : fmt::format("<p class=\"caption\">{}</p>\n", typeset(outside_given_sentence(names)));
+}
+
 }  // namespace
+
+std::string outside_given_sentence(const std::vector<std::string>& names) {
+  if (names.empty()) return "";
+  return fmt::format(
+      "The person's number of {} lies outside its interval given geometry and sensors: the recording speaks for moment "
+      "arms, tendons or sensors other than assumed, and only the person's number follows that.",
+      fmt::join(names, ", "));
+}
 
 std::string forest_html(const std::vector<ForestRow>& rows) {
   if (rows.empty()) return "";
-  std::string text = "<figure id=\"forest\" class=\"forest\">\n" + legend(rows) +
-                     "<table><thead><tr><th>muscle</th><th>number</th><th class=\"bar\">" + scale() +
+  std::string text = "<figure id=\"forest\" class=\"forest\">\n" + legend(rows) + readings_differ(rows) +
+                     "<table><caption>Each number beside the literature's. A name opens its meaning, a verdict its "
+                     "reason.</caption><thead><tr><th>muscle</th><th>number</th><th class=\"bar\">" +
+                     scale() +
                      "</th><th>estimate</th><th>95 % interval</th>"
                      "<th class=\"wide-only\">given geometry and sensors</th>"
                      "<th class=\"wide-only\">literature, 95 %</th><th>verdict</th></tr></thead>\n<tbody>\n";

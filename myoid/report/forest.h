@@ -13,4 +13,8 @@ namespace myoid::report {
 /// scale become arrows. The table's cells hold the numbers as text. Empty without rows.
 [[nodiscard]] std::string forest_html(const std::vector<ForestRow>& rows);
 
+/// Returns a sentence on numbers of the person that lie outside their intervals given geometry and sensors; empty
+/// without a name.
+[[nodiscard]] std::string outside_given_sentence(const std::vector<std::string>& names);
+
 }  // namespace myoid::report

@@ -1,12 +1,15 @@
 #include "myoid/report/html.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/report/change_forest.h"
 #include "myoid/report/forest.h"
 #include "myoid/report/light.h"
+#include "myoid/report/page_style.h"
 #include "myoid/report/strip_grid.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
@@ -15,92 +18,6 @@
 
 namespace myoid::report {
 namespace {
-
-constexpr std::string_view kStyle = R"(
-:root { color-scheme: light; }
-* { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1640px; padding: 28px 24px 60px; background: #fff; color: #22262b;
-  font: 15px/1.5 Helvetica, Arial, sans-serif; }
-h1, h2, h3, p, li, figcaption { overflow-wrap: anywhere; }
-h1 { font-size: 26px; line-height: 1.2; margin: 0 0 2px; }
-h2 { font-size: 19px; margin: 38px 0 8px; padding-bottom: 4px; border-bottom: 1px solid #d5d9de; }
-h3 { font-size: 15px; margin: 22px 0 4px; }
-p { margin: 6px 0 10px; max-width: 74ch; }
-.subtitle, .caption, .hints { color: #5a626b; }
-.caption, .hints { font-size: 13px; }
-.headline { font-size: 17px; margin: 16px 0 12px; max-width: 90ch; }
-.light { display: flex; gap: 14px; align-items: center; margin: 12px 0; padding: 10px 14px; border: 1px solid; border-radius: 8px; }
-.light p { margin: 0; max-width: 100ch; } .light ul { margin: 4px 0 0; padding-left: 18px; max-width: 100ch; } .light svg { flex: none; fill: currentColor; }
-.light .sign { fill: none; stroke: #fff; stroke-width: 4; }
-.forest { margin: 10px 0 22px; }
-.forest table { width: 100%; max-width: 1180px; }
-.forest td, .forest th { padding: 1px 12px 1px 0; vertical-align: middle; }
-.forest .bar { width: 28%; min-width: 120px; overflow: visible; padding-right: 22px; }
-.forest svg.bar { width: 100%; display: block; padding: 0; }
-.forest .number, .forest .badge { white-space: nowrap; }
-.forest .bar text { font-size: 11px; fill: #5a626b; }
-.forest .prior { fill: #dfe3e8; background: #dfe3e8; } .forest .middle { stroke: #8a9097; stroke-dasharray: 2 3; }
-.forest .truth { stroke: #111; stroke-width: 2; background: #111; }
-.legend { font-size: 13px; max-width: none; margin: 6px 0; } .legend span { display: inline-block; margin-right: 18px; }
-.legend i { display: inline-block; width: 24px; height: 10px; } .legend i.truth { width: 3px; height: 14px; vertical-align: -2px; }
-.mark { vertical-align: -3px; }
-.forest td { border-bottom: 0; } .forest tr.first td { border-top: 1px solid #d5d9de; }
-.forest tr:not(.first) td:first-child { color: #a8aeb5; }
-.beside th { padding-top: 10px; color: #5a626b; }
-details.reading { font-size: 13px; margin: 4px 0; } .reading summary { color: #1f5fa8; cursor: pointer; }
-details.part > summary { cursor: pointer; } details.part h2 { display: inline-block; }
-.reading dl { margin: 6px 0; max-width: 90ch; } .reading dt { font-weight: 600; } .reading dd { margin: 0 0 6px; }
-nav { display: flex; flex-wrap: wrap; font-size: 13px; margin: 12px 0 0; padding: 6px 0; position: sticky; top: 0; z-index: 20; background: #fff; }
-h2 { scroll-margin-top: 44px; }
-.why > summary { cursor: pointer; list-style: none; } .why > summary::-webkit-details-marker { display: none; }
-.why[open] { max-width: 40ch; white-space: normal; }
-.refused .forest td, .refused .headline { color: #767d85; } .refused .forest svg.bar { opacity: .45; }
-nav a { margin-right: 14px; white-space: nowrap; }
-a { color: #1f5fa8; }
-.grid { margin: 10px 0 26px; }
-.grid table { width: 100%; table-layout: fixed; max-width: 1400px; }
-.grid th, .grid td { padding: 0 14px 0 0; border-bottom: 1px solid #eef0f2; vertical-align: middle; }
-.grid th:first-child, .grid td:first-child { width: 15%; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-.grid thead th { vertical-align: bottom; padding-top: 6px; } .grid thead small { display: flex; justify-content: space-between; font-weight: 400; color: #5a626b; }
-.grid tbody tr:hover td, .grid tbody tr:focus-within td { background: #f3f6fa; }
-.grid svg.strip { width: 100%; height: 20px; display: block; overflow: visible; }
-.grid .spread { fill: #e6eaef; } .grid .middle { stroke: #8a9097; stroke-dasharray: 2 3; } .grid .truth { stroke: #111; stroke-width: 2; }
-.grid .ring { fill: none; stroke: #b3261e; stroke-width: 2; } .grid .untold { opacity: .35; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 13px; margin: 6px 0; }
-th, td { text-align: left; vertical-align: top; padding: 4px 12px 4px 0; border-bottom: 1px solid #e6e8eb; }
-th { font-weight: 600; border-bottom: 1px solid #8a9097; vertical-align: bottom; }
-td { font-variant-numeric: tabular-nums; }
-td.short { white-space: nowrap; }
-.badge { display: inline-block; padding: 0 7px; border-radius: 9px; font-size: 12px; font-weight: 600;
-  white-space: nowrap; border: 1px solid; }
-.pass, .good { color: #14602f; background: #e4f4e9; border-color: #9fd3b1; }
-.warn, .weak { color: #7a4b00; background: #fff3d6; border-color: #e8c778; }
-.fail, .bad { color: #8e1c1c; background: #fde6e4; border-color: #eba8a2; }
-.info { color: #24507f; background: #e6f0fa; border-color: #a9c8e8; }
-.repeat { color: #5b2a6c; background: #f4eaf7; border-color: #cfaedb; }
-figure { margin: 18px 0; break-inside: avoid; }
-figure > svg { width: 100%; max-width: 1000px; height: auto; display: block; }
-.save { font-size: 12px; margin: 2px 0; }
-figcaption { font-size: 13px; color: #5a626b; margin-top: 4px; }
-figcaption b { color: #22262b; }
-ul { margin: 6px 0; padding-left: 20px; }
-li { margin: 3px 0; max-width: 74ch; }
-@media (max-width: 760px) { body { padding: 16px 12px 40px; } .wide-only { display: none; } .forest { font-size: 12px; }
-  .forest td, .forest th, .grid td, .grid th { padding-right: 6px; } .grid { font-size: 12px; overflow-x: auto; } .grid table { min-width: 620px; }
-  .grid th:first-child, .grid td:first-child { width: 24%; } .forest .bar { min-width: 70px; }
-  nav { flex-wrap: nowrap; overflow-x: auto; }
-  .gates table { min-width: 0; } .gates thead { display: none; } .gates tr { display: block; padding: 8px 0; border-bottom: 1px solid #e6e8eb; }
-  .gates td { display: block; border: 0; padding: 1px 0; } .gates td:nth-child(2) { font-weight: 600; }
-  .gates td:nth-child(3)::before { content: "Found: "; } .gates td:nth-child(4)::before { content: "Asked for: "; } }
-@media (max-width: 560px) { .forest .bar { display: none; } }
-@media (prefers-reduced-motion: reduce) { * { animation: none !important; transition: none !important; scroll-behavior: auto !important; } }
-code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
-@media print { body { max-width: none; padding: 0; font-size: 11pt; } nav { display: none; }
-  h2, h3 { break-after: avoid; } tr { break-inside: avoid; } a { color: inherit; text-decoration: none; }
-  .badge, .light, .forest, .grid { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  .forest tr, .grid tr { break-inside: avoid; } .save, details:not([open]):not(.why) { display: none; } @page { size: A4; margin: 14mm; } }
-)";
 
 constexpr std::size_t kMostInTitle = 200;  // characters
 
@@ -111,7 +28,8 @@ constexpr std::size_t kShortCell = 30;
 std::string gates_html(const std::vector<Gate>& gates) {
   if (gates.empty()) return "";
   std::string text =
-      "<div class=\"wide gates\"><table><thead><tr><th></th><th>Question</th><th>Found</th>"
+      "<div class=\"wide gates\"><table><caption>Questions about the recording and the fit, the worst answers "
+      "first.</caption><thead><tr><th></th><th>Question</th><th>Found</th>"
       "<th>Asked for</th><th>What follows</th></tr></thead><tbody>\n";
   for (const auto& [status, word] : {std::pair{GateStatus::fail, "failed"}, std::pair{GateStatus::warn, "caution"},
                                      std::pair{GateStatus::pass, "passed"}, std::pair{GateStatus::info, "note"}}) {
@@ -135,21 +53,33 @@ std::string part_html(std::string_view id, std::string_view heading, std::string
   return fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n{}</section>\n", escape_xml(id), typeset(heading), content);
 }
 
+/// Returns the words that name a row: its first cell, and the second unless it holds a number.
+std::string name_of(const std::vector<Cell>& row) {
+  const bool named_twice =
+      row.size() > 2 && !row[1].text.empty() && std::isalpha(static_cast<unsigned char>(row[1].text.front()));
+  return named_twice ? row[0].text + ' ' + row[1].text : row.front().text;
+}
+
 std::string table_html(const Table& table) {
   std::string text = fmt::format("<h3 id=\"{}\">{}</h3>\n", escape_xml(table.id), typeset(table.title));
-  if (!table.caption.empty()) text += fmt::format("<p class=\"caption\">{}</p>\n", typeset(table.caption));
-  text += "<div class=\"wide\"><table aria-labelledby=\"" + escape_xml(table.id) + "\"><thead><tr>";
+  // On paper the reason of a number stands below it, over the whole width.
+  const bool reasons = !table.columns.empty() && table.columns.back() == "why";
+  text += fmt::format("<div class=\"wide{}\"><table aria-labelledby=\"{}\">", reasons ? " reasons" : "",
+                      escape_xml(table.id));
+  if (!table.caption.empty()) text += fmt::format("<caption>{}</caption>", typeset(table.caption));
+  text += "<thead><tr>";
   for (const std::string& column : table.columns) text += fmt::format("<th>{}</th>", typeset(column));
   text += "</tr></thead><tbody>\n";
   std::vector<std::string> hints;
   for (const std::vector<Cell>& row : table.rows) {
     text += "<tr>";
-    for (const Cell& cell : row) {
+    const bool several = std::ranges::count_if(row, [](const Cell& cell) { return !cell.hint.empty(); }) > 1;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const Cell& cell = row[c];
       const std::string hint = cell.hint.empty() ? "" : fmt::format(" title=\"{}\"", escape_xml(cell.hint));
       if (!cell.hint.empty()) {
-        // The first two cells name a row: muscle and parameter.
-        const std::string row_name = row.size() > 2 ? row[0].text + ' ' + row[1].text : row.front().text;
-        const std::string line = fmt::format("{}: {}", row_name, cell.hint);
+        const std::string of = several ? ", " + table.columns[c] : "";
+        const std::string line = fmt::format("{}{}: {}", name_of(row), of, cell.hint);
         if (std::ranges::find(hints, line) == hints.end()) hints.push_back(line);
       }
       const std::string inner = cell.badge == Badge::none ? typeset(cell.text)
@@ -202,6 +132,7 @@ std::string section_html(const Section& section) {
   std::string text;
   for (const std::string& paragraph : section.paragraphs) text += fmt::format("<p>{}</p>\n", typeset(paragraph));
   text += gates_html(section.gates);
+  text += change_forest_html(section.changes);
   for (const StripGrid& grid : section.grids) text += strip_grid_html(grid);
   for (const Table& table : section.tables) text += table_html(table);
   for (const Figure& figure : section.figures) text += figure_html(figure);
@@ -209,6 +140,19 @@ std::string section_html(const Section& section) {
   return fmt::format(
       "<section>\n<details class=\"part\"><summary><h2 id=\"{}\">{}</h2></summary>\n{}</details>\n</section>\n",
       escape_xml(section.id), typeset(section.heading), text);
+}
+
+std::string answers_html(const std::vector<Answer>& answers) {
+  if (answers.empty()) return "";
+  std::string text = "<dl class=\"answers\">\n";
+  for (const Answer& answer : answers) {
+    const std::string question = typeset(answer.question);
+    text += fmt::format(
+        "<dt>{}</dt><dd>{}</dd>\n",
+        answer.section.empty() ? question : fmt::format("<a href=\"#{}\">{}</a>", escape_xml(answer.section), question),
+        typeset(answer.text));
+  }
+  return text + "</dl>\n";
 }
 
 /// Returns the scripts of the workbench: its values, its scenes and the program that shows them.
@@ -227,7 +171,7 @@ std::string head_html(const Report& report, bool live) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{}</title>\n{}<style>{}{}</style>\n</head>\n",
       escape_xml(recording::elided(report.title, kMostInTitle)),
-      live ? fmt::format("<!-- The script below contains three.js:\n\n{}-->\n", bundle.license) : "", kStyle,
+      live ? fmt::format("<!-- The script below contains three.js:\n\n{}-->\n", bundle.license) : "", page_style(),
       live ? bundle.report : "");
 }
 
@@ -240,12 +184,9 @@ std::string html(const Report& report, const Workbench* workbench) {
   text += fmt::format("<body{}>\n<header>\n<h1>{}</h1>\n", refused ? " class=\"refused\"" : "",
                       escape_xml(recording::elided(report.title, kMostInTitle)));
   if (!report.subtitle.empty()) text += fmt::format("<div class=\"subtitle\">{}</div>\n", typeset(report.subtitle));
-  if (!report.headline.empty()) {
-    const bool next = std::ranges::any_of(report.sections, [](const Section& section) { return section.id == "next"; });
-    text += fmt::format("<p class=\"headline\">{}{}</p>\n", typeset(report.headline),
-                        next ? " <a href=\"#next\">What to record next</a>" : "");
-  }
   text += light_html(report.gates);
+  if (!report.headline.empty()) text += fmt::format("<p class=\"headline\">{}</p>\n", typeset(report.headline));
+  text += answers_html(report.answers);
   for (const Link& link : report.links)
     text += fmt::format("<p><a href=\"{}\">{}</a></p>\n", recording::url_path(link.file), typeset(link.text));
   text += "</header>\n<nav class=\"contents\">";
@@ -277,7 +218,9 @@ std::string html(const Report& report, const Workbench* workbench) {
       rows +=
           fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escape_xml(row.what), escape_xml(row.value));
     text += part_html("provenance", "Where this comes from",
-                      "<div class=\"wide\"><table><tbody>\n" + rows + "</tbody></table></div>\n");
+                      "<div class=\"wide facts\"><table><caption>Files with their hashes, times of the stages, "
+                      "options.</caption><tbody>\n" +
+                          rows + "</tbody></table></div>\n");
   }
   text += "</main>\n";
   if (live) text += scripts_html(report, *workbench);

@@ -1,8 +1,10 @@
 #include "myoid/report/json_values.h"
 
 #include <cmath>
+#include <vector>
 
 #include "myoid/core/json_text.h"
+#include "myoid/report/packing.h"
 
 namespace myoid::report {
 
@@ -14,6 +16,21 @@ ordered_json number_or_null(const std::optional<double>& value) {
 
 ordered_json matrix_json(const Eigen::MatrixXd& matrix) {
   return array_of(matrix.rowwise(), [](const auto& row) { return array_of(row, number_or_null); });
+}
+
+ordered_json packed_json(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  const PackedNumbers p = packed(values);
+  return {{"lower", p.lower}, {"upper", p.upper}, {"codes", packed_codes(p.codes)}};
+}
+
+ordered_json clock_json(const Eigen::VectorXd& time_s) {
+  const Eigen::Index n = time_s.size();
+  const double step = n > 1 ? (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1) : 0.0;
+  bool even = true;
+  for (Eigen::Index i = 0; i < n; ++i)
+    even = even && std::abs(time_s[i] - time_s[0] - static_cast<double>(i) * step) < 1e-7;
+  if (even) return {{"start", time_s[0]}, {"step", step}, {"count", n}};
+  return {{"times", base64(std::vector<float>(time_s.begin(), time_s.end()))}};
 }
 
 ordered_json provenance_json(const Provenance& provenance) {

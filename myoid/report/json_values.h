@@ -17,6 +17,12 @@ namespace myoid::report {
 /// Returns an array of the rows of a matrix.
 [[nodiscard]] nlohmann::ordered_json matrix_json(const Eigen::MatrixXd& matrix);
 
+/// Returns numbers in steps (packing.h), with the ends of their range.
+[[nodiscard]] nlohmann::ordered_json packed_json(const Eigen::Ref<const Eigen::VectorXd>& values);
+
+/// Returns an even clock as start, step and count, any other as 32-bit numbers.
+[[nodiscard]] nlohmann::ordered_json clock_json(const Eigen::VectorXd& time_s);
+
 /// Returns program, version, command, inputs with their SHA-256, and options.
 [[nodiscard]] nlohmann::ordered_json provenance_json(const Provenance& provenance);
 

@@ -11,17 +11,16 @@ namespace myoid::report {
 
 /// The meaning of a curve. It decides how the curve is drawn, alike in every figure.
 enum class Role {
-  reference,      ///< Measured, or the reference of the others: solid blue.
-  literature,     ///< Computed with the literature's parameters: dashed grey.
-  identified,     ///< Computed with the identified parameters: dashed orange-red.
-  truth,          ///< Known truth of a virtual recording: solid black, thin.
-  raw,            ///< As recorded, before processing: thin light grey.
-  band,           ///< Area between y and y_upper: light.
-  unseen,         ///< Predicted without this recording: dash-dotted green.
-  range,          ///< Area between y and y_upper that the recording visited: grey.
-  norm,           ///< Area between y and y_upper of a group of people: light blue.
-  points,         ///< Markers without a line; with y_lower/y_upper an error bar.
-  points_beside,  ///< The same of a second group, in another color and shape.
+  reference,   ///< Measured, or the reference of the others: solid blue.
+  literature,  ///< Computed with the literature's parameters: dashed grey.
+  identified,  ///< Computed with the identified parameters: dashed orange-red.
+  truth,       ///< Known truth of a virtual recording: solid black, thin.
+  raw,         ///< As recorded, before processing: thin light grey.
+  band,        ///< Area between y and y_upper: light.
+  unseen,      ///< Predicted without this recording: dash-dotted green.
+  range,       ///< Area between y and y_upper that the recording visited: grey.
+  norm,        ///< Area between y and y_upper of a group of people: light blue.
+  points,      ///< Markers without a line; with y_lower/y_upper an error bar.
 };
 
 /// A curve. x and y have equal lengths; NaN in y is a gap. `y_upper` (and `y_lower` for points)
@@ -104,6 +103,7 @@ struct ForestRow {
   std::string verdict;                         ///< "identified"
   Badge badge = Badge::none;                   ///< Badge of the verdict; determines color and shape.
   std::string why;                             ///< The reason of the verdict, a sentence.
+  std::string about{};                         ///< The meaning of the number, a sentence.
   bool beside = false;                         ///< A number of an electrode or a joint, below the muscles' numbers.
 };
 
@@ -142,6 +142,27 @@ struct StripGrid {
   std::vector<StripRow> rows{};
 };
 
+/// A number of one session.
+struct SessionValue {
+  double value = 0.0;
+  std::optional<double> lower{}, upper{};  ///< 95 % interval.
+};
+
+/// A number of two sessions.
+struct ChangeRow {
+  std::string owner, name, unit;
+  SessionValue first, second;
+  std::optional<double> detectable;  ///< The smallest change that the recordings detect; empty: not compared.
+  std::string verdict;
+  Badge badge = Badge::none;
+};
+
+/// Numbers of two sessions: a row a number.
+struct ChangeForest {
+  std::string first, second;  ///< Names of the sessions.
+  std::vector<ChangeRow> rows{};
+};
+
 /// Another file of the run, by its name relative to the report.
 struct Link {
   std::string text;
@@ -158,6 +179,7 @@ struct Section {
   std::vector<Table> tables{};
   std::vector<Figure> figures{};
   std::vector<StripGrid> grids{};  ///< Before the tables on the page.
+  ChangeForest changes{};          ///< Before the tables; may be empty.
 };
 
 struct ProvenanceRow {
@@ -165,11 +187,19 @@ struct ProvenanceRow {
   std::string value;
 };
 
+/// The answer to a question that a reader has at first sight.
+struct Answer {
+  std::string question;
+  std::string text;
+  std::string section{};  ///< Id of the section that tells more; empty: none.
+};
+
 /// All results of a run for a reader, as a value without any formatting.
 struct Report {
   std::string title;
   std::string subtitle{};           ///< Who, when, which data.
   std::string headline{};           ///< The result in two or three sentences.
+  std::vector<Answer> answers{};    ///< Further results, below the headline.
   std::vector<Link> links{};        ///< Beside the report, to look at.
   std::vector<Gate> gates{};        ///< First of all: may the numbers below be believed?
   std::vector<ForestRow> forest{};  ///< All numbers in one picture; may be empty.

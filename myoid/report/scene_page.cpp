@@ -61,9 +61,7 @@ ordered_json model_json(const Scene& scene) {
     return ordered_json{{"name", m.name}, {"point", point_json(m.point)}};
   };
   const auto coordinate = [](const SceneCoordinate& c) { return ordered_json{{"name", c.name}, {"unit", c.unit}}; };
-  return {{"name", scene.name},
-          {"notes", scene.notes},
-          {"up", vector_json(scene.up)},
+  return {{"up", vector_json(scene.up)},
           {"bodies", array_of(scene.bodies, body_json)},
           {"markers", array_of(scene.markers, marker)},
           {"surfaces", array_of(scene.surfaces, surface_json)},
@@ -94,29 +92,43 @@ std::vector<Vec3> points_of(const Scene& scene) {
   return points;
 }
 
-std::string packed_points(const PackingBox& box, const std::vector<Vec3>& points) {
+/// `columns` codes are a row, of which the next row differs little.
+std::string packed_points(const PackingBox& box, const std::vector<Vec3>& points, std::size_t columns = 3) {
   std::vector<std::uint16_t> numbers;
   for (const Vec3& p : points) pack(box, p, numbers);
-  return base64(numbers);
+  return packed_codes(numbers, columns);
 }
 
 ordered_json lines_json(const Scene& scene, const PackingBox& box) {
   std::vector<std::uint16_t> counts, points;
+  std::size_t of_frame = 0;
+  bool alike = true;  // every line has as many points in each frame
   for (const auto& frame : scene.lines_m) {
-    for (const auto& line : frame) {
+    for (std::size_t k = 0; k < frame.size(); ++k) {
+      const auto& line = frame[k];
+      if (&frame == scene.lines_m.data()) of_frame += line.size();
+      alike = alike && line.size() == scene.lines_m.front()[k].size();
       counts.push_back(static_cast<std::uint16_t>(line.size()));
       for (const Vec3& p : line) pack(box, p, points);
     }
   }
-  return {{"muscles", scene.moving_muscles}, {"counts", base64(counts)}, {"points", base64(points)}};
+  const std::size_t columns = alike && of_frame > 0 ? 3 * of_frame : 3;
+  return {{"muscles", scene.moving_muscles},
+          {"counts", packed_codes(counts, std::max<std::size_t>(1, scene.moving_muscles.size()))},
+          {"columns", columns},
+          {"points", packed_codes(points, columns)}};
 }
 
 ordered_json values_json(const SceneValues& values) {
   std::vector<std::uint16_t> numbers;
   numbers.reserve(static_cast<std::size_t>(values.value.size()));
+  const auto scene_muscles = static_cast<std::size_t>(values.value.cols());
   for (Eigen::Index f = 0; f < values.value.rows(); ++f)
     for (Eigen::Index m = 0; m < values.value.cols(); ++m) numbers.push_back(pack(values.value(f, m), values.top));
-  return {{"name", values.name}, {"unit", values.unit}, {"top", values.top}, {"numbers", base64(numbers)}};
+  return {{"name", values.name},
+          {"unit", values.unit},
+          {"top", values.top},
+          {"numbers", packed_codes(numbers, std::max<std::size_t>(1, scene_muscles))}};
 }
 
 ordered_json measured_json(const Scene& scene, const PackingBox& box) {
@@ -126,7 +138,8 @@ ordered_json measured_json(const Scene& scene, const PackingBox& box) {
   };
   return {{"names", scene.measured_markers},
           {"markers", array_of(scene.measured_markers, number_of)},
-          {"points", packed_points(box, measured_points(scene))}};
+          {"points",
+           packed_points(box, measured_points(scene), std::max<std::size_t>(3, 3 * scene.measured_markers.size()))}};
 }
 
 ordered_json load_json(const SceneLoad& load, const PackingBox& box) {
@@ -136,32 +149,29 @@ ordered_json load_json(const SceneLoad& load, const PackingBox& box) {
     pack(box, load.point_m.row(f).transpose(), points);
     for (Eigen::Index k = 0; k < 3; ++k) forces.push_back(static_cast<float>(load.force_n(f, k)));
   }
-  return {{"name", load.name}, {"points", base64(points)}, {"forces", base64(forces)}};
+  return {{"name", load.name}, {"points", packed_codes(points, 3)}, {"forces", base64(forces)}};
 }
 
-ordered_json scene_json(const Scene& scene) {
+/// `model`: number of its model on the page.
+ordered_json scene_json(const Scene& scene, std::size_t model) {
   const std::vector<Vec3> points = points_of(scene);
   const PackingBox box = packing_box(points);
   std::vector<std::uint16_t> positions, rotations;
-  std::vector<float> times, coordinates;
-  for (std::size_t f = 0; f < scene.poses.size(); ++f) {
-    const auto row = static_cast<Eigen::Index>(f);
-    times.push_back(static_cast<float>(scene.time_s[row]));
-    for (Eigen::Index c = 0; c < scene.coordinate_values.cols(); ++c)
-      coordinates.push_back(static_cast<float>(scene.coordinate_values(row, c)));
-    for (const Pose& pose : scene.poses[f]) {
+  for (const std::vector<Pose>& frame : scene.poses) {
+    for (const Pose& pose : frame) {
       pack(box, pose.p, positions);
       pack(pose.R, rotations);
     }
   }
-  ordered_json j = model_json(scene);
+  const std::size_t bodies = scene.bodies.size();
+  ordered_json j{{"name", scene.name}, {"notes", scene.notes}, {"model", model}};
   j.update({{"frames", scene.time_s.size()},
-            {"times", base64(times)},
+            {"times", clock_json(scene.time_s)},
             {"origin", {box.origin.x(), box.origin.y(), box.origin.z()}},
             {"step", box.step},
-            {"positions", base64(positions)},
-            {"rotations", base64(rotations)},
-            {"angles", base64(coordinates)},
+            {"positions", packed_codes(positions, 3 * bodies)},
+            {"rotations", packed_codes(rotations, 4 * bodies)},
+            {"angles", array_of(scene.coordinate_values.colwise(), packed_json)},
             {"lines", lines_json(scene, box)},
             {"values", array_of(scene.values, values_json)}});
   if (!scene.loads.empty())
@@ -188,7 +198,7 @@ ordered_json mesh_json(const SceneMesh& mesh) {
           {"step", box.step},
           {"vertices", packed_points(box, mesh.vertices_m)},
           {"wide", is_wide},
-          {"corners", is_wide ? base64(wide) : base64(narrow)}};
+          {"corners", is_wide ? base64(wide) : packed_codes(narrow, 3)}};
 }
 
 void validate(const SceneMesh& mesh) {
@@ -222,10 +232,19 @@ bool has_viewer() { return !viewer_bundle().script.empty(); }
 std::string scenes_json(const ScenePage& page) {
   validate_meshes(page);
   for (const Scene& scene : page.scenes) validate(scene);
+  ordered_json models = ordered_json::array(), scenes = ordered_json::array();
+  for (const Scene& scene : page.scenes) {
+    // Most trials have one model.
+    ordered_json model = model_json(scene);
+    const auto same = std::ranges::find(models, model);
+    scenes.push_back(scene_json(scene, static_cast<std::size_t>(same - models.begin())));
+    if (same == models.end()) models.push_back(std::move(model));
+  }
   return embedded({{"title", page.title},
                    {"subtitle", page.subtitle},
                    {"meshes", array_of(page.meshes, mesh_json)},
-                   {"scenes", array_of(page.scenes, scene_json)}});
+                   {"models", std::move(models)},
+                   {"scenes", std::move(scenes)}});
 }
 
 std::string scene_page(const ScenePage& page) {

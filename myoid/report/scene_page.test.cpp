@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 
+#include "tests/support/packed_codes.h"
 #include "tests/support/small_scene.h"
 
 namespace myoid::report {
@@ -43,17 +44,21 @@ TEST_F(ScenePageTest, HoldsEveryNameAndNumberOfFrames) {
   const json& scene = j["scenes"][1];
   EXPECT_EQ(scene["name"], "flex <slow>");
   EXPECT_EQ(scene["frames"], 2);
-  EXPECT_EQ(scene["bodies"][1]["name"], "forearm");
-  EXPECT_EQ(scene["bodies"][1]["sticks"][0][1], json({0.0, -0.25, 0.0}));
-  EXPECT_EQ(scene["muscles"][0]["points"][1], json({1, 0.02, -0.04, 0.0}));
-  EXPECT_EQ(scene["muscles"][1]["points"], json::array());
+  // Both trials have one model.
+  ASSERT_EQ(j["models"].size(), 1U);
+  EXPECT_EQ(scene["model"], 0);
+  const json& model = j["models"][0];
+  EXPECT_EQ(model["bodies"][1]["name"], "forearm");
+  EXPECT_EQ(model["bodies"][1]["sticks"][0][1], json({0.0, -0.25, 0.0}));
+  EXPECT_EQ(model["muscles"][0]["points"][1], json({1, 0.02, -0.04, 0.0}));
+  EXPECT_EQ(model["muscles"][1]["points"], json::array());
   EXPECT_EQ(scene["lines"]["muscles"], json({1}));
-  EXPECT_EQ(scene["lines"]["counts"], "AgADAA==");  // 2 and 3 points
+  EXPECT_EQ(test::read_codes(scene["lines"]["counts"]), (std::vector<int>{2, 3}));
   EXPECT_EQ(scene["values"][0]["unit"], "N");
-  // Frame by frame: 0.1 and 0.2 of 65534, all of it, missing.
-  EXPECT_EQ(scene["values"][0]["numbers"], "mRkzM/7///8=");
+  // Frame by frame: 0.1 and 0.2 of 4094, all of it, missing.
+  EXPECT_EQ(test::read_codes(scene["values"][0]["numbers"], 2), (std::vector<int>{409, 819, 4094, 4095}));
   EXPECT_EQ(scene["measured"]["markers"], json({0}));
-  EXPECT_EQ(scene["surfaces"][0]["kind"], "cylinder");
+  EXPECT_EQ(model["surfaces"][0]["kind"], "cylinder");
 }
 
 TEST_F(ScenePageTest, IsOneFileThatLoadsNothing) {
@@ -83,8 +88,8 @@ TEST_F(ScenePageTest, HoldsEachMeshOnce) {
   for (Scene& scene : page.scenes) scene.bodies[1].meshes = {0};
   const json j = data_of(scene_page(page));
   EXPECT_EQ(j["meshes"].size(), 1U);
-  EXPECT_EQ(j["meshes"][0]["corners"], "AAABAAIA");
-  EXPECT_EQ(j["scenes"][1]["bodies"][1]["meshes"], json({0}));
+  EXPECT_EQ(test::read_codes(j["meshes"][0]["corners"], 3), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(j["models"][j["scenes"][1]["model"].get<std::size_t>()]["bodies"][1]["meshes"], json({0}));
   page.meshes[0].triangles[0][2] = 3;
   EXPECT_THROW((void)scene_page(page), InvalidInput);
   page.meshes.clear();

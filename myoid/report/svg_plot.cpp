@@ -21,7 +21,7 @@ constexpr double kRight = 12.0;
 constexpr double kTop = 24.0;
 constexpr double kBottom = 42.0;
 constexpr double kLegendRow = 18.0;
-constexpr std::size_t kBinsPerPanel = 200;
+constexpr double kBinWidth = 3.0;
 
 struct Style {
   const char* color;
@@ -31,17 +31,16 @@ struct Style {
 
 /// Returns the style of a role; the table is in the order of the enumerators.
 const Style& style_of(Role role) {
-  static constexpr std::array<Style, 11> kStyles{{{"#1f5fa8", "", 1.6},
+  static constexpr std::array<Style, 10> kStyles{{{"#1f5fa8", "", 1.6},
                                                   {"#6b6b6b", "2 3", 1.5},
                                                   {"#d1491b", "6 3", 1.7},
-                                                  {"#111111", "", 1.1},
+                                                  {"#111", "", 1.1},
                                                   {"#b9bec4", "", 0.7},
                                                   {"#d1491b", "", 0.0},
                                                   {"#00694b", "7 2 1.5 2", 1.5},
                                                   {"#5a626b", "", 0.0},
                                                   {"#3d8fc4", "", 0.0},
-                                                  {"#1f5fa8", "", 1.3},
-                                                  {"#d1491b", "", 1.3}}};
+                                                  {"#1f5fa8", "", 1.3}}};
   return kStyles[static_cast<std::size_t>(role)];
 }
 
@@ -52,15 +51,8 @@ std::string dash_of(const Style& style) {
 
 bool is_area(Role role) { return role == Role::band || role == Role::range || role == Role::norm; }
 
-bool is_points(Role role) { return role == Role::points || role == Role::points_beside; }
-
-/// Returns a disc, of a second group a diamond.
-std::string point_mark(Role role, double x, double y, double radius, const char* color) {
-  if (role == Role::points)
-    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y, radius, color);
-  const double half = 1.4 * radius;
-  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z\" fill=\"{}\"/>\n", x,
-                     y - half, x + half, y, x, y + half, x - half, y, color);
+std::string disc(double x, double y, double radius, const char* color) {
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y, radius, color);
 }
 
 struct Range {
@@ -164,6 +156,8 @@ class PanelDrawing {
   }
 
  private:
+  /// Returns the number of stretches of which a curve shows begin, end, least and greatest value.
+  [[nodiscard]] std::size_t bins() const { return static_cast<std::size_t>(width_ / kBinWidth); }
   [[nodiscard]] double px(double x) const { return left_ + width_ * (x - x_.lower) / (x_.upper - x_.lower); }
   [[nodiscard]] double py(double y) const { return top_ + height_ * (1.0 - (y - y_.lower) / (y_.upper - y_.lower)); }
 
@@ -202,9 +196,9 @@ class PanelDrawing {
 
   [[nodiscard]] std::string curve(const Series& series) const {
     if (is_area(series.role)) return band(series);
-    if (is_points(series.role)) return points(series);
+    if (series.role == Role::points) return points(series);
     SvgPath path;
-    for (const std::size_t k : decimate(series.y, kBinsPerPanel)) {
+    for (const std::size_t k : decimate(series.y, bins())) {
       if (std::isfinite(series.x[k]) && std::isfinite(series.y[k])) {
         path.line(px(series.x[k]), py(series.y[k]));
       } else {
@@ -232,7 +226,7 @@ class PanelDrawing {
       }
       std::size_t end = k;
       while (end < series.y.size() && good(end)) ++end;
-      const std::size_t step = std::max<std::size_t>(1, (end - k) / (2 * kBinsPerPanel));
+      const std::size_t step = std::max<std::size_t>(1, (end - k) / (2 * bins()));
       std::vector<std::pair<double, double>> upper_edge;
       for (std::size_t i = k; i < end; i += step) {
         // A coarser band must still enclose the whole range.
@@ -267,7 +261,7 @@ class PanelDrawing {
             px(series.x[k]), py(series.y_lower[k]), py(series.y_upper[k]), px(series.x[k]) - 3.0, px(series.x[k]) + 3.0,
             style.color, style.width);
       }
-      svg += point_mark(series.role, px(series.x[k]), py(series.y[k]), bars ? 3.0 : 2.0, style.color);
+      svg += disc(px(series.x[k]), py(series.y[k]), bars ? 3.0 : 2.0, style.color);
     }
     return svg;
   }
@@ -305,7 +299,7 @@ std::string legend_mark(Role role, double x, double y) {
         "fill-opacity=\"0.16\"/>\n",
         x, y - 8.0, style.color);
   }
-  if (is_points(role)) return point_mark(role, x + 12.0, y - 4.0, 3.0, style.color);
+  if (role == Role::points) return disc(x + 12.0, y - 4.0, 3.0, style.color);
   return fmt::format(
       "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
       "stroke-width=\"{}\"{}/>\n",

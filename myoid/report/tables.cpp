@@ -63,9 +63,8 @@ std::string figure_csv(const Figure& figure) {
 // In the order of the enumerators.
 
 std::string_view name(Role role) {
-  static constexpr std::array<std::string_view, 11> kNames{"reference", "literature", "identified",   "truth",
-                                                           "raw",       "band",       "unseen",       "range",
-                                                           "norm",      "points",     "points_beside"};
+  static constexpr std::array<std::string_view, 10> kNames{"reference", "literature", "identified", "truth", "raw",
+                                                           "band",      "unseen",     "range",      "norm",  "points"};
   return kNames[static_cast<std::size_t>(role)];
 }
 

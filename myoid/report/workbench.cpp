@@ -1,14 +1,12 @@
 #include "myoid/report/workbench.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
 #include "myoid/report/json_values.h"
-#include "myoid/report/packing.h"
 #include "myoid/report/tables.h"
 
 namespace myoid::report {
@@ -16,24 +14,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json packed_json(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  const PackedNumbers p = packed(values);
-  return {{"lower", p.lower}, {"upper", p.upper}, {"codes", base64(p.codes)}};
-}
-
 ordered_json samples_json(const std::vector<double>& values) {
   return packed_json(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
-}
-
-/// Returns an even clock as start, step and count, any other as 32-bit numbers.
-ordered_json clock_json(const Eigen::VectorXd& time_s) {
-  const Eigen::Index n = time_s.size();
-  const double step = n > 1 ? (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1) : 0.0;
-  bool even = true;
-  for (Eigen::Index i = 0; i < n; ++i)
-    even = even && std::abs(time_s[i] - time_s[0] - static_cast<double>(i) * step) < 1e-7;
-  if (even) return {{"start", time_s[0]}, {"step", step}, {"count", n}};
-  return {{"times", base64(std::vector<float>(time_s.begin(), time_s.end()))}};
 }
 
 ordered_json line_json(const TimeLine& line) {
@@ -140,8 +122,7 @@ ordered_json figure_json(const Figure& figure) {
 bool is_live(const Figure& figure) {
   return !figure.in_workbench && std::ranges::all_of(figure.panels, [](const Panel& panel) {
     return panel.x.categories.empty() && panel.y.categories.empty() &&
-           std::ranges::none_of(
-               panel.series, [](const Series& s) { return s.role == Role::points || s.role == Role::points_beside; });
+           std::ranges::none_of(panel.series, [](const Series& s) { return s.role == Role::points; });
   });
 }
 

@@ -10,6 +10,8 @@
 #include "myoid/report/html.h"
 #include "myoid/report/scene_page.h"
 
+#include "tests/support/packed_codes.h"
+
 namespace myoid::report {
 namespace {
 
@@ -29,24 +31,6 @@ Workbench one_trial() {
   return workbench;
 }
 
-/// The 16-bit codes behind base64.
-std::vector<int> codes(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned group = 0;
-  int bits = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    group = (group << 6U) | static_cast<unsigned>(digits.find(c));
-    bits += 6;
-    if (bits >= 8) bytes += static_cast<char>((group >> static_cast<unsigned>(bits -= 8)) & 255U);
-  }
-  std::vector<int> result;
-  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2)
-    result.push_back(static_cast<unsigned char>(bytes[i]) + 256 * static_cast<unsigned char>(bytes[i + 1]));
-  return result;
-}
-
 TEST(Workbench, KeepsTheSeriesWithinHalfAStepOfThePacking) {
   const std::string text = workbench_json(one_trial(), {});
   EXPECT_THAT(text, Not(HasSubstr("</script")));
@@ -56,7 +40,7 @@ TEST(Workbench, KeepsTheSeriesWithinHalfAStepOfThePacking) {
   const json value = trial["plots"][0]["lines"][0]["value"];
   EXPECT_EQ(value["lower"], 10.0);
   EXPECT_EQ(value["upper"], 30.0);
-  EXPECT_EQ(codes(value["codes"]), (std::vector<int>{0, 65535, 65534}));
+  EXPECT_EQ(test::read_codes(value["codes"]), (std::vector<int>{0, 4095, 4094}));
 }
 
 TEST(Workbench, ALineOfAnotherLengthThanItsClockIsRefused) {

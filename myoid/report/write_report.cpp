@@ -56,10 +56,14 @@ Json section_json(const Section& section) {
 
 std::string report_json(const Report& report) {
   const auto link_json = [](const Link& link) { return Json{{"text", link.text}, {"file", link.file}}; };
+  const auto answer_json = [](const Answer& answer) {
+    return Json{{"question", answer.question}, {"text", answer.text}};
+  };
   const auto fact_json = [](const ProvenanceRow& row) { return Json{{"what", row.what}, {"value", row.value}}; };
   return json_text({{"title", report.title},
                     {"subtitle", report.subtitle},
                     {"headline", report.headline},
+                    {"answers", array_of(report.answers, answer_json)},
                     {"gates", array_of(report.gates, gate_json)},
                     {"links", array_of(report.links, link_json)},
                     {"sections", array_of(report.sections, section_json)},

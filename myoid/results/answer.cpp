@@ -61,6 +61,8 @@ AnswerRow row_of(std::string number, const ParameterEstimate& e, std::string_vie
                 .of_person = ends(e.ci_low, e.ci_high, unit.per_si),
                 .given = ends(e.given_ci_low, e.given_ci_high, unit.per_si),
                 .verdict = report::spelled(identification::name(e.verdict))};
+  row.outside_given =
+      e.given_ci_low && e.given_ci_high && (e.estimate < *e.given_ci_low || e.estimate > *e.given_ci_high);
   if (!unit.symbol.empty()) row.value += fmt::format(" {}", unit.symbol);
   if (!place.empty()) row.value += fmt::format(" at {}", place);
   return row;
@@ -76,6 +78,38 @@ std::vector<EstimateLine> told_lines(const IdentificationResult& method, std::si
     return std::pair(line.estimate->verdict, relative_half_width(*line.estimate));
   });
   return lines;
+}
+
+/// Returns how many parameters the fit identifies, in sentences.
+std::string count_sentences(const IdentificationResult& fit, std::size_t muscle_count, bool with_names) {
+  int total = 0, sure = 0, repeat = 0, weak = 0;
+  for (const ParameterEstimate& e : fit.estimates) {
+    if (!is_counted(e)) continue;
+    ++total;
+    if (e.verdict == Verdict::identified) ++sure;
+    if (e.verdict == Verdict::reproducible) ++repeat;
+    if (e.verdict == Verdict::weak) ++weak;
+  }
+  std::string text = sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
+                               : fmt::format("This recording identifies {} of {} parameters", sure, total);
+  if (sure > 0 && with_names) text += ": " + identified_numbers(fit, muscle_count);
+  text += ".";
+  if (repeat > 0)
+    text += fmt::format(" {} {} reproducible: given geometry and sensors, for comparing sessions of this person.",
+                        repeat, repeat == 1 ? "is" : "are");
+  if (weak > 0) text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
+  return text;
+}
+
+/// Returns how well the fit predicts what it left out, with a blank before it; empty without folds.
+std::string fold_sentence(const std::vector<identification::Fold>& folds, std::string_view left_out) {
+  if (folds.empty()) return "";
+  // Of all together: the torque of a single trial may hardly vary, and its R2 then says nothing.
+  return fmt::format(
+      " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (all together; 1 is perfect, the "
+      "literature's muscles with a best gain reach {:.2f}).",
+      left_out, explained(folds, &identification::Fold::identified).r2(),
+      explained(folds, &identification::Fold::literature).r2());
 }
 
 /// Returns how many intervals of a virtual person hold the truth; empty: no truth is known.
@@ -113,7 +147,7 @@ std::string light_lines(const std::vector<report::Gate>& gates, std::size_t widt
 
 std::string row_lines(const std::vector<AnswerRow>& rows, std::size_t width) {
   if (rows.empty()) return "";
-  AnswerRow head{"", "", "95 % interval", "", "verdict"};
+  AnswerRow head{.number = "", .value = "", .of_person = "95 % interval", .given = "", .verdict = "verdict"};
   if (std::ranges::any_of(rows, [](const AnswerRow& row) { return !row.given.empty(); })) head.given = "given";
   std::vector<AnswerRow> all{std::move(head)};
   all.insert(all.end(), rows.begin(), rows.end());
@@ -135,31 +169,46 @@ std::string row_lines(const std::vector<AnswerRow>& rows, std::size_t width) {
     if (given > 0) line += padded(row.given, given) + "  ";
     text += line + row.verdict + "\n";
   }
+  const bool outside = std::ranges::any_of(rows, &AnswerRow::outside_given);
   if (given > 0)
-    text +=
-        wrapped("95 % interval: of the person. Given: if geometry and sensors were exact, to compare sessions.", width);
+    text += wrapped(
+        fmt::format("95 % interval: of the person. Given: if geometry and sensors were exact, to compare sessions.{}",
+                    outside ? " A number outside Given: the recording speaks for others than assumed." : ""),
+        width);
   return text;
 }
 
-std::string next_lines(const StudyResult& result, std::size_t width) {
-  if (!result.next || result.next->plan.empty()) return "";
-  const DesignStudyResult& next = *result.next;
-  const std::size_t named = std::min<std::size_t>(2, next.plan.size());
-  std::vector<std::string> movements;
-  for (std::size_t i = 0; i < named; ++i) movements.push_back(next.plan[i].movement.description());
-  const std::vector<ParameterEstimate>& then = next.plan[named - 1].expected;
-  const double now = median_half_width(next.beforehand), narrower = median_half_width(then);
-  const int more = identified_count(then) - identified_count(next.beforehand);
-  constexpr double kLittle = 0.95;  // of the interval
-  if (more <= 0 && narrower > kLittle * now)
-    return wrapped(fmt::format("Further movements tell little more: {} would leave the median 95 % interval at "
-                               "+-{:.0f} % (now +-{:.0f} %).",
-                               fmt::join(movements, "; "), narrower, now),
-                   width);
-  return wrapped(fmt::format("Record next: {}. The median 95 % interval would be +-{:.0f} % (now +-{:.0f} %){}.",
-                             fmt::join(movements, "; "), narrower, now,
-                             more > 0 ? fmt::format(", and {} more would be identified", more) : ""),
-                 width);
+/// A trial's remark in few words; a lower rank is worse.
+struct TrialRemark {
+  int rank = 0;
+  std::string trial, says;
+};
+
+/// Returns the worst that is known against each trial, the worst first.
+std::vector<TrialRemark> trial_remarks(const StudyResult& result) {
+  const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
+  const auto in_words = [](const Remark& remark) {
+    if (remark.code == RemarkCode::general || remark.code == RemarkCode::reading) return std::string("see its remarks");
+    return report::spelled(name(remark.code)) + (remark.about.empty() ? "" : ": " + remark.about);
+  };
+  std::vector<TrialRemark> found;
+  for (const TrialResult& trial : result.trials) {
+    TrialRemark remark{.rank = 3, .trial = trial.spec.name};
+    const auto worse = [&](int rank, const std::string& says) {
+      if (rank >= remark.rank) return;
+      remark.rank = rank;
+      remark.says = says;
+    };
+    for (const std::vector<Remark>* list : {&trial.faults, &trial.remarks})
+      for (const Remark& one : *list)
+        if (one.severity <= Severity::warning) worse(2, in_words(one));
+    if (std::ranges::find(outlying, trial.spec.name, &OutlyingFold::trial) != outlying.end())
+      worse(1, "predicted worse than the others");
+    if (!trial.failure().empty()) worse(0, "could not be computed");
+    if (remark.rank < 3) found.push_back(std::move(remark));
+  }
+  std::ranges::stable_sort(found, {}, &TrialRemark::rank);
+  return found;
 }
 
 }  // namespace
@@ -189,40 +238,57 @@ std::string fit_sentences(const StudyResult& result, bool with_names) {
   if (best == nullptr)
     return "Only the source paper's method was asked for. It fits forces that nobody measured, so that this recording "
            "identifies nothing by it; its numbers stand at the end.";
-  int total = 0, sure = 0, repeat = 0, weak = 0;
-  for (const ParameterEstimate& e : best->estimates) {
-    if (!is_counted(e)) continue;
-    ++total;
-    if (e.verdict == Verdict::identified) ++sure;
-    if (e.verdict == Verdict::reproducible) ++repeat;
-    if (e.verdict == Verdict::weak) ++weak;
-  }
-  std::string text = sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
-                               : fmt::format("This recording identifies {} of {} parameters", sure, total);
-  if (sure > 0 && with_names) text += ": " + identified_numbers(*best, result.fit_input.data.muscles.size());
-  text += ".";
-  if (repeat > 0)
-    text += fmt::format(" {} {} reproducible: given geometry and sensors, for comparing sessions of this person.",
-                        repeat, repeat == 1 ? "is" : "are");
-  if (weak > 0) text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
+  std::string text = count_sentences(*best, result.fit_input.data.muscles.size(), with_names);
   if (const std::string truth = truth_sentence(result, *best); !truth.empty()) text += " " + truth;
-  if (!result.folds.empty()) {
-    // Of all together: the torque of a single trial may hardly vary, and its R2 then says nothing.
-    text += fmt::format(
-        " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (all together; 1 is perfect, the "
-        "literature's muscles with a best gain reach {:.2f}).",
-        choice_name(result.source.study.identify.folds),
-        explained(result.folds, &identification::Fold::identified).r2(),
-        explained(result.folds, &identification::Fold::literature).r2());
-  }
-  return text;
+  return text + fold_sentence(result.folds, choice_name(result.source.study.identify.folds));
+}
+
+std::string fit_answer_text(const IdentificationResult& fit,
+                            const std::vector<identification::Fold>& folds,
+                            std::string_view left_out,
+                            std::size_t muscle_count,
+                            std::size_t width) {
+  const std::string rows = row_lines(answer_rows(fit, muscle_count, kMostRows), width);
+  return rows + (rows.empty() ? "" : "\n") +
+         wrapped(count_sentences(fit, muscle_count, false) + fold_sentence(folds, left_out), width);
+}
+
+std::string next_sentence(const StudyResult& result) {
+  if (!result.next || result.next->plan.empty()) return "";
+  const DesignStudyResult& next = *result.next;
+  const std::size_t named = std::min<std::size_t>(2, next.plan.size());
+  std::vector<std::string> movements;
+  for (std::size_t i = 0; i < named; ++i) movements.push_back(next.plan[i].movement.description());
+  const std::vector<ParameterEstimate>& then = next.plan[named - 1].expected;
+  const double now = median_half_width(next.beforehand), narrower = median_half_width(then);
+  const int more = identified_count(then) - identified_count(next.beforehand);
+  constexpr double kLittle = 0.95;  // of the interval
+  if (more <= 0 && narrower > kLittle * now)
+    return fmt::format(
+        "Further movements tell little more: {} would leave the median 95 % interval at +-{:.0f} % (now +-{:.0f} %).",
+        fmt::join(movements, "; "), narrower, now);
+  return fmt::format("Record next: {}. The median 95 % interval would be +-{:.0f} % (now +-{:.0f} %){}.",
+                     fmt::join(movements, "; "), narrower, now,
+                     more > 0 ? fmt::format(", and {} more would be identified", more) : "");
+}
+
+std::string trials_sentence(const StudyResult& result, std::size_t most) {
+  const std::vector<TrialRemark> found = trial_remarks(result);
+  if (found.empty()) return result.trials.empty() ? "" : "No trial has a remark.";
+  std::vector<std::string> named;
+  for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
+    named.push_back(fmt::format("{} ({})", found[i].trial, found[i].says));
+  const std::string more = found.size() > most ? fmt::format(" and {} more", found.size() - most) : "";
+  return fmt::format("Trials with remarks: {}{}.", fmt::join(named, ", "), more);
 }
 
 std::string answer_text(const StudyResult& result, const std::vector<report::Gate>& gates, std::size_t width) {
   constexpr std::size_t kMostLines = 24;
   const std::string light = gates.empty() ? "" : light_lines(gates, width) + "\n";
-  const std::string rest = wrapped(fit_sentences(result, false), width) + next_lines(result, width);
-  const std::size_t taken = line_count(light) + line_count(rest) + 3;  // a heading, a legend, a line between
+  std::string rest = wrapped(fit_sentences(result, false), width);
+  for (const std::string& more : {trials_sentence(result), next_sentence(result)})
+    if (!more.empty()) rest += wrapped(more, width);
+  const std::size_t taken = line_count(light) + line_count(rest) + 4;  // a heading, a legend, a line between
   const IdentificationResult* best = best_method(result.fit);
   std::string rows;
   if (best != nullptr && taken < kMostLines)

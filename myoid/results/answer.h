@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/intervals/result.h"
@@ -10,13 +11,17 @@
 
 namespace myoid {
 
+/// Columns of an answer on a terminal, at most.
+inline constexpr std::size_t kAnswerColumns = 110;
+
 /// A number for people, with plain names and units.
 struct AnswerRow {
-  std::string number;     ///< "Biceps, voluntary torque"
-  std::string value;      ///< "43.8 N m at 92°"
-  std::string of_person;  ///< "40.3 to 47.7"
-  std::string given;      ///< "41.9 to 45.6"; empty: the fit has one reading.
-  std::string verdict;    ///< "identified"
+  std::string number;          ///< "Biceps, voluntary torque"
+  std::string value;           ///< "43.8 N m at 92°"
+  std::string of_person;       ///< "40.3 to 47.7"
+  std::string given;           ///< "41.9 to 45.6"; empty: the fit has one reading.
+  std::string verdict;         ///< "identified"
+  bool outside_given = false;  ///< The person's number lies outside its interval given geometry and sensors.
 };
 
 /// Returns the numbers that the recording tells, at most `most`: first the greatest voluntary torques, then the others
@@ -29,8 +34,23 @@ struct AnswerRow {
 /// `with_names` lists the identified ones.
 [[nodiscard]] std::string fit_sentences(const StudyResult& result, bool with_names);
 
+/// Returns the answer of a fit without a study for a terminal, at most 24 lines: the numbers with both readings, and
+/// the fit in sentences. `left_out`: "trial" or "block" of the folds.
+[[nodiscard]] std::string fit_answer_text(const identification::IdentificationResult& fit,
+                                          const std::vector<identification::Fold>& folds,
+                                          std::string_view left_out,
+                                          std::size_t muscle_count,
+                                          std::size_t width);
+
+/// Returns the movements to record next and their gain; empty without a plan.
+[[nodiscard]] std::string next_sentence(const StudyResult& result);
+
+/// Returns "Trials with remarks: press (emg clipped: BIC), lift (predicted worse than the others)." with at most `most`
+/// trials by name, the worst first.
+[[nodiscard]] std::string trials_sentence(const StudyResult& result, std::size_t most = 4);
+
 /// Returns the answer of a run for a terminal, at most 24 lines of at most `width` columns: may the numbers be
-/// believed and why not, the numbers with both readings, the fit in sentences, the next recording.
+/// believed and why not, the numbers with both readings, the fit in sentences, trials with remarks, the next recording.
 [[nodiscard]] std::string answer_text(const StudyResult& result,
                                       const std::vector<report::Gate>& gates,
                                       std::size_t width);

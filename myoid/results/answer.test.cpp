@@ -77,6 +77,21 @@ TEST(AnswerRows, SayThatAnEffortWasNotMaximal) {
   EXPECT_THAT(texts(answer_rows(method, 1, 1)), ElementsAre(HasSubstr("Triceps, at the largest EMG: ")));
 }
 
+TEST(TrialsSentence, NamesTheWorstTrialsFirst) {
+  StudyResult result;
+  EXPECT_EQ(trials_sentence(result), "");
+  result.trials.resize(4);
+  for (std::size_t i = 0; i < 4; ++i) result.trials[i].spec.name = "t" + std::to_string(i);
+  result.trials[0].faults = {{.code = RemarkCode::emg_hum, .severity = Severity::note}};
+  EXPECT_EQ(trials_sentence(result), "No trial has a remark.");
+  result.trials[1].faults = {{.code = RemarkCode::emg_clipped, .about = "BIC"}};
+  result.trials[2].remarks = {{.code = RemarkCode::general}};
+  result.trials[3].motion.failure = "no markers";
+  EXPECT_EQ(trials_sentence(result),
+            "Trials with remarks: t3 (could not be computed), t1 (emg clipped: BIC), t2 (see its remarks).");
+  EXPECT_EQ(trials_sentence(result, 1), "Trials with remarks: t3 (could not be computed) and 2 more.");
+}
+
 TEST(AnswerText, HasAtMost24LinesOfTheWidth) {
   StudyResult result;
   IdentificationResult method = triceps();

@@ -77,6 +77,18 @@ std::string change_text(const ComparedParameter& p) {
                      with_unit(size + seen, p.first.unit), unseen);
 }
 
+std::string branch_text(const std::string& fit_case, std::string_view before, std::string_view behind) {
+  return fit_case == "both" ? "" : fmt::format("{}{}{}", before, fit_case, behind);
+}
+
+std::string reading_sentence(const RunComparison& comparison) {
+  const bool given = std::ranges::any_of(
+      comparison.parameters, [](const ComparedParameter& p) { return p.first.given_ci_low && p.second.given_ci_low; });
+  if (!given) return "";
+  return "These are the numbers given geometry and sensors, whose errors both sessions share. The report of each "
+         "session shows the person's numbers first, which allow for such errors and so may differ.";
+}
+
 std::string changes_sentence(const RunComparison& comparison) {
   constexpr std::size_t kNamed = 4;
   if (!comparison.failed.empty())

@@ -20,6 +20,14 @@ namespace myoid {
 /// that both sessions tell, and why a number is not compared otherwise.
 [[nodiscard]] std::string change_text(const ComparedParameter& parameter);
 
+/// Returns the branch of a muscle between `before` and `behind`; empty if the number is of both branches.
+[[nodiscard]] std::string branch_text(const std::string& fit_case,
+                                      std::string_view before,
+                                      std::string_view behind = "");
+
+/// Returns the sentence that says which of two readings the compared numbers are; empty if there is only one.
+[[nodiscard]] std::string reading_sentence(const RunComparison& comparison);
+
 /// Returns the sentences of all counted numbers that differ, "No number changed ..." if none does. `compare` and the
 /// group's page both print it.
 [[nodiscard]] std::string changes_sentence(const RunComparison& comparison);

@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/day_text.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
 #include "myoid/core/normal.h"
@@ -182,26 +183,9 @@ void adjust_p_values(std::vector<ComparedParameter*> compared, double share) {
   }
 }
 
-/// Returns the branch of a muscle behind `before`; empty if the number is of both branches.
-std::string branch_text(const std::string& fit_case, std::string_view before, std::string_view behind = "") {
-  return fit_case == "both" ? "" : fmt::format("{}{}{}", before, fit_case, behind);
-}
-
 std::string text_of(const Key& key) {
   const auto& [muscle, parameter, method, fit_case] = key;
   return fmt::format("{} {} (method {}{})", muscle, parameter, method, branch_text(fit_case, ", "));
-}
-
-std::string interval_text(const ComparedValue& of) {
-  const std::string value = report::format_value(of.value);
-  if (!of.low || !of.high) return value;
-  return fmt::format("{} ({})", value, report::format_interval(*of.low, *of.high));
-}
-
-report::Badge badge(Change change) {
-  return change == Change::differs     ? report::Badge::info
-         : change == Change::no_change ? report::Badge::good
-                                       : report::Badge::weak;
 }
 
 /// Returns the day on which a folder's result was written.
@@ -210,40 +194,7 @@ std::string day_of(const std::filesystem::path& folder) {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(folder / "parameters.json", error);
   if (error) return "";
-  const year_month_day day{floor<days>(file_clock::to_sys(written))};
-  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(day.year()), static_cast<unsigned>(day.month()),
-                     static_cast<unsigned>(day.day()));
-}
-
-/// Returns "second (2026-03-01)".
-std::string session_name(std::string_view which, const std::string& day) {
-  return day.empty() ? std::string(which) : fmt::format("{} ({})", which, day);
-}
-
-/// Draws both intervals of one parameter for all muscles.
-report::Panel panel_of(const RunComparison& comparison,
-                       const std::string& method,
-                       const std::string& parameter,
-                       const std::string& fit_case) {
-  report::Panel panel{.title = parameter + branch_text(fit_case, ", ")};
-  report::Series first{.name = session_name("first", comparison.first_date), .role = report::Role::points};
-  report::Series second{.name = session_name("second", comparison.second_date), .role = report::Role::points_beside};
-  const auto add = [&](report::Series& series, const std::string& category, const ComparedValue& of) {
-    series.x.push_back(static_cast<double>(panel.x.categories.size()));
-    panel.x.categories.push_back(category);
-    series.y.push_back(of.value);
-    series.y_lower.push_back(of.low.value_or(of.value));
-    series.y_upper.push_back(of.high.value_or(of.value));
-  };
-  for (const ComparedParameter& p : comparison.parameters) {
-    const ParameterEstimate& e = p.first;
-    if (e.method != method || e.parameter != parameter || e.fit_case != fit_case) continue;
-    panel.y = {.label = parameter, .unit = e.unit == Unit::dimensionless ? "" : std::string(symbol(e.unit))};
-    add(first, p.muscle + " 1", p.of_first);
-    add(second, p.muscle + " 2", p.of_second);
-  }
-  panel.series = {first, second};
-  return panel;
+  return day_text(floor<days>(file_clock::to_sys(written)));
 }
 
 /// Returns a number of both sessions with its difference, before the adjustment; without one if a session is not
@@ -264,15 +215,6 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
   return p;
 }
 
-/// Returns the methods of the compared numbers, in order of appearance.
-std::vector<std::string> methods_of(const RunComparison& comparison) {
-  std::vector<std::string> methods;
-  for (const ComparedParameter& p : comparison.parameters) {
-    if (std::ranges::find(methods, p.first.method) == methods.end()) methods.push_back(p.first.method);
-  }
-  return methods;
-}
-
 std::vector<ComparedTrial> compared_trials(const Run& a, const Run& b) {
   const auto rmse = [](const Run& run, const MethodAndTrial& key) {
     const auto found = run.rmse_nm.find(key);
@@ -286,67 +228,19 @@ std::vector<ComparedTrial> compared_trials(const Run& a, const Run& b) {
   return trials;
 }
 
-std::string headline(const RunComparison& comparison) {
-  std::string text = changes_sentence(comparison);
-  if (!comparison.unlike.empty())
-    text += fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
-  return text;
-}
-
-report::Section method_section(const RunComparison& comparison, const std::string& method) {
-  report::Table table{.id = "compared_" + method,
-                      .title = "Parameters",
-                      .caption =
-                          "Estimate with its 95 % interval; of the posterior those given geometry and sensors, by "
-                          "which sessions are compared. p-values are adjusted for their number (Holm).",
-                      .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
-                                  session_name("second", comparison.second_date), "difference", "%", "verdict"}};
-  report::Figure figure{
-      .id = "intervals_" + method,
-      .title = "Both sessions",
-      .caption =
-          "Estimates with 95 % intervals; 1 and a blue disc are the first session, 2 and a red diamond the second.",
-      .columns = 2};
-  std::set<std::pair<std::string, std::string>> shown;
-  for (const ComparedParameter& p : comparison.parameters) {
-    const ParameterEstimate& e = p.first;
-    if (e.method != method) continue;
-    table.rows.push_back(
-        {{p.muscle},
-         {e.parameter + branch_text(e.fit_case, " (", ")")},
-         {std::string(symbol(e.unit))},
-         {interval_text(p.of_first)},
-         {interval_text(p.of_second)},
-         {report::format_value(p.difference)},
-         {p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value))},
-         {std::string(name(p.change)), badge(p.change), change_text(p)}});
-    if (shown.insert({e.parameter, e.fit_case}).second)
-      figure.panels.push_back(panel_of(comparison, method, e.parameter, e.fit_case));
-  }
-  return {.id = "method_" + method,
-          .heading = "Method " + method,
-          .tables = {std::move(table)},
-          .figures = {std::move(figure)}};
-}
-
-report::Section errors_section(const RunComparison& comparison) {
-  report::Table errors{.id = "trial_errors",
-                       .title = "Root mean square error of the torque",
-                       .columns = {"trial", "method", "first [N m]", "second [N m]"}};
-  const auto cell = [](const std::optional<double>& x) { return x ? report::format_value(*x) : "-"; };
-  for (const ComparedTrial& t : comparison.trials)
-    errors.rows.push_back(report::text_row({t.trial, t.method, cell(t.rmse_first_nm), cell(t.rmse_second_nm)}));
-  return {.id = "trials",
-          .heading = "How well the trials are predicted",
-          .paragraphs = comparison.remarks,
-          .tables = {std::move(errors)}};
-}
-
 }  // namespace
 
 std::string_view name(Change change) {
   static constexpr std::array<std::string_view, 3> kNames{"differs", "no_change", "cannot_tell"};
   return kNames[static_cast<std::size_t>(change)];
+}
+
+std::vector<std::string> methods_of(const RunComparison& comparison) {
+  std::vector<std::string> methods;
+  for (const ComparedParameter& p : comparison.parameters) {
+    if (std::ranges::find(methods, p.first.method) == methods.end()) methods.push_back(p.first.method);
+  }
+  return methods;
 }
 
 RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second) {
@@ -389,21 +283,6 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   }
   comparison.trials = compared_trials(a, b);
   return comparison;
-}
-
-report::Report comparison_report(const RunComparison& comparison) {
-  report::Report page{
-      .title = "Two sessions compared",
-      .subtitle = comparison.first.string() + " and " + comparison.second.string(),
-      .headline = headline(comparison),
-      .assumptions = {
-          "The two sessions are independent; where both used the same prior, the test is cautious.",
-          "A number that a session calls prior_dominated, not_identifiable or non_physical is not compared.",
-          "Method paper fits forces that the program shared among the muscles: its numbers are shown, not compared.",
-          "The days are those on which the results were written."}};
-  for (const std::string& method : methods_of(comparison)) page.sections.push_back(method_section(comparison, method));
-  page.sections.push_back(errors_section(comparison));
-  return page;
 }
 
 }  // namespace myoid

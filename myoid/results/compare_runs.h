@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "myoid/intervals/result.h"
-#include "myoid/report/report.h"
 
 namespace myoid {
 
@@ -52,6 +51,9 @@ struct RunComparison {
   std::vector<std::string> remarks;  ///< Numbers that only one session has.
 };
 
+/// Returns the methods of the compared numbers, in order of appearance.
+[[nodiscard]] std::vector<std::string> methods_of(const RunComparison& comparison);
+
 /// Compares two finished runs number by number, of one person on two days or of one recording by two studies: z =
 /// (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, with p-values adjusted for their number by
 /// Holm's method, the greatest voluntary torques by themselves: they have 3 of the 5 % of false alarms. If both runs
@@ -62,8 +64,5 @@ struct RunComparison {
 /// count as independent; a shared prior makes the test cautious. Throws ReadError if a folder holds no parameters.json
 /// of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second);
-
-/// Returns the comparison as a report: table, and both intervals of every parameter side by side.
-[[nodiscard]] report::Report comparison_report(const RunComparison& comparison);
 
 }  // namespace myoid

@@ -10,6 +10,7 @@
 
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/report/muscle_names.h"
+#include "myoid/report/parameter_words.h"
 #include "myoid/report/plain_unit.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
@@ -79,6 +80,21 @@ std::string measured_at_rest(const StudyResult& result) {
         torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
   }
   return text;
+}
+
+/// Returns the meaning of each number that the method estimates.
+Table meanings_table(const IdentificationResult& method) {
+  Table table{.id = "meanings_" + method.method, .title = "Meaning of the numbers", .columns = {"number", "meaning"}};
+  std::vector<std::string> seen;
+  for (const ParameterEstimate& e : method.estimates) {
+    const std::string meaning(report::parameter_meaning(e.parameter));
+    if (identification::is_voluntary(e.parameter) || meaning.empty() ||
+        std::ranges::find(seen, e.parameter) != seen.end())
+      continue;
+    seen.push_back(e.parameter);
+    table.rows.push_back(report::text_row({report::spelled(e.parameter), meaning}));
+  }
+  return table;
 }
 
 }  // namespace
@@ -174,8 +190,10 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
     row.insert(row.end(), {verdict_cell(e), {e.reason}});
     (identification::is_nuisance(e) ? others : muscles).rows.push_back(std::move(row));
   }
-  if (others.rows.empty()) return {std::move(muscles)};
-  return {std::move(muscles), std::move(others)};
+  std::vector<Table> tables{std::move(muscles)};
+  if (!others.rows.empty()) tables.push_back(std::move(others));
+  tables.push_back(meanings_table(method));
+  return tables;
 }
 
 std::vector<report::ForestRow> forest_rows(const StudyResult& result, const IdentificationResult& method) {
@@ -200,6 +218,7 @@ std::vector<report::ForestRow> forest_rows(const StudyResult& result, const Iden
                           .verdict = report::spelled(identification::name(e.verdict)),
                           .badge = badge(e.verdict),
                           .why = e.reason,
+                          .about = std::string(report::parameter_meaning(e.parameter)),
                           .beside = identification::is_nuisance(e)};
     if (is_undetermined(e)) row.lower = row.upper = row.given_lower = row.given_upper = std::nullopt;
     rows.push_back(std::move(row));

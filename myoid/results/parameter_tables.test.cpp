@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/identification/parameter_fields.h"
+#include "myoid/report/parameter_words.h"
+
 namespace myoid {
 namespace {
 
@@ -30,6 +33,11 @@ IdentificationResult two_muscles() {
   return method;
 }
 
+TEST(EstimateTables, EveryNumberHasAMeaningForPeople) {
+  for (const identification::ParameterField& field : identification::parameter_fields())
+    EXPECT_NE(report::parameter_meaning(field.name), "") << field.name;
+}
+
 TEST(EstimateLines, TellTiedNumbersOnceAndNuisancesLast) {
   const IdentificationResult method = two_muscles();
   const std::vector<EstimateLine> lines = estimate_lines(method, 2);
@@ -53,7 +61,7 @@ TEST(EstimateTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
   result.source.truth = {{"BIC", "optimal_fiber_length", 0.145}, {"TRI", "optimal_fiber_length", 0.15}};
   result.fit_input.data.muscles.resize(2);
   const std::vector<report::Table> tables = estimate_tables(result, two_muscles());
-  ASSERT_EQ(tables.size(), 2U);
+  ASSERT_EQ(tables.size(), 3U);
   const auto& rows = tables[0].rows;
   ASSERT_EQ(rows.size(), 3U);
   ASSERT_EQ(tables[0].columns[6], "truth");
@@ -90,11 +98,13 @@ TEST(EstimateTables, AreCalledByTheirMethod) {
   IdentificationResult method = two_muscles();
   method.method = "force";
   const std::vector<report::Table> tables = estimate_tables({}, method);
-  ASSERT_EQ(tables.size(), 2U);
+  ASSERT_EQ(tables.size(), 3U);
   EXPECT_EQ(tables[0].id, "parameters_force");
   EXPECT_EQ(tables[0].title, "Identified parameters (method force)");
   EXPECT_NE(tables[0].caption.find("force that force sharing assigned"), std::string::npos);
   EXPECT_EQ(tables[1].id, "nuisances_force");
+  EXPECT_EQ(tables[2].id, "meanings_force");
+  EXPECT_EQ(tables[2].rows.size(), 3U);
 }
 
 TEST(BasinTables, HaveARowForEachMinimumAndOneForStartsThatFoundNone) {

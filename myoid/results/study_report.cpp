@@ -76,9 +76,14 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   return list;
 }
 
-std::string headline(const StudyResult& result) {
-  const IdentificationResult* best = best_method(result.fit);
-  return (best == nullptr ? "" : voluntary_headline(*best)) + fit_sentences(result, true);
+/// Returns the answers to the questions of somebody who sees the page first.
+std::vector<report::Answer> answers(const StudyResult& result) {
+  std::vector<report::Answer> list{{"Which numbers", fit_sentences(result, true), "numbers"},
+                                   {"Which trials", trials_sentence(result), "trials"}};
+  if (std::string next = next_sentence(result); !next.empty()) list.push_back({"What next", std::move(next), "next"});
+  list.push_back(
+      {"Since an earlier session", "`myoid compare EARLIER THIS` compares the folders of both results.", ""});
+  return list;
 }
 
 std::vector<Table> tables_with_basins(std::vector<Table> tables, const IdentificationResult& method) {
@@ -93,11 +98,19 @@ std::string facts_of(const SubjectSpec& subject) {
   return text;
 }
 
+/// Returns "; recorded 2026-02-01; analysed 2026-03-01", as far as the days are known.
+std::string days_of(const StudyResult& result) {
+  std::string text;
+  if (!result.recorded.empty()) text += "; recorded " + result.recorded.front();
+  if (result.recorded.size() > 1) text += " to " + result.recorded.back();
+  return result.analysed.empty() ? text : text + "; analysed " + result.analysed;
+}
+
 std::string subtitle(const StudyResult& result, const Provenance& provenance) {
   std::vector<std::string> joints;
   for (const std::string& name : study_coordinates(result.source.study.model)) joints.push_back(report::spelled(name));
-  return fmt::format("{} trial{}{}; joint coordinate{} {}; model {}; {} {}", result.trials.size(),
-                     result.trials.size() == 1 ? "" : "s", facts_of(result.source.study.subject),
+  return fmt::format("{} trial{}{}{}; joint coordinate{} {}; model {}; {} {}", result.trials.size(),
+                     result.trials.size() == 1 ? "" : "s", facts_of(result.source.study.subject), days_of(result),
                      joints.size() > 1 ? "s" : "", fmt::join(joints, ", "), result.source.model->name,
                      provenance.program, provenance.version);
 }
@@ -165,9 +178,11 @@ std::vector<report::ProvenanceRow> provenance_rows(const StudyResult& result, co
 }  // namespace
 
 report::Report study_report(const StudyResult& result, const Provenance& provenance) {
+  const IdentificationResult* best = best_method(result.fit);
   report::Report report{.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name),
                         .subtitle = subtitle(result, provenance),
-                        .headline = headline(result),
+                        .headline = best == nullptr ? "" : voluntary_headline(*best),
+                        .answers = answers(result),
                         .gates = quality_gates(result),
                         .assumptions = assumptions(result),
                         .provenance = provenance_rows(result, provenance)};
@@ -175,7 +190,6 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   const IdentificationResult* force = method_of(result.fit, "force");
   const IdentificationResult* paper = method_of(result.fit, "paper");
 
-  const IdentificationResult* best = best_method(result.fit);
   if (best != nullptr) report.forest = forest_rows(result, *best);
 
   std::vector<Section>& sections = report.sections;

@@ -12,6 +12,7 @@
 #include "myoid/core/units.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
+#include "myoid/report/forest.h"
 #include "myoid/report/muscle_names.h"
 #include "myoid/report/typeset.h"
 #include "myoid/report/verdict_mark.h"
@@ -121,25 +122,26 @@ report::Table table_of(const StudyResult& result, const IdentificationResult& me
       .id = "voluntary_torque",
       .title = "Greatest voluntary torque, steady, and power",
       .caption =
-          "Behind each number stand its 95 % interval of the person and the one given geometry and sensors. "
-          "Power: the greatest over the recorded angles while the joint turns at this speed.",
-      .columns = {"muscle or joint", "N m", "95 % interval", "given geometry and sensors", "at angle (°)",
-                  "95 % interval", "power (W)", "verdict", "verdict of the angle"}};
+          "95 % interval: of the person. Given geometry and sensors: the 95 % interval if moment arms, tendons, "
+          "electrodes and measured torques were exact. Their errors are the same in two sessions of one person, "
+          "so sessions are compared by it. Power: the greatest over the recorded angles while the joint turns "
+          "at this speed.",
+      .columns = {"muscle or joint", "N m", "95 % interval", "verdict", "at angle (°)", "95 % interval",
+                  "verdict of the angle", "power (W)", "given geometry and sensors"}};
   const bool known = !result.source.truth.empty();
   if (known) table.columns.insert(table.columns.end(), {"true N m", "true angle (°)"});
-  for (const VoluntaryCurve& curve : method.voluntary) {
-    const ParameterEstimate* torque = torque_of(method, curve);
-    if (torque == nullptr) continue;
-    const ParameterEstimate* angle = angle_of(method, curve);
+  for (const VoluntaryLine& line : voluntary_lines(method)) {
+    const VoluntaryCurve& curve = *line.curve;
+    const ParameterEstimate *torque = line.torque, *angle = line.angle;
     std::vector<Cell> row{{name_of(curve, report::plain_muscle_and_name)},
                           {size_text(*torque)},
                           {interval_text(torque->ci_low, torque->ci_high, 1.0)},
-                          {interval_text(torque->given_ci_low, torque->given_ci_high, 1.0)},
+                          verdict_cell(torque),
                           {angle == nullptr ? "–" : angle_text(curve, *angle)},
                           {angle == nullptr ? "–" : interval_text(angle->ci_low, angle->ci_high, kDegree)},
+                          verdict_cell(angle),
                           {powers_text(method, curve)},
-                          verdict_cell(torque),
-                          verdict_cell(angle)};
+                          {interval_text(torque->given_ci_low, torque->given_ci_high, 1.0)}};
     if (known) {
       row.push_back(truth_cell(result, *torque, 1.0));
       row.push_back(angle == nullptr ? Cell{"-"} : truth_cell(result, *angle, kDegree));
@@ -176,7 +178,7 @@ report::Figure figure_of(const IdentificationResult& method) {
                             "angles. A dynamometer would measure these torques if one muscle pulled alone.",
                         .panels = {},
                         .columns = 2};
-  for (const VoluntaryCurve& curve : method.voluntary) figure.panels.push_back(panel_of(curve));
+  for (const VoluntaryLine& line : voluntary_lines(method)) figure.panels.push_back(panel_of(*line.curve));
   figure.bad = "The band is as high as the curve, or the curve still rises at the end of the recorded angles.";
   figure.act =
       "Record efforts against greater loads to narrow the band, and a wider range of angles to find where the curve is "
@@ -237,6 +239,14 @@ report::Section voluntary_section(const StudyResult& result, const Identificatio
   if (!std::ranges::all_of(method.voluntary, &VoluntaryCurve::from_mvc))
     section.paragraphs.push_back(
         "No maximal contraction was recorded: these are the torques at the largest recorded EMG.");
+  std::vector<std::string> outside;
+  for (const VoluntaryLine& line : voluntary_lines(method)) {
+    const ParameterEstimate& e = *line.torque;
+    if (is_told(e) && e.given_ci_low && e.given_ci_high &&
+        (e.estimate < *e.given_ci_low || e.estimate > *e.given_ci_high))
+      outside.push_back(line.name);
+  }
+  if (!outside.empty()) section.paragraphs.push_back(report::outside_given_sentence(outside));
   if (std::ranges::any_of(method.voluntary, &VoluntaryCurve::averaged))
     section.paragraphs.push_back(
         "Other joints move these muscles, too: the torque at an angle is that of their mean length there.");

@@ -100,7 +100,7 @@ TEST(VoluntarySection, HasTheTableAndTheCurve) {
   ASSERT_EQ(row.size(), section.tables[0].columns.size());
   EXPECT_EQ(row[0].text, "Biceps (BIC)");
   EXPECT_EQ(row[1].text, "41.0");
-  EXPECT_THAT(row[6].text, HasSubstr("40.0 at 60°/s"));
+  EXPECT_THAT(row[7].text, HasSubstr("40.0 at 60°/s"));
   EXPECT_EQ(row[9].badge, report::Badge::good);
   ASSERT_EQ(section.figures.size(), 1U);
   EXPECT_EQ(section.figures[0].panels[0].series[2].y[1], 41.0);

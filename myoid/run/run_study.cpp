@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,13 +31,13 @@ using identification::IdentificationResult;
 /// Measures the time of the stages and reports the progress of the run.
 class Stages {
  public:
-  explicit Stages(const Progress& progress) : progress_(progress) {}
+  explicit Stages(const RunOptions& options) : progress_(options.progress), ended_(options.stage_ended) {}
 
-  /// Runs a stage, which takes the run from share `from` to share `to`.
+  /// Runs a stage, which takes the run from share `from` to share `to`. `does` says for people what it does.
   template <typename Work>
-  auto run(const std::string& name, double from, double to, Work work) {
+  auto run(const std::string& name, std::string_view does, double from, double to, Work work) {
     progress_.check();
-    progress_.tell(from, name);
+    progress_.tell(from, does);
     Progress of_stage{.report = nullptr, .stop = progress_.stop};
     if (progress_.report)
       of_stage.report = [this, from, to](double share, std::string_view what) {
@@ -44,12 +46,14 @@ class Stages {
     const auto begin = std::chrono::steady_clock::now();
     auto found = work(of_stage);
     times_.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()});
+    if (ended_) ended_(does, times_.back().seconds);
     return found;
   }
   [[nodiscard]] std::vector<StageTime> times() && { return std::move(times_); }
 
  private:
   const Progress& progress_;
+  const std::function<void(std::string_view, double)>& ended_;
   std::vector<StageTime> times_;
 };
 
@@ -135,19 +139,21 @@ std::optional<DesignStudyResult> next_recording(const StudySource& source,
 StudyInputs read_stage(const Study& whole, const RunOptions& options, Stages& stages) {
   Study study = whole;
   restrict_trials(study, options.start_s, options.end_s);
-  return stages.run("reading", 0.0, 0.15, [&](const Progress&) { return read_inputs(study); });
+  return stages.run("reading", "reads the recordings", 0.0, 0.15, [&](const Progress&) { return read_inputs(study); });
 }
 
 /// Runs the stages from the activation to the data.
 StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& stages) {
   const Study& study = inputs.source.study;
-  StudyActivation activation = stages.run(
-      "activation", 0.15, 0.25, [&](const Progress&) { return study_activation(study, emg_of(inputs.trials)); });
-  RecordingFindings recordings =
-      stages.run("recordings", 0.25, 0.3, [&](const Progress&) { return findings_of(inputs, activation); });
+  StudyActivation activation =
+      stages.run("activation", "makes activations of the EMG", 0.15, 0.25,
+                 [&](const Progress&) { return study_activation(study, emg_of(inputs.trials)); });
+  RecordingFindings recordings = stages.run("recordings", "checks the recordings", 0.25, 0.3,
+                                            [&](const Progress&) { return findings_of(inputs, activation); });
   std::vector<TrialMotion> motion =
-      stages.run("motion", 0.3, 0.5, [&](const Progress& progress) { return motion_of(inputs, options, progress); });
-  StudyForces forces = stages.run("forces", 0.5, 0.7, [&](const Progress& progress) {
+      stages.run("motion", "finds angles and muscle paths", 0.3, 0.5,
+                 [&](const Progress& progress) { return motion_of(inputs, options, progress); });
+  StudyForces forces = stages.run("forces", "finds torques and shares forces", 0.5, 0.7, [&](const Progress& progress) {
     return study_forces(inputs, activation, motion, options.share_forces, progress);
   });
   StudyResult result;
@@ -159,8 +165,8 @@ StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& st
   result.emg = std::move(activation.scale);
   result.level_faults = std::move(recordings.levels);
   result.resting = std::move(forces.resting);
-  result.fit_input =
-      stages.run("data", 0.7, 0.72, [&](const Progress& progress) { return fit_input(fit_source(result), progress); });
+  result.fit_input = stages.run("data", "gathers the data of the fit", 0.7, 0.72,
+                                [&](const Progress& progress) { return fit_input(fit_source(result), progress); });
   return result;
 }
 
@@ -169,16 +175,17 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   const Study& study = result.source.study;
   FitInput& input = result.fit_input;
   input.options = identification::remembering_drives(std::move(input.options));
-  StudyFit fit = stages.run("fit", 0.72, 0.8,
+  StudyFit fit = stages.run("fit", "fits the muscles", 0.72, 0.8,
                             [&](const Progress& progress) { return study_fit(study, input, result.emg, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
   StudyValidation validation;
   if (study.identify.cross_validate && wants_torque(study))
-    validation = stages.run("validation", 0.85, 0.95, [&](const Progress& progress) {
-      return study_validation(fit_source(result), input, *torque_of(fit), progress);
-    });
+    validation =
+        stages.run("validation", "predicts parts left out of the fit", 0.85, 0.95, [&](const Progress& progress) {
+          return study_validation(fit_source(result), input, *torque_of(fit), progress);
+        });
   if (study.identify.next_movements > 0 && wants_torque(study))
-    result.next = stages.run("next recording", 0.95, 1.0,
+    result.next = stages.run("next recording", "looks for the next recording", 0.95, 1.0,
                              [&](const Progress& progress) { return next_recording(result.source, fit, progress); });
   for (IdentificationResult& method : fit.methods) {
     if (method.method == "torque")
@@ -203,19 +210,19 @@ StudyResult finished(StudyInputs inputs, const RunOptions& options, Stages& stag
 }  // namespace
 
 StudyResult study_data(const Study& study, const RunOptions& options) {
-  Stages stages(options.progress);
+  Stages stages(options);
   StudyResult result = up_to_data(read_stage(study, options, stages), options, stages);
   result.times = std::move(stages).times();
   return result;
 }
 
 StudyResult run_study(const Study& study, const RunOptions& options) {
-  Stages stages(options.progress);
+  Stages stages(options);
   return finished(read_stage(study, options, stages), options, stages);
 }
 
 StudyResult analyse(StudyInputs inputs, const RunOptions& options) {
-  Stages stages(options.progress);
+  Stages stages(options);
   return finished(std::move(inputs), options, stages);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string_view>
 
 #include "myoid/core/progress.h"
 #include "myoid/run/study_inputs.h"
@@ -13,6 +15,8 @@ namespace myoid {
 struct RunOptions {
   std::optional<double> start_s, end_s;  ///< Times in every trial [s]; empty: as the study states.
   Progress progress;
+  /// Called at the end of each stage with its work, "reads the recordings", and its seconds; may be empty.
+  std::function<void(std::string_view work, double seconds)> stage_ended = {};
   /// Computes forces by static optimization, which methods `paper` and `force` need.
   bool share_forces = true;
   bool inform_forces = true;  ///< Computes forces with the identified muscles, informed by the EMG.

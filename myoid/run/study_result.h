@@ -34,7 +34,10 @@ struct StudyResult {
   std::vector<identification::Fold> folds;            ///< validation
   /// Movements that would determine more; empty without method torque, or if none is asked for.
   std::optional<DesignStudyResult> next;
+  /// Not the same on another day and computer, and empty where results have to be.
   std::vector<StageTime> times;
+  std::string analysed;               ///< Day of the analysis (UTC), "2026-03-01".
+  std::vector<std::string> recorded;  ///< Days that the recordings state, each once, the first one first.
 };
 
 /// Returns the run's own trials as the source of a fit.

@@ -159,6 +159,10 @@ void Browser::resize(int width, int height) {
        {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
 }
 
+void Browser::prefer(const std::string& feature, const std::string& value) {
+  call("Emulation.setEmulatedMedia", {{"features", json::array({{{"name", feature}, {"value", value}}})}});
+}
+
 void Browser::set_scripts(bool on) { call("Emulation.setScriptExecutionDisabled", {{"value", !on}}); }
 
 void Browser::mouse(const std::string& type, double x, double y, int clicks, int buttons) {

@@ -32,6 +32,8 @@ class Browser {
   void wait_for(const std::string& expression);
   void resize(int width, int height);
   void set_scripts(bool on);
+  /// Sets a wish of the reader: "prefers-color-scheme", "dark".
+  void prefer(const std::string& feature, const std::string& value);
 
   /// Moves the mouse to a place of the window [px].
   void move(double x, double y);

@@ -1,11 +1,15 @@
 // The first command of a new user.
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <regex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/files/quoted_text.h"
+
+#include "browser.h"
 #include "program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -23,8 +27,20 @@ TEST(Demo, AnswersInAtMost25LinesAndItsIntervalsHoldTheTruth) {
   EXPECT_THAT(demo.out, HasSubstr("The recording passed every question."));
   EXPECT_THAT(demo.out, HasSubstr("Biceps, greatest torque"));
   EXPECT_THAT(demo.out, HasSubstr("Record next: "));
+  EXPECT_THAT(demo.out, HasSubstr("No trial has a remark."));
+  EXPECT_THAT(demo.err, testing::AllOf(HasSubstr("\nreads the recordings ... "), HasSubstr("\nfits the muscles ... ")));
   EXPECT_TRUE(std::filesystem::exists(folder / "first look/result/report.html"));
   EXPECT_TRUE(std::filesystem::exists(folder / "first look/recording/truth.csv"));
+  const std::filesystem::path page = folder / "first look/result/report.html";
+  EXPECT_LE(std::filesystem::file_size(page), 3'000'000U);
+  if (myoid::test::there_is("chromium")) {
+    myoid::test::Browser browser(1280, 900);
+    browser.open("file://" + myoid::recording::url_path(page.string()));
+    const std::string paper = browser.pdf();
+    const std::regex sheet(R"(/Type\s*/Page\b)");
+    EXPECT_LE(std::distance(std::sregex_iterator(paper.begin(), paper.end(), sheet), std::sregex_iterator()), 12);
+    EXPECT_THAT(browser.complaints(), testing::IsEmpty());
+  }
   std::smatch held;
   ASSERT_TRUE(
       std::regex_search(demo.out, held, std::regex(R"(Of (\d+)\s+numbers\s+with\s+a\s+known\s+truth\s+(\d+))")));

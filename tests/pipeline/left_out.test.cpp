@@ -289,11 +289,12 @@ TEST(LeftOut, BlocksOfTrialsThatAreTooShortAreRefusedWithTheReason) {
              "tendon_slack_length\n"
              "A,700,0.12,0.054,0.28,1.5,1.4,1.2,0.2\nB,1800,0.095,0.043,0.28,1.5,1.4,0.95,0.15\n");
   const std::vector<TrialFiles> trials{write_trial(folder, 1), write_trial(folder, 2)};
-  const Finished few = identify(folder / "muscles.csv", trials, folder / "few", {"--folds", "block", "--end", "2.5"});
+  const Finished few =
+      identify(folder / "muscles.csv", trials, folder / "few", {"--folds", "block", "--end", "2.5", "--verbose"});
   EXPECT_NE(few.exit_code, 3) << few.err;
   EXPECT_NE(few.out.find("no trial has the 3.3 s from which blocks are left out"), std::string::npos) << few.out;
   const Finished enough =
-      identify(folder / "muscles.csv", trials, folder / "enough", {"--folds", "block", "--end", "5"});
+      identify(folder / "muscles.csv", trials, folder / "enough", {"--folds", "block", "--end", "5", "--verbose"});
   EXPECT_NE(enough.out.find("block 5 of 5"), std::string::npos) << enough.out << enough.err;
 }
 

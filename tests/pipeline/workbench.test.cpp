@@ -130,7 +130,7 @@ TEST_F(WorkbenchPage, PointingShowsTheNumberOfTheFile) {
       const double scale = file.channels()[static_cast<std::size_t>(file.index(c.column))].unit == myoid::Unit::radian
                                ? 180.0 / M_PI
                                : 1.0;
-      const double tolerance = 0.5 * std::pow(10.0, -read[2].get<double>()) + read[3].get<double>() / 65534.0 + 1e-9;
+      const double tolerance = 0.5 * std::pow(10.0, -read[2].get<double>()) + read[3].get<double>() / 4094.0 + 1e-9;
       EXPECT_NEAR(number(read[0]), scale * file.column(c.column)[row], tolerance) << c.title;
     }
   }
@@ -376,14 +376,15 @@ TEST_F(WorkbenchPage, TheLawOfThePageIsTheProgramsLaw) {
 
 TEST_F(WorkbenchPage, TheSlidersMoveTheTorqueByTheLaw) {
   js("myoid.learn.element.scrollIntoView({block: 'center'})");
-  // With the identified numbers the law gives the program's force, within the packing's steps.
+  // With the identified numbers the law gives the program's force, within the packing's steps: half a step of a speed
+  // between -1 and 1 m/s is 2.4e-4, over v_max 2e-4, and f_v rises by at most 8 at rest.
   EXPECT_LT(js("Math.max(...myoid.learn.muscles.map((m, i) => { const d = myoid.trial.drives[i];"
                " const y = myoid.trial.plots.find((p) => p.kind === 'force' && p.title === m.name)"
                ".curves.find((c) => c.role === 'identified').y;"
                " return Math.max(...y.map((f, k) => Math.abs(f - myoid.tension(d.activation[k], "
                "d.length[k], d.velocity[k], m.identified)))) / m.identified[0]; }))")
                 .get<double>(),
-            2e-4);
+            2e-3);
   const double before = js("myoid.learn.plots[0].curves.find((c) => c.role === 'moved').y[200]");
   // A maximal force of zero takes the muscle's own torque away.
   js("myoid.learn.values[0] = 0; myoid.learn.update()");
@@ -546,6 +547,62 @@ TEST_F(WorkbenchPage, FitsTheWindowAtEveryWidth) {
         << width;
     EXPECT_GT(js("myoid.canvas.getBoundingClientRect().width").get<double>(), 250.0);
   }
+}
+
+/// An expression: texts that stand out too little from their ground (WCAG 2.1: 4.5), each with its contrast.
+constexpr const char* kFaintTexts = R"js((() => {
+  const rgba = (text) => { const n = text.match(/[\d.]+/g).map(Number); return [n[0], n[1], n[2], n.length > 3 ? n[3] : 1]; };
+  const over = (top, ground) => [0, 1, 2].map((k) => top[3] * top[k] + (1 - top[3]) * ground[k]).concat(1);
+  const light = (c) => c.slice(0, 3).map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4))
+    .reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
+  const ground = (e) => {
+    const layers = [];
+    for (let at = e; at; at = at.parentElement) layers.unshift(rgba(getComputedStyle(at).backgroundColor));
+    return layers.reduce((below, layer) => over(layer, below), [255, 255, 255, 1]);
+  };
+  const faint = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const e = node.parentElement;
+    if (!node.textContent.trim() || ['SCRIPT', 'STYLE', 'TITLE', 'DESC', 'OPTION'].includes(e.tagName.toUpperCase())) continue;
+    if (!e.getClientRects().length || getComputedStyle(e).visibility === 'hidden') continue;
+    const style = getComputedStyle(e);
+    const color = rgba(e instanceof SVGElement ? style.fill : style.color);
+    for (let at = e; at; at = at.parentElement) color[3] *= Number(getComputedStyle(at).opacity);
+    const below = ground(e);
+    const [a, b] = [light(over(color, below)), light(below)].sort((p, q) => q - p);
+    if ((a + 0.05) / (b + 0.05) < 4.5) faint.push(`${node.textContent.trim().slice(0, 30)}: ${((a + 0.05) / (b + 0.05)).toFixed(2)} <${e.tagName} ${e.getAttribute('class') || ''}>`);
+  }
+  return faint;
+})())js";
+
+TEST_F(WorkbenchPage, IsReadableInALightAndInADarkScheme) {
+  for (const char* scheme : {"light", "dark"}) {
+    browser_->prefer("prefers-color-scheme", scheme);
+    open();
+    const bool dark = std::string(scheme) == "dark";
+    // Everything that can be opened is open.
+    js("document.querySelectorAll('details').forEach((d) => (d.open = true));"
+       "document.querySelectorAll('.fold[aria-expanded=false]').forEach((b) => b.click());"
+       "document.querySelectorAll('.reading').forEach((r) => (r.hidden = false))");
+    EXPECT_EQ(js(kFaintTexts), json::array()) << scheme;
+    EXPECT_EQ(js("getComputedStyle(document.body).backgroundColor"), dark ? "rgb(20, 24, 29)" : "rgb(255, 255, 255)");
+    // Curves and marks, of the page's own drawings and of the workbench's.
+    EXPECT_EQ(js("getComputedStyle(myoid.plots[0].svg.querySelector('path')).stroke"),
+              dark ? "rgb(127, 182, 242)" : "rgb(31, 95, 168)");
+  }
+  browser_->prefer("prefers-color-scheme", "light");
+}
+
+TEST_F(WorkbenchPage, MovesNothingByItselfForThoseWhoWishSo) {
+  browser_->prefer("prefers-reduced-motion", "reduce");
+  open();
+  EXPECT_EQ(js("myoid.playing"), false);
+  EXPECT_EQ(js("document.getAnimations().length"), 0);
+  EXPECT_EQ(js("[...document.querySelectorAll('*')].filter((e) => getComputedStyle(e).transitionDuration !== '0s' || "
+               "getComputedStyle(e).scrollBehavior === 'smooth').length"),
+            0);
+  browser_->prefer("prefers-reduced-motion", "no-preference");
 }
 
 TEST_F(WorkbenchPage, EveryPlotHasWordsForThoseWhoDoNotSeeIt) {

@@ -1,4 +1,4 @@
-// All channels of a trial at a glance: rows of channels, columns of time, dark is high.
+// All channels of a trial at a glance: rows of channels, columns of time, a strong color is high.
 import { el } from './element.js';
 import { reading } from './texts.js';
 import { cell, escape, save, svgFile } from './save.js';
@@ -10,12 +10,8 @@ const TOP = 2;
 /** Least value that is drawn dark: a marker 20 mm off its place in the model is far off, one 2 mm off is not. */
 const LEAST = { EMG: 0, marker: 20 };
 
-/** From light to dark in lightness alone: readable without color and on paper. */
-function shade(share) {
-  const s = Math.sqrt(Math.max(0, Math.min(1, share)));
-  const mix = (a, b) => Math.round(a + (b - a) * s);
-  return `rgb(${mix(244, 16)},${mix(246, 42)},${mix(248, 92)})`;
-}
+/** How strongly a cell is filled. One color on a pale ground: readable without color and on paper. */
+const strength = (share) => Math.sqrt(Math.max(0, Math.min(1, share))).toFixed(2);
 
 export class Carpet {
   /** `on` as of a plot. */
@@ -89,7 +85,7 @@ export class Carpet {
     const right = this.width - 8;
     let out = '<defs><pattern id="missing" width="5" height="5" patternUnits="userSpaceOnUse"><rect width="5" height="5" fill="#fff"/><path d="M0 5L5 0" stroke="#5a626b"/></pattern>' +
       `<clipPath id="carpet-clip"><rect x="${LEFT}" y="0" width="${right - LEFT}" height="${base}"/></clipPath></defs>`;
-    let cells = '';
+    let cells = `<rect x="${LEFT}" width="${right - LEFT}" height="${base}" fill="#f4f6f8"/>`;
     rows.forEach((row, r) => {
       const y = TOP + ROW * r;
       const faulty = this.trial.marks.some((m) => m.about.split(', ').includes(row.name));
@@ -97,7 +93,7 @@ export class Carpet {
       const width = (end - begin) / row.values.length;
       row.values.forEach((value, k) => {
         const x = this.px(begin + k * width);
-        const fill = Number.isFinite(value) ? shade(value / (this.top[row.kind] || 1)) : 'url(#missing)';
+        const fill = Number.isFinite(value) ? `#102a5c" fill-opacity="${strength(value / (this.top[row.kind] || 1))}` : 'url(#missing)';
         cells += `<rect x="${x.toFixed(1)}" y="${y}" width="${(this.px(begin + (k + 1) * width) - x + 0.4).toFixed(1)}" height="${ROW - 1}" fill="${fill}"/>`;
       });
       for (const mark of this.trial.marks) {

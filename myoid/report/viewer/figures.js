@@ -2,7 +2,8 @@
 import { el } from './element.js';
 import { Plot } from './plot.js';
 import { save } from './save.js';
-import { curve, numbers } from './series.js';
+import { numbers } from './decode.js';
+import { curve } from './series.js';
 
 function live(figure) {
   const place = document.getElementById(figure.id);
@@ -29,7 +30,7 @@ function live(figure) {
   drawing.before(box);
   // Paper and readers without script have the static drawing.
   drawing.classList.add('static');
-  return { resize: () => plots.forEach((p) => p.resize(p.element.clientWidth)) };
+  return plots;
 }
 
 /** Saves a static drawing or a table's numbers from the page itself, for a report that travels without its folder. */
@@ -46,7 +47,8 @@ function saveStatic(place) {
 
 export function upgradeFigures(figures) {
   for (const place of document.querySelectorAll('figure[id]')) saveStatic(place);
-  const shown = figures.map(live).filter(Boolean);
-  for (const figure of shown) figure.resize();
-  return shown;
+  const plots = new Map(figures.flatMap((figure) => live(figure) || []).map((plot) => [plot.element, plot]));
+  // Each is drawn when it has a width, at the latest when its section opens; asking for widths would lay out the page.
+  const observer = new ResizeObserver((entries) => entries.forEach(({ target, contentRect }) => plots.get(target).resize(contentRect.width)));
+  for (const element of plots.keys()) observer.observe(element);
 }

@@ -1,10 +1,11 @@
 // Learning by moving: a muscle's numbers as sliders; the torque follows.
 import { contours, ellipses } from './contours.js';
+import { numbers as unpacked } from './decode.js';
 import { el, select } from './element.js';
 import { tension } from './law.js';
 import { Plot } from './plot.js';
 import { reading } from './texts.js';
-import { numbers as unpacked, text } from './series.js';
+import { text } from './series.js';
 
 const SIDE = 250;
 const LEFT = 52;

@@ -9,6 +9,7 @@ const LEVELS = [
   { pixels: 0.7, shadows: false },
   { pixels: 0.5, shadows: false },
 ];
+const FIRST = 3;      // level of the first picture, so that it comes soon
 const LONG_MS = 20;   // of a frame; a screen shows one each 16.7 ms
 const JUDGED = 6;     // frames, of which most are long, make the next ones coarser
 const REST_MS = 200;  // without a new frame
@@ -21,7 +22,7 @@ export class Pace {
     this.level = -1;
     this.held = false;  // for a film, whose size must not change
     this.steps = [];
-    this.rest();
+    this.#set(FIRST);
   }
 
   /** The body rests: the finest level. The next movement begins a level finer than the last one ended. */

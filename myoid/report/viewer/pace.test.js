@@ -10,8 +10,9 @@ function play(pace, count, ms) {
 test('a fast machine draws every frame finely', () => {
   const applied = [];
   const pace = new Pace((level) => applied.push(level.pixels));
+  equal(applied, [1]);  // the first picture comes soon
   equal(play(pace, 100, 16.7), 0);
-  equal(applied, [2]);
+  equal(applied, [1, 2]);
 });
 
 test('long frames are drawn coarser until they are short', () => {
@@ -40,6 +41,7 @@ test('a body at rest is drawn finely, and moves a level finer than before', () =
 
 test('a film keeps its size', () => {
   const pace = new Pace(() => {});
+  pace.rest();
   pace.held = true;
   equal(play(pace, 50, 80), 0);
 });

@@ -49,10 +49,10 @@ export class Panel {
   }
 
   #side() {
-    const { title, subtitle, trials } = this.viewer;
+    const { title, subtitle, scenes } = this.viewer;
     const parts = [el('h1', { textContent: title.replaceAll('_', '_\u200b') }), el('p', { className: 'subtitle', textContent: subtitle })];
-    this.trial = select('Trial', trials.map((t) => t.name), (i) => this.viewer.openTrial(i));
-    if (trials.length > 1) parts.push(section('Trial', this.trial));
+    this.trial = select('Trial', scenes.map((t) => t.name), (i) => this.viewer.openTrial(i));
+    if (scenes.length > 1) parts.push(section('Trial', this.trial));
     this.notes = el('ul', { className: 'notes' });
     this.noteCount = el('summary');
     this.noteSection = el('details', {}, this.noteCount, this.notes);

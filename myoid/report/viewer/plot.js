@@ -9,10 +9,10 @@ const STYLES = {
   reference: {color: '#1f5fa8', dash: '', width: 1.7},
   literature: {color: '#6b6b6b', dash: '2 3', width: 1.5},
   identified: {color: '#d1491b', dash: '6 3', width: 1.8},
-  truth: {color: '#111111', dash: '', width: 1.2},
+  truth: {color: '#111', dash: '', width: 1.2},
   unseen: {color: '#00694b', dash: '7 2 1.5 2', width: 1.6},
   moved: {color: '#7b2d8b', dash: '', width: 2.2},
-  other: {color: '#9aa1a9', dash: '', width: 1.3},
+  other: {color: '#868d95', dash: '', width: 1.3},
   raw: {color: '#8d959e', area: 0.55},
   band: {color: '#d1491b', area: 0.16},
   range: {color: '#5a626b', area: 0.13},
@@ -41,6 +41,8 @@ export class Plot {
     this.values = el('span', {className: 'values'});
     this.svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
     this.svg.setAttribute('role', 'img');
+    this.shown = this.extent;
+    this.svg.setAttribute('aria-label', this.#summary());
     const unit = this.unit ? ` [${this.unit}]` : '';
     const explain = reading(this.kind);
     const button = (label, title, action) =>

@@ -10,10 +10,12 @@ import { Stage } from './stage.js';
 const HIDDEN_AT_FIRST = new Set(['surfaces']);
 
 export class Replay {
-  constructor({ meshes, scenes }) {
+  constructor({ meshes, models, scenes }) {
     this.meshes = meshes.map(mesh);
-    this.trials = scenes.map((scene) => new Trial(scene));
-    this.up = scenes[0].up;
+    this.scenes = scenes;
+    this.models = models;
+    this.trials = [];
+    this.up = models[scenes[0].model].up;
     this.visible = Object.fromEntries(PARTS.map(([part]) => [part, !HIDDEN_AT_FIRST.has(part)]));
     this.visible.ground = this.visible.axes = true;
     this.frame = 0;
@@ -22,15 +24,20 @@ export class Replay {
     this.hovered = -1;
   }
 
-  /** Starts to draw into `canvas`, as large as the element `frame`. */
-  mount(canvas, frame) {
+  /** A trial, unpacked when it is needed first. */
+  trialAt(index) {
+    return (this.trials[index] ||= new Trial(this.scenes[index], this.models));
+  }
+
+  /** Starts to draw the trial `index` into `canvas`, as large as the element `frame`. */
+  mount(canvas, frame, index = 0) {
     this.canvas = canvas;
     this.element = frame;
     this.camera = new Camera(canvas, this.up, () => (this.dirty = true));
-    this.size = size(this.trials[0], this.meshes);
+    this.size = size(this.trialAt(0), this.meshes);
     this.stage = new Stage(canvas, this.camera.axes, this.size);
     this.pace = new Pace((level) => this.stage.setLevel(level));
-    this.openTrial(0);
+    this.openTrial(index);
     this.#resize();
     this.fit();
     new ResizeObserver(() => this.#resize()).observe(frame);
@@ -44,7 +51,8 @@ export class Replay {
   showTip() {}
 
   openTrial(index) {
-    this.trial = this.trials[index];
+    if (this.trial === this.trialAt(index)) return;
+    this.trial = this.trialAt(index);
     if (this.figure) {
       this.stage.scene.remove(this.figure.root);
       this.figure.dispose();
@@ -153,10 +161,13 @@ export class Replay {
   }
 
   #resize() {
-    const { clientWidth, clientHeight } = this.element;
-    this.stage.resize(Math.max(1, clientWidth), Math.max(1, clientHeight));
-    this.camera.resize(Math.max(1, clientWidth), Math.max(1, clientHeight));
-    this.draw();  // at once: a canvas of a new size is empty
+    const shape = [this.element.clientWidth, this.element.clientHeight].map((length) => Math.max(1, length));
+    if (String(shape) === String(this.shape)) return;
+    this.stage.resize(...shape);
+    this.camera.resize(...shape);
+    if (this.shape) this.draw();  // at once: a canvas of a new size is empty
+    this.dirty = true;
+    this.shape = shape;
   }
 
   #hover(event) {

@@ -1,22 +1,5 @@
 // The numbers of the workbench as the page brings them (see workbench.cpp and packing.h), made readable.
-import { floats, halves } from './decode.js';
-
-const MISSING = 65535;
-const STEPS = 65534;
-
-/** Packed numbers; NaN where one is missing. `quantum`: the step of the packing. */
-export function numbers(data) {
-  const codes = halves(data.codes);
-  const quantum = (data.upper - data.lower) / STEPS;
-  const values = new Float64Array(codes.length);
-  for (let i = 0; i < codes.length; ++i) values[i] = codes[i] === MISSING ? NaN : data.lower + quantum * codes[i];
-  return { values, quantum, lower: data.lower, upper: data.upper };
-}
-
-export function clock(data) {
-  if (data.times) return Float64Array.from(floats(data.times));
-  return Float64Array.from({ length: data.count }, (_, i) => data.start + i * data.step);
-}
+import { numbers } from './decode.js';
 
 /** The number of the value in rising `x` that is nearest to `at`. */
 export function nearest(x, at) {
@@ -33,7 +16,7 @@ export function nearest(x, at) {
 /** As many decimals as the packing keeps, at most four. */
 export function decimals(quantum) {
   if (!(quantum > 0)) return 3;
-  return Math.max(0, Math.min(4, Math.floor(-Math.log10(quantum)) - 1));
+  return Math.max(0, Math.min(4, Math.floor(-Math.log10(2 * quantum))));
 }
 
 export function text(value, places) {

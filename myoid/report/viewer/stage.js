@@ -29,6 +29,7 @@ export class Stage {
     this.size = size;
     // Edges are smooth by more pixels than the screen has (pace.js), which a moving body can do without.
     this.renderer = new WebGLRenderer({ canvas, antialias: false });
+    this.renderer.debug.checkShaderErrors = false;  // waiting for the answer holds up the page
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.scene = new Scene();

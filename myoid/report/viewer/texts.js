@@ -51,8 +51,8 @@ const TEXTS = {
     'Read the curves in the grey range only. Record other angles for lengths, faster movements for velocities.',
   ],
   carpet: [
-    'All channels at a glance: each row is an EMG channel (share of the greatest effort) or a marker (distance from the model in mm); dark is high. A hatched cell is missing. An orange frame is a fault.',
-    'A row that is dark where its neighbors are light; hatched stretches; stripes over all rows at one time.',
+    'All channels at a glance: each row is an EMG channel (share of the greatest effort) or a marker (distance from the model in mm); the stronger the color, the higher. A hatched cell is missing. An orange frame is a fault.',
+    'A row that is strong where its neighbors are pale; hatched stretches; stripes over all rows at one time.',
     'Point at a cell for its number, click to move the body there. A marker that is always far: wrong label or wrong place on the model.',
   ],
   learn: [

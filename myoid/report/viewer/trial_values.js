@@ -1,5 +1,6 @@
 // One trial of the workbench.
-import { clock, curve, decimals, numbers } from './series.js';
+import { clock, numbers } from './decode.js';
+import { curve, decimals } from './series.js';
 
 /** A trial as the page uses it; its series are unpacked when it is opened first. */
 export class TrialValues {

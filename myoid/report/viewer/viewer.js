@@ -85,7 +85,7 @@ class Viewer extends Replay {
 
 /** What the address asks for: #t=0.3&view=side&trial=2&show=surfaces&play */
 function follow(viewer, wishes) {
-  if (wishes.has('trial')) viewer.openTrial(Math.max(0, Math.min(viewer.trials.length, Number(wishes.get('trial'))) - 1));
+  if (wishes.has('trial')) viewer.openTrial(Math.max(0, Math.min(viewer.scenes.length, Number(wishes.get('trial'))) - 1));
   if (wishes.has('view')) viewer.view(wishes.get('view'));
   for (const part of (wishes.get('show') || '').split(',')) if (viewer.panel.boxes[part]) viewer.panel.boxes[part].click();
   if (wishes.has('t')) viewer.seek(Number(wishes.get('t')) - viewer.trial.times[0]);

@@ -42,10 +42,11 @@ export class Workbench {
     this.learn = data.muscles.length && data.trials.some((t) => t.drives.length) ? new Learn(this) : null;
     if (this.learn) this.element.append(this.learn.element);
     foldSections();
-    this.figures = upgradeFigures(data.figures);
-    this.#replay(scenes);
+    upgradeFigures(data.figures);
+    const first = this.#firstTrial();
+    this.#replay(scenes, Math.max(0, this.trials[first].scene));
     this.#listen();
-    this.open(this.#firstTrial());
+    this.open(first);
     this.#follow();
     this.#run();
   }
@@ -129,7 +130,7 @@ export class Workbench {
     this.video.show(this.t, this.playing, this.speed);
   }
 
-  #replay(scenes) {
+  #replay(scenes, first) {
     this.replay = null;
     if (!scenes || !scenes.scenes.length) return;
     try {
@@ -144,7 +145,7 @@ export class Workbench {
         input.addEventListener('change', () => replay.show(part, input.checked));
         return el('label', { className: 'check' }, input, label);
       }));
-      replay.mount(this.canvas, this.stage);
+      replay.mount(this.canvas, this.stage, first);
       this.replay = replay;
     } catch (error) {
       this.still.hidden = false;
@@ -288,10 +289,11 @@ export class Workbench {
   }
 
   #resize() {
-    for (const plot of this.plots) plot.resize(plot.element.clientWidth);
-    this.carpet.resize(this.carpet.element.clientWidth);
+    // All widths first: each question after a drawing would lay out the page again.
+    const parts = [...this.plots, this.carpet];
+    const widths = parts.map((part) => part.element.clientWidth);
+    parts.forEach((part, i) => part.resize(widths[i]));
     if (this.learn) this.learn.resize();
-    for (const figure of this.figures || []) figure.resize();
   }
 
   /** Moves body and cursor to the time. */

@@ -1,0 +1,24 @@
+#include "myoid/commands/study_days.h"
+
+#include <chrono>
+#include <set>
+#include <string>
+
+#include "myoid/core/day_text.h"
+#include "myoid/recording/recorded_day.h"
+
+namespace myoid::commands {
+
+void add_days(StudyResult& result) {
+  using namespace std::chrono;
+  result.analysed = day_text(year_month_day(floor<days>(system_clock::now())));
+  std::set<std::string> recorded;
+  for (const TrialResult& trial : result.trials) {
+    for (const auto& file : {trial.spec.markers, trial.spec.motion, trial.spec.emg})
+      if (file) recorded.insert(recording::recorded_day(*file));
+  }
+  recorded.erase("");
+  result.recorded.assign(recorded.begin(), recorded.end());
+}
+
+}  // namespace myoid::commands

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "myoid/run/study_result.h"
+
+namespace myoid::commands {
+
+/// Writes into the result the day of today, and the days that the files of its trials state.
+void add_days(StudyResult& result);
+
+}  // namespace myoid::commands

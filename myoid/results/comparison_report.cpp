@@ -1,0 +1,151 @@
+#include "myoid/results/comparison_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/report/muscle_names.h"
+#include "myoid/report/plain_unit.h"
+#include "myoid/report/tables.h"
+#include "myoid/report/typeset.h"
+#include "myoid/results/change_sentences.h"
+
+namespace myoid {
+namespace {
+
+using identification::ParameterEstimate;
+using report::PlainUnit;
+
+report::Badge badge(Change change) {
+  return change == Change::differs     ? report::Badge::info
+         : change == Change::no_change ? report::Badge::good
+                                       : report::Badge::weak;
+}
+
+std::string verdict(const ComparedParameter& p) { return report::spelled(name(p.change)); }
+
+/// Returns "second (2026-03-01)".
+std::string session_name(std::string_view which, const std::string& day) {
+  return day.empty() ? std::string(which) : fmt::format("{} ({})", which, day);
+}
+
+std::string number_name(const ParameterEstimate& e) {
+  return report::spelled(e.parameter) + branch_text(e.fit_case, " (", ")");
+}
+
+std::string owner_name(const ComparedParameter& p) { return report::spelled(report::plain_muscle_and_name(p.muscle)); }
+
+/// Returns the number in the unit for people.
+report::SessionValue shown(const ComparedValue& of, const PlainUnit& unit) {
+  const auto scaled = [&](const std::optional<double>& x) { return x ? std::optional(*x * unit.per_si) : x; };
+  return {of.value * unit.per_si, scaled(of.low), scaled(of.high)};
+}
+
+std::string value_text(const report::SessionValue& of) {
+  const std::string value = report::format_beside(of.value, of.lower, of.upper);
+  return of.lower && of.upper ? fmt::format("{} ({})", value, report::format_interval(*of.lower, *of.upper)) : value;
+}
+
+std::string percent_text(const ComparedParameter& p) {
+  return p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value));
+}
+
+/// Draws the numbers that both sessions tell, the greatest torques first.
+report::ChangeForest changes_of(const RunComparison& comparison) {
+  report::ChangeForest forest{.first = session_name("first", comparison.first_date),
+                              .second = session_name("second", comparison.second_date)};
+  for (const bool torques : {true, false}) {
+    for (const ComparedParameter* p : counted_parameters(comparison)) {
+      if (!p->smallest_detectable || identification::is_voluntary(p->first.parameter) != torques) continue;
+      const PlainUnit unit = report::plain_unit(p->first.unit);
+      forest.rows.push_back({.owner = report::spelled(report::plain_muscle(p->muscle)),
+                             .name = number_name(p->first),
+                             .unit = std::string(unit.symbol),
+                             .first = shown(p->of_first, unit),
+                             .second = shown(p->of_second, unit),
+                             .detectable = *p->smallest_detectable * unit.per_si,
+                             .verdict = verdict(*p),
+                             .badge = badge(p->change)});
+    }
+  }
+  return forest;
+}
+
+report::Section method_section(const RunComparison& comparison, const std::string& method) {
+  report::Table table{.id = "compared_" + method,
+                      .title = "Parameters",
+                      .caption = "Number with its 95 % interval. p-values are adjusted for their number (Holm).",
+                      .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
+                                  session_name("second", comparison.second_date), "difference", "%", "verdict"}};
+  for (const ComparedParameter& p : comparison.parameters) {
+    if (p.first.method != method) continue;
+    const PlainUnit unit = report::plain_unit(p.first.unit);
+    table.rows.push_back({{owner_name(p)},
+                          {number_name(p.first)},
+                          {unit.symbol.empty() ? "–" : std::string(unit.symbol)},
+                          {value_text(shown(p.of_first, unit))},
+                          {value_text(shown(p.of_second, unit))},
+                          {report::format_value(p.difference * unit.per_si)},
+                          {percent_text(p)},
+                          {verdict(p), badge(p.change), change_text(p)}});
+  }
+  return {.id = "method_" + method,
+          .heading = rests_on_measurement(method) ? "All numbers of method " + method
+                                                  : "Method " + method + ": shown, not compared",
+          .folded = !rests_on_measurement(method),
+          .tables = {std::move(table)}};
+}
+
+report::Section errors_section(const RunComparison& comparison) {
+  report::Table errors{.id = "trial_errors",
+                       .title = "Root mean square error of the torque",
+                       .columns = {"trial", "method", "first [N m]", "second [N m]"}};
+  const auto cell = [](const std::optional<double>& x) { return x ? report::format_value(*x) : "-"; };
+  for (const ComparedTrial& t : comparison.trials)
+    errors.rows.push_back(report::text_row({t.trial, t.method, cell(t.rmse_first_nm), cell(t.rmse_second_nm)}));
+  return {.id = "trials",
+          .heading = "How well the trials are predicted",
+          .paragraphs = comparison.remarks,
+          .tables = {std::move(errors)}};
+}
+
+std::string headline(const RunComparison& comparison) {
+  std::string text = changes_sentence(comparison);
+  if (!comparison.unlike.empty())
+    text += fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
+  return text;
+}
+
+}  // namespace
+
+report::Report comparison_report(const RunComparison& comparison) {
+  report::Report page{
+      .title = "Two sessions compared",
+      .subtitle = comparison.first.string() + " and " + comparison.second.string(),
+      .headline = headline(comparison),
+      .assumptions = {
+          "The two sessions are independent; where both used the same prior, the test is cautious.",
+          "A number that a session calls prior_dominated, not_identifiable or non_physical is not compared.",
+          "Method paper fits forces that the program shared among the muscles: its numbers are shown, not compared.",
+          "The days are those on which the results were written."}};
+  report::Section both{.id = "changes", .heading = "Both sessions", .changes = changes_of(comparison)};
+  if (std::string reading = reading_sentence(comparison); !reading.empty())
+    both.paragraphs.push_back(std::move(reading));
+  page.sections.push_back(std::move(both));
+  const auto add_methods = [&](bool measured) {
+    for (const std::string& method : methods_of(comparison))
+      if (rests_on_measurement(method) == measured) page.sections.push_back(method_section(comparison, method));
+  };
+  add_methods(true);
+  page.sections.push_back(errors_section(comparison));
+  add_methods(false);
+  return page;
+}
+
+}  // namespace myoid
