@@ -60,7 +60,7 @@ std::vector<std::string> assumptions(const StudyResult& result) {
           fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can hardly be told apart.",
                       muscle.name, *muscle.same_as));
   }
-  if (!result.source.study.subject.mass_kg && !result.source.study.model.file)
+  if (!result.source.study.subject.mass_kg && result.source.study.model.is_arm())
     list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
   for (const signals::WhiteningFilter& filter : result.emg.whitening.filters) {
     if (filter.reason.empty())

@@ -16,6 +16,18 @@
 namespace myoid {
 namespace {
 
+/// Adds angle, speed and acceleration of a joint and its resting torque, as far as the angle is known.
+void add_motion(const kinematics::JointMotion& motion,
+                const std::vector<identification::RestingJoint>& resting,
+                const std::string& name,
+                auto& joint) {
+  joint.resting_nm = resting_torque_nm(resting, name, motion.q);
+  if (motion.q.channel_count() == 0) return;
+  joint.angle_rad = motion.q.column(name);
+  joint.velocity_radps = motion.qdot.column(name);
+  joint.acceleration_radps2 = motion.qddot.column(name);
+}
+
 identification::TrialData trial_data(const Study& study,
                                      const TrialSpec& spec,
                                      const TrialResult& trial,
@@ -34,26 +46,20 @@ identification::TrialData trial_data(const Study& study,
   if (!trial.forces.shared.force.empty()) {
     data.force_n = Eigen::MatrixXd::Zero(data.length_m.rows(), data.length_m.cols());
     for (Eigen::Index g = 0; g < data.force_n.cols(); ++g) {
-      for (const int head : groups[static_cast<std::size_t>(g)].members)
-        data.force_n.col(g) += trial.forces.shared.force.values().col(head);
+      for (const std::string& head : study.muscles[static_cast<std::size_t>(g)].osim)
+        data.force_n.col(g) += trial.forces.shared.force.column(head);
     }
   }
   data.torque_nm = trial.forces.muscle_torque.values().col(0);
   data.condition = trial.spec.condition;
   data.joint = study.model.coordinate;
-  data.angle_rad = trial.motion.joints.q.column(study.model.coordinate);
-  data.velocity_radps = trial.motion.joints.qdot.column(study.model.coordinate);
-  data.acceleration_radps2 = trial.motion.joints.qddot.column(study.model.coordinate);
-  data.resting_nm = resting_torque_nm(resting, data.joint, data.angle_rad);
+  add_motion(trial.motion.joints, resting, data.joint, data);
   for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
     const std::string& name = study.model.more_coordinates[j];
     data.more_joints.push_back({.name = name,
                                 .torque_nm = trial.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
-                                .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name),
-                                .angle_rad = trial.motion.joints.q.column(name),
-                                .velocity_radps = trial.motion.joints.qdot.column(name),
-                                .acceleration_radps2 = trial.motion.joints.qddot.column(name),
-                                .resting_nm = resting_torque_nm(resting, name, trial.motion.joints.q.column(name))});
+                                .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name)});
+    add_motion(trial.motion.joints, resting, name, data.more_joints.back());
   }
   data.activation = activation;
   data.excluded = trial.spec.exclude.windows;
