@@ -40,7 +40,7 @@ set(MYOID_LAYER_results core math files muscle tables model kinematics forces si
     identification intervals methods report phases study design run scene)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model)
-set(MYOID_LAYER_identify_files core math files muscle tables recording signals kinematics dynamics
+set(MYOID_LAYER_identify_files core math files muscle tables recording signals kinematics
     identification methods study intake checks run)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)

@@ -72,6 +72,10 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
   const Study& study = result.source.study;
   list.push_back(meaning_of_strength(study, from_maximal_effort(study.emg)));
+  if (result.fit_input.nuisances_held)
+    list.push_back(
+        "The trials hold few independent rows of torque for the unknowns of the muscles: exponents of the EMG, the "
+        "joint's own torque and the shift of the optimal length with activation stay at their expected values.");
   for (const std::string& text : result.source.model->unsupported) list.push_back("Model: " + text + ".");
   return list;
 }

@@ -1,10 +1,12 @@
 #include "myoid/run/estimator_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/units.h"
 #include "myoid/identification/nuisances.h"
 #include "myoid/intake/emg_cover.h"
@@ -88,8 +90,8 @@ identification::StudyData estimator_data(const FitSource& source) {
     if (!study.fits(spec) && spec.use != Use::validation) continue;
     data.trials.push_back(trial_data(study, spec, trial, activation, groups, source.resting));
   }
-  // EMG that is given as activation is taken at its word.
-  const bool scaled = study.emg.kind != EmgKind::activation && study.emg.has_mvc;
+  // Without an unknown gain EMG that is given as activation is taken at its word.
+  const bool scaled = study.emg.kind == EmgKind::activation ? study.identify.gain : study.emg.has_mvc;
   data.rules = identification::nuisance_rules(data, scaled);
   if (unknown_effort) data.rules.push_back(effort_bounds());
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
@@ -128,6 +130,13 @@ identification::ActivationSource activation_source(const Study& study,
                                           .rest = n.resting_level_v / n.reference_v};
     if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, effort.sd);
     source.channels.push_back(std::move(channel));
+  }
+  // Another program's normalisation is of unknown exactness.
+  if (study.emg.kind != EmgKind::activation || !study.identify.gain) return source;
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (std::ranges::find(source.channels, muscle.emg, &identification::ChannelSource::channel) ==
+        source.channels.end())
+      source.channels.push_back({.channel = muscle.emg, .gain_sd = identification::beliefs::kEmgGain.sd});
   }
   return source;
 }
