@@ -208,7 +208,7 @@ void add_identify(CLI::App& app, Context& context) {
       say_whole(identify_json(result));
     } else {
       print_identify(result, o);
-      say("{}/parameters.csv\n", *out);
+      say("{0}/parameters.csv\nreport: myoid run {0}/study.toml --out FOLDER\n", *out);
     }
     if (failed(result.fit, o.method, context.strict)) context.exit_code = kQualityGateFailed;
   });

@@ -38,15 +38,17 @@ std::vector<TrialSpec> trials_of(const IdentifyOptions& o) {
     TrialSpec trial;
     trial.name = trial_label(files.lengths, i);
     trial.emg = files.activations[i];
-    trial.motion = one(files.motions, i);
     trial.given.lengths = files.lengths[i];
     trial.given.velocities = one(files.velocities, i);
-    trial.given.torques = one(files.torques, i);
-    trial.given.forces = one(files.forces, i);
-    for (std::size_t j = 0; j < joints && joints * i + j < files.moment_arms.size(); ++j)
-      trial.given.moment_arms.emplace_back(files.moment_arms[joints * i + j]);
+    if (!files.torque) trial.given.forces = one(files.forces, i);
+    if (files.torque) {
+      trial.motion = one(files.motions, i);
+      trial.given.torques = one(files.torques, i);
+      for (std::size_t j = 0; j < joints; ++j) trial.given.moment_arms.emplace_back(files.moment_arms[joints * i + j]);
+    }
     trials.push_back(std::move(trial));
   }
+  if (!files.torque) return trials;
   for (const std::string& name : files.held_back) trials[trial_named(name, files.lengths)].use = Use::validation;
   return trials;
 }

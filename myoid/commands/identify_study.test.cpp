@@ -10,7 +10,6 @@
 #include "myoid/commands/identify.h"
 #include "myoid/commands/run.h"
 #include "myoid/files/atomic_file.h"
-#include "myoid/files/quoted_text.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
 #include "myoid/tables/series_file.h"
@@ -92,6 +91,28 @@ TEST(IdentifyStudy, RunFindsTheParametersOfIdentify) {
   write_run(same, files.folder / "results");
   for (const char* file : {"report.html", "parameters.json", "1_t0_l/id.sto"})
     EXPECT_TRUE(std::filesystem::exists(files.folder / "results" / file)) << file;
+}
+
+TEST(IdentifyStudy, RunFitsGivenForcesAsIdentifyDoes) {
+  Files files;
+  IdentifyOptions& o = files.options;
+  o.method = "force";
+  for (std::size_t i = 0; i < files.study.data.trials.size(); ++i) {
+    const identification::TrialData& trial = files.study.data.trials[i];
+    std::vector<Channel> channels;
+    for (const identification::MuscleSetup& muscle : files.study.data.muscles)
+      channels.push_back({muscle.name, Unit::newton});
+    const auto path = files.folder / fmt::format("t{}_f.sto", i);
+    recording::write_series(path, {trial.time_s, channels, trial.force_n}, "forces");
+    o.files.forces.push_back(path.string());
+  }
+  o.files.torques.clear();
+  o.files.moment_arms.clear();
+  const IdentifyResult result = identify(o);
+  const RunResult same = run_of(result, files.folder.path());
+  ASSERT_NE(method_of(same.study.fit, "force"), nullptr);
+  expect_same(result.fit, *method_of(same.study.fit, "force"));
+  EXPECT_TRUE(same.study.trials[0].forces.generalized.empty());
 }
 
 TEST(IdentifyStudy, WishesOfTheTableAndOfTheOptionsStandInTheStudy) {

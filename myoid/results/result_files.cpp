@@ -157,9 +157,13 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
     if (trial.motion.joints.q.channel_count() > 0)
       write_motion(*trial.motion.model, trial.motion.joints.q, place / "ik.mot", comments);
     if (trial.motion.ik) write_marker_errors(*trial.motion.ik, place / "ik_marker_errors.sto");
-    recording::write_storage(place / "id.sto", trial.forces.generalized,
-                             {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
-    write_muscle_kinematics(trial.forces.muscles, place);
+    kinematics::MuscleKinematics paths = trial.forces.muscles;
+    if (trial.forces.generalized.empty())
+      paths.moment_arm.clear();
+    else
+      recording::write_storage(place / "id.sto", trial.forces.generalized,
+                               {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
+    write_muscle_kinematics(paths, place);
     if (!trial.spec.given.forces) write_shared_forces(trial.forces.shared, place);
   }
   for (const IdentificationResult& method : result.fit.methods) {

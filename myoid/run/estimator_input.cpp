@@ -30,6 +30,12 @@ void add_motion(const kinematics::JointMotion& motion,
   joint.acceleration_radps2 = motion.qddot.column(name);
 }
 
+/// Returns the torques of the joints; 0 where the trial gives forces alone, which methods `force` and `paper` fit.
+Eigen::MatrixXd torques_of(const TrialForces& forces, std::size_t joints) {
+  if (!forces.muscle_torque.empty()) return forces.muscle_torque.values();
+  return Eigen::MatrixXd::Zero(forces.muscles.length.sample_count(), static_cast<Eigen::Index>(joints));
+}
+
 identification::TrialData trial_data(const Study& study,
                                      const TrialSpec& spec,
                                      const TrialResult& trial,
@@ -52,14 +58,15 @@ identification::TrialData trial_data(const Study& study,
         data.force_n.col(g) += trial.forces.shared.force.column(head);
     }
   }
-  data.torque_nm = trial.forces.muscle_torque.values().col(0);
+  const Eigen::MatrixXd torque_nm = torques_of(trial.forces, study.model.more_coordinates.size() + 1);
+  data.torque_nm = torque_nm.col(0);
   data.condition = trial.spec.condition;
   data.joint = study.model.coordinate;
   add_motion(trial.motion.joints, resting, data.joint, data);
   for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
     const std::string& name = study.model.more_coordinates[j];
     data.more_joints.push_back({.name = name,
-                                .torque_nm = trial.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
+                                .torque_nm = torque_nm.col(static_cast<Eigen::Index>(j) + 1),
                                 .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name)});
     add_motion(trial.motion.joints, resting, name, data.more_joints.back());
   }

@@ -1,5 +1,7 @@
 #include "myoid/run/fit_input.h"
 
+#include <algorithm>
+
 #include "myoid/identification/nuisances.h"
 #include "myoid/run/estimator_input.h"
 #include "myoid/run/study_phases.h"
@@ -11,7 +13,10 @@ FitInput fit_input(const FitSource& source, const Progress& progress, std::optio
   FitInput input{.data = estimator_data(source),
                  .options = torque_options(study, source.scale.normalisation, progress),
                  .phases = {}};
-  const bool given = study.emg.kind == EmgKind::activation && !input.data.trials.empty();
+  // Method `force` decides that for each muscle.
+  const std::vector<identification::Method>& methods = study.identify.methods;
+  const bool given = study.emg.kind == EmgKind::activation && !input.data.trials.empty() &&
+                     std::ranges::find(methods, identification::Method::torque) != methods.end();
   input.nuisances_held = hold.value_or(given && !identification::tells_nuisances(input.data, input.options));
   if (input.nuisances_held) identification::hold_nuisances(input.data);
   if (study.phases.search && !input.data.trials.empty()) {

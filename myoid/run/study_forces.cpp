@@ -78,7 +78,7 @@ kinematics::MuscleKinematics muscle_paths(const Study& study, const TrialMotion&
   const Eigen::VectorXd& time_s = motion.joints.q.time_s();
   const std::vector<std::string> coordinates = study_coordinates(study.model);
   kinematics::MuscleKinematics found;
-  if (gives_paths(model, given)) {
+  if (study.model.is_none() || gives_paths(model, given)) {
     std::vector<Channel> names;
     for (const model::Muscle& muscle : model.muscles) names.push_back({muscle.name, Unit::meter});
     const TimeSeries blank(time_s, names,
@@ -140,11 +140,13 @@ TrialForces trial_torques(const StudySource& source,
                           const TrialMotion& motion) {
   const model::BodyModel& model = *motion.model;
   TrialForces found;
+  found.muscles = muscle_paths(source.study, motion, input.given);
   const std::optional<TimeSeries>& given = input.given.torques;
+  // Methods that fit forces need no torque.
+  if (source.study.model.is_none() && !given) return found;
   const Eigen::VectorXd& time_s = motion.joints.q.time_s();
   found.generalized =
       given ? TimeSeries(time_s, given->channels(), values_at(*given, time_s)) : computed_torques(input, motion);
-  found.muscles = muscle_paths(source.study, motion, input.given);
   const std::vector<std::string> coordinates = study_coordinates(source.study.model);
   std::vector<Channel> columns;
   Eigen::MatrixXd torque(motion.joints.sample_count(), static_cast<Eigen::Index>(coordinates.size()));

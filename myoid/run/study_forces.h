@@ -18,7 +18,7 @@ namespace myoid {
 
 /// The torques, muscle paths and shared forces of one trial; all empty without motion.
 struct TrialForces {
-  TimeSeries generalized;                ///< Inverse dynamics, all coordinates.
+  TimeSeries generalized;                ///< Inverse dynamics, all coordinates; empty where forces alone are given.
   kinematics::MuscleKinematics muscles;  ///< Paths of the model's muscles.
   TimeSeries muscle_torque;              ///< Torque of the muscles, for the study's coordinates [N m].
   forces::MuscleForces shared;           ///< Forces of the model's muscles.

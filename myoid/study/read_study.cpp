@@ -67,6 +67,8 @@ void check_rule(const Study& study, const identification::ParameterRule& rule, c
 /// Refuses a study whose trials give too little for a study without a body, or too many or few moment arms.
 void check_given(const Study& study) {
   const std::size_t joints = study_coordinates(study.model).size();
+  const bool to_torques =
+      std::ranges::find(study.identify.methods, identification::Method::torque) != study.identify.methods.end();
   for (const TrialSpec& trial : study.trials) {
     const std::size_t arms = trial.given.moment_arms.size();
     if (arms > 0 && arms != joints)
@@ -82,9 +84,10 @@ void check_given(const Study& study) {
              fmt::format("trial '{}' has neither markers nor motion, which the model of the study needs; without "
                          "a model ([model] builtin = \"none\") the given stages are enough",
                          trial.name));
-    if (study.model.is_none() && trial.moves() && !trial.given.needs_no_body())
+    if (!study.model.is_none() || !trial.moves()) continue;
+    if (to_torques ? !trial.given.tells_torques() : !trial.given.needs_no_body())
       refuse(study, fmt::format("trial '{}': the study has no model, so the trial must give lengths, moment_arms and "
-                                "torques",
+                                "torques; methods force and paper take lengths and forces",
                                 trial.name));
   }
   if (!study.model.is_none()) return;

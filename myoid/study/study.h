@@ -199,7 +199,9 @@ struct GivenSpec {
   bool operator==(const GivenSpec&) const = default;
 
   /// Returns true if nothing of a fit to torques is left to compute from a body.
-  [[nodiscard]] bool needs_no_body() const { return lengths && !moment_arms.empty() && torques; }
+  [[nodiscard]] bool tells_torques() const { return lengths && !moment_arms.empty() && torques; }
+  /// Returns true if nothing of a fit to torques, or to forces, is.
+  [[nodiscard]] bool needs_no_body() const { return tells_torques() || (lengths && forces); }
 };
 
 struct TrialSpec {

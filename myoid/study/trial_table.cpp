@@ -143,7 +143,7 @@ void visit_use(TrialSpec& trial, SettingVisitor& v) {
   const bool passive = trial.use == Use::passive;
   v.must(trial.use == Use::mvc || trial.markers || trial.motion || (trial.given.needs_no_body() && !passive), "name",
          fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one{}", trial.name,
-                     passive ? "" : ", or give lengths, moment_arms and torques"));
+                     passive ? "" : ", or give lengths with moment_arms and torques, or with forces"));
   v.must(trial.use == Use::static_pose || trial.use == Use::passive || trial.emg, "name",
          fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"", trial.name,
                      choice_name(trial.use)));

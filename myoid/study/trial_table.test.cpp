@@ -62,7 +62,9 @@ TEST(TrialTable, ATrialThatGivesPathsAndTorquesNeedsNoMotion) {
   EXPECT_EQ(trial.given.moment_arms, std::vector<std::filesystem::path>{"dir/r.sto"});
   EXPECT_TRUE(trial.given.needs_no_body());
   EXPECT_TRUE(trial.moves());
-  EXPECT_NE(trial_message("name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\n").find("moment_arms and torques"),
+  EXPECT_EQ(trial_message("name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\nforces = \"f.sto\"\n"), "(no error)");
+  EXPECT_NE(trial_message("name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\n")
+                .find("moment_arms and torques, or with forces"),
             std::string::npos);
   EXPECT_NE(trial_message(kGiven + "use = \"passive\"\n").find("neither"), std::string::npos);
   EXPECT_TRUE(Study{}.fits(trial_of(kGiven + "use = \"mvc\"\n")));
