@@ -28,7 +28,7 @@ set(MYOID_LAYER_report core files)
 set(MYOID_LAYER_phases core math)
 set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics forces identification
     phases)
-set(MYOID_LAYER_intake core files tables recording signals model osim kinematics dynamics forces study)
+set(MYOID_LAYER_intake core math files tables recording signals model osim kinematics dynamics forces study)
 set(MYOID_LAYER_checks core math files tables recording signals model osim kinematics dynamics study
     intake)
 set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs identification
@@ -40,8 +40,8 @@ set(MYOID_LAYER_results core math files muscle tables model kinematics forces si
     identification intervals methods report phases study design run scene)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model)
-set(MYOID_LAYER_identify_files core math files muscle tables recording signals kinematics dynamics
-    identification methods intake checks)
+set(MYOID_LAYER_identify_files core math files muscle tables recording signals kinematics
+    identification methods study intake checks run)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
 set(MYOID_LAYER_virtual_person core math files muscle model osim arm beliefs

@@ -45,7 +45,7 @@ class StudyCheck {
           "no trial is a maximal contraction (use = \"mvc\"): F_max will rest on the literature, because the share of "
           "the maximum at the largest EMG is unknown");
     }
-    if (!study_.model.file && !study_.subject.mass_kg)
+    if (study_.model.is_arm() && !study_.subject.mass_kg)
       add(RemarkCode::no_body_mass, Severity::warning, "study",
           "[subject] mass_kg is not given: the built-in arm has the segments of a person of 73 kg");
     for (const std::string& text : study_.identify.without_effect)

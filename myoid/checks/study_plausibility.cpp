@@ -36,6 +36,7 @@ std::optional<Remark> check_support(const Study& study,
   if ((!input.loads && trial.use == Use::static_pose) || input.external_torque) return std::nullopt;
   if (!input.motion && !input.markers) return std::nullopt;
   Eigen::VectorXd q = model.default_q();
+  if (study.model.is_none() || trial.given.torques) return std::nullopt;
   if (input.motion) {
     for (Eigen::Index c = 0; c < input.motion->channel_count(); ++c) {
       const auto index = model.find_coordinate(input.motion->channels()[static_cast<std::size_t>(c)].name);
@@ -64,6 +65,17 @@ std::optional<Remark> check_support(const Study& study,
     return remark;
   }
   return std::nullopt;
+}
+
+/// Returns the findings on the model and its muscles; none without a model.
+std::vector<Remark> of_the_model(const Study& study, const model::BodyModel& model) {
+  if (study.model.is_none()) return {};
+  std::vector<Remark> found = model::implausible(model);
+  for (Remark& remark : found) remark.where = "study";
+  for (std::vector<Remark> more :
+       {idle_muscles(study, model), tendons_too_long(study, model), unlikely_mass(study, model)})
+    std::ranges::move(more, std::back_inserter(found));
+  return found;
 }
 
 }  // namespace
@@ -134,11 +146,8 @@ std::vector<Remark> StudyPlausibility::findings() const {
     }
   }
   if (auto sizes = unlike_sizes(sizes_)) found.push_back(std::move(*sizes));
-  std::vector<Remark> of_model = model::implausible(*model_);
-  for (Remark& remark : of_model) remark.where = "study";
-  for (std::vector<Remark> more : {shared_muscles(*study_), idle_muscles(*study_, *model_),
-                                   tendons_too_long(*study_, *model_), unlikely_mass(*study_, *model_),
-                                   unlike_stated_bodies(*study_), of_model, same, grouped(unlike_lengths(lengths_))})
+  for (std::vector<Remark> more : {shared_muscles(*study_), unlike_stated_bodies(*study_), same,
+                                   grouped(unlike_lengths(lengths_)), of_the_model(*study_, *model_)})
     std::ranges::move(more, std::back_inserter(found));
   return found;
 }

@@ -194,13 +194,13 @@ std::vector<Remark> implausible(const Study& study,
     }
   }
   if (input.motion) check_angles(study, model, *input.motion, trial.name, findings);
-  if (input.motion) {
+  if (input.motion && input.motion->channel_count() > 0) {
     for (Remark& remark : kinematics::implausible(model, *input.motion)) {
       remark.where = trial.name;
       findings.push_back(std::move(remark));
     }
   }
-  if (trial.use == Use::passive && !trial.external_torque && !trial.load_cell)
+  if (trial.use == Use::passive && !trial.external_torque && !trial.load_cell && !trial.given.torques)
     findings.push_back({.code = RemarkCode::resting_torque,
                         .severity = Severity::warning,
                         .where = trial.name,

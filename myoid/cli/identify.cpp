@@ -216,7 +216,9 @@ void add_identify(CLI::App& app, Context& context) {
       say_whole(identify_json(result));
     } else {
       print_identify(result, o, context.verbose);
-      say("{}/parameters.csv{}\n", *out,
+      say("{0}/parameters.csv{1}
+report: myoid run {0}/study.toml --out FOLDER
+", *out,
           context.verbose || o.method == "paper" ? "" : "; all numbers and errors: --verbose");
     }
     if (failed(result.fit, o.method, context.strict)) context.exit_code = kQualityGateFailed;

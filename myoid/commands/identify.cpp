@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "myoid/commands/identify_study.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/files/text_file.h"
@@ -16,6 +17,7 @@
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 #include "myoid/results/prediction_files.h"
+#include "myoid/study/study_text.h"
 
 namespace myoid::commands {
 namespace {
@@ -40,9 +42,8 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
     data.rules.insert(data.rules.begin(), nuisances.begin(), nuisances.end());
   }
   if (files.torque && o.scales == "electrode") {
-    ElectrodeTies ties = electrode_ties(data.muscles);
+    const ElectrodeTies ties = electrode_ties(data.muscles);
     data.rules.insert(data.rules.begin(), ties.rules.begin(), ties.rules.end());
-    if (!ties.says.empty()) remarks.note(ties.says);
   }
   const auto add = [&](const std::string& name, std::vector<std::string> owners, bool free) {
     (void)identification::parameter_field(name);
@@ -171,6 +172,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   const EstimatorOptions as_asked = estimator_options(o, as_read, remarks);
 
   IdentifyResult result;
+  result.study = identify_study(o, table, remarks);
   result.data = as_read;
   result.fit = fit_data(o, table, as_asked, result.data);
   if (o.method == "torque" && identification::exchanged_electrodes(as_read, EstimatorOptions{}.delay_prior_mean_s))
@@ -204,6 +206,7 @@ std::string identify_json(const IdentifyResult& result) {
 void write_identify(const IdentifyResult& result, const std::filesystem::path& folder) {
   write_parameter_files({result.fit}, result.folds, result.provenance, result.told, folder);
   write_held_back(result.fit, result.data, result.provenance, folder);
+  recording::write_file(folder / "study.toml", study_toml(seen_from(folder, result.study)));
   if (!result.contests.empty()) recording::write_file(folder / "solvers.csv", solvers_csv(result.contests));
 }
 

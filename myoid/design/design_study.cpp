@@ -297,6 +297,9 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
 }
 
 DesignStudyResult design_study(const Study& study, const model::BodyModel& model, const DesignStudyOptions& options) {
+  if (study.model.is_none())
+    throw InvalidInput(
+        "a study without a model has no muscle paths for other movements: give [model] a file to design a recording");
   const StudyData data = muscles_of(study, model);
   const EstimatorOptions torque = estimator_of(study, data, options.gain_sd);
   const std::vector<Movement> movements = catalogue_of(study, model, options.catalogue);

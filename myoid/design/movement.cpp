@@ -219,7 +219,7 @@ std::string direction_name(const std::string& coordinate, bool positive) {
 }
 
 MovementModels movement_models(const Study& study, const model::BodyModel& given) {
-  const bool built_in = !study.model.file && study.model.text.empty();
+  const bool built_in = study.model.is_arm();
   const auto in_plane = [&](bool horizontal) {
     Study posed = study;
     posed.model.horizontal = horizontal;

@@ -32,7 +32,40 @@ std::vector<Eigen::Index> balanced(const model::BodyModel& model, const std::vec
   return result;
 }
 
+/// Adds the muscles' paths and strengths to the torques.
+void add_muscles(const model::BodyModel& model, kinematics::MuscleKinematics muscles, SharingInput& input) {
+  input.muscles = std::move(muscles);
+  const Eigen::Index frames = input.torques.sample_count();
+  const auto count = static_cast<Eigen::Index>(model.muscles.size());
+  input.optimal_force_n.resize(frames, count);
+  input.max_isometric_force_n.resize(count);
+  input.min_activation = 1.0;
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const OpensimMuscle muscle(model.muscles[at(m)], model.compat);
+    if (!muscle.has_own_curves()) {
+      input.notes.push_back(fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
+                                        model.muscles[at(m)].name, model.muscles[at(m)].class_name));
+    }
+    input.min_activation = std::min(input.min_activation, model.muscles[at(m)].properties.min_control);
+    input.max_isometric_force_n[m] = muscle.properties().max_isometric_force_n;
+    for (Eigen::Index i = 0; i < frames; ++i)
+      input.optimal_force_n(i, m) =
+          muscle.optimal_force(input.muscles.length.values()(i, m), input.muscles.velocity.values()(i, m));
+  }
+}
+
 }  // namespace
+
+SharingInput sharing_input(const model::BodyModel& model,
+                           TimeSeries torques,
+                           kinematics::MuscleKinematics muscles,
+                           const std::vector<std::string>& coordinates) {
+  SharingInput input;
+  input.torques = std::move(torques);
+  for (const std::string& name : coordinates) input.moment_arms.push_back(muscles.moment_arm.at(name));
+  add_muscles(model, std::move(muscles), input);
+  return input;
+}
 
 SharingInput sharing_input(const model::BodyModel& model,
                            const kinematics::JointMotion& motion,
@@ -48,9 +81,7 @@ SharingInput sharing_input(const model::BodyModel& model,
         "static optimization projects them out");
   }
   const TimeSeries tau = dynamics::inverse_dynamics(model, motion, {.loads = loads, .passive_forces = true});
-  input.muscles = std::move(muscles);
   const Eigen::Index frames = motion.sample_count();
-  const auto count = static_cast<Eigen::Index>(model.muscles.size());
   const auto rows = static_cast<Eigen::Index>(chosen.size());
   Eigen::MatrixXd torque(frames, rows);
   model::BodyState state = model::make_state(model);
@@ -70,24 +101,10 @@ SharingInput sharing_input(const model::BodyModel& model,
   for (const Eigen::Index c : chosen) {
     channels.push_back(tau.channels()[at(c)]);
     // These moment arms include the couplers.
-    input.moment_arms.push_back(input.muscles.moment_arm.at(model.coordinates[at(c)].name));
+    input.moment_arms.push_back(muscles.moment_arm.at(model.coordinates[at(c)].name));
   }
   input.torques = TimeSeries(tau.time_s(), std::move(channels), std::move(torque));
-  input.optimal_force_n.resize(frames, count);
-  input.max_isometric_force_n.resize(count);
-  input.min_activation = 1.0;
-  for (Eigen::Index m = 0; m < count; ++m) {
-    const OpensimMuscle muscle(model.muscles[at(m)], model.compat);
-    if (!muscle.has_own_curves()) {
-      input.notes.push_back(fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
-                                        model.muscles[at(m)].name, model.muscles[at(m)].class_name));
-    }
-    input.min_activation = std::min(input.min_activation, model.muscles[at(m)].properties.min_control);
-    input.max_isometric_force_n[m] = muscle.properties().max_isometric_force_n;
-    for (Eigen::Index i = 0; i < frames; ++i)
-      input.optimal_force_n(i, m) =
-          muscle.optimal_force(input.muscles.length.values()(i, m), input.muscles.velocity.values()(i, m));
-  }
+  add_muscles(model, std::move(muscles), input);
   return input;
 }
 

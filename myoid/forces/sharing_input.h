@@ -37,6 +37,12 @@ struct SharingInput {
                                          const std::vector<std::string>& coordinates,
                                          const dynamics::ExternalLoads* loads = nullptr);
 
+/// The same for torques that are known: a channel for each coordinate. Without inverse dynamics and couplers.
+[[nodiscard]] SharingInput sharing_input(const model::BodyModel& model,
+                                         TimeSeries torques,
+                                         kinematics::MuscleKinematics muscles,
+                                         const std::vector<std::string>& coordinates);
+
 /// Shares forces on this input; the model gives the least activation, not `options`.
 [[nodiscard]] MuscleForces share(const SharingInput& input, SharingOptions options);
 

@@ -9,10 +9,10 @@
 #include "myoid/checks/same_recording.h"
 #include "myoid/core/error.h"
 #include "myoid/identification/options.h"
-#include "myoid/identify_files/identify_input.h"
 #include "myoid/identify_files/identify_trial.h"
-#include "myoid/identify_files/joint_of_arms.h"
 #include "myoid/methods/exchanged_electrodes.h"
+#include "myoid/run/given_check.h"
+#include "myoid/run/joint_of_arms.h"
 
 namespace myoid {
 namespace {
@@ -111,7 +111,7 @@ StudyData read_identify_data(const IdentifySources& sources, const MuscleTable& 
   data.rules = table.rules;
   for (std::size_t i = 0; i < sources.lengths.size(); ++i) {
     TrialData trial = read_identify_trial(sources, i, data.muscles, remark);
-    for (const std::string& text : check_identify_trial(data, trial, files_of(sources, i))) remark(text);
+    for (const std::string& text : check_given_trial(data, trial, files_of(sources, i))) remark(text);
     for (const std::string& text : check_joint_of_arms(data, trial, files_of(sources, i))) remark(text);
     data.trials.push_back(std::move(trial));
   }

@@ -42,16 +42,16 @@ void require_counts(const IdentifySources& s) {
   if (!s.forces.empty()) require_count(s.forces.size(), trials, "--forces");
 }
 
-IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
+TrialFiles files_of(const IdentifySources& s, std::size_t trial) {
   const auto of_trial = [&](const std::vector<std::string>& list) {
     return trial < list.size() ? list[trial] : std::string();
   };
-  IdentifyFiles files{.activations = s.activations[trial],
-                      .lengths = s.lengths[trial],
-                      .velocities = of_trial(s.velocities),
-                      .moment_arms = {},
-                      .torques = s.torque ? of_trial(s.torques) : "",
-                      .resting_torque_is_free = s.resting_torque_is_free};
+  TrialFiles files{.activations = s.activations[trial],
+                   .lengths = s.lengths[trial],
+                   .velocities = of_trial(s.velocities),
+                   .moment_arms = {},
+                   .torques = s.torque ? of_trial(s.torques) : "",
+                   .resting_torque_is_free = s.resting_torque_is_free};
   const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
   for (std::size_t j = 0; s.torque && j < joints; ++j) files.moment_arms.push_back(s.moment_arms[joints * trial + j]);
   return files;

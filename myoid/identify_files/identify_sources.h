@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "myoid/run/given_check.h"
+
 namespace myoid {
 
 /// The files of `myoid identify`, one per trial, in the same order; moment arms one per trial and
@@ -27,20 +29,11 @@ struct IdentifySources {
 /// Receives a sentence on the files or their values.
 using TellRemark = std::function<void(const std::string&)>;
 
-/// The files of one trial of `myoid identify`.
-struct IdentifyFiles {
-  std::string activations, lengths;
-  std::string velocities;                ///< Empty: rates of the spline through the lengths.
-  std::vector<std::string> moment_arms;  ///< By joint; empty: not given.
-  std::string torques;                   ///< Empty: not given.
-  bool resting_torque_is_free = false;   ///< IdentifySources::resting_torque_is_free.
-};
-
 /// Throws InvalidInput if a kind of files does not match the number of trials.
 void require_counts(const IdentifySources& sources);
 
 /// Returns the names of one trial's files.
-[[nodiscard]] IdentifyFiles files_of(const IdentifySources& sources, std::size_t trial);
+[[nodiscard]] TrialFiles files_of(const IdentifySources& sources, std::size_t trial);
 
 /// Returns "walk" for a single file of lengths, "2 (walk)" for one of several. Files of equal name
 /// get as many folders as distinguish them: "2 (fast/walk)".

@@ -9,13 +9,13 @@
 
 #include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
-#include "myoid/identify_files/joint_of_arms.h"
 #include "myoid/intake/emg_cover.h"
 #include "myoid/intake/limits.h"
 #include "myoid/kinematics/motion_plausibility.h"
 #include "myoid/math/spline.h"
 #include "myoid/math/statistics.h"
 #include "myoid/recording/recording.h"
+#include "myoid/run/joint_of_arms.h"
 #include "myoid/signals/resample.h"
 #include "myoid/tables/series_file.h"
 #include "myoid/tables/storage_reader.h"
@@ -87,7 +87,7 @@ class TrialReader {
       : sources_(sources), muscles_(muscles), remark_(remark) {}
 
   TrialData read(std::size_t number) {
-    const IdentifyFiles files = files_of(sources_, number);
+    const TrialFiles files = files_of(sources_, number);
     const std::string forces = sources_.forces.empty() ? "" : sources_.forces[number];
     const std::string motion = sources_.torque && !sources_.motions.empty() ? sources_.motions[number] : "";
     TrialData trial;
@@ -147,7 +147,7 @@ class TrialReader {
 
   /// Returns the times of the lengths within the requested time and the time that all files cover,
   /// because nothing is extrapolated.
-  Eigen::VectorXd clock(const IdentifyFiles& files, const std::vector<std::string>& more) {
+  Eigen::VectorXd clock(const TrialFiles& files, const std::vector<std::string>& more) {
     TimeSeries lengths = series(files.lengths);
     if (sources_.start_s || sources_.end_s)
       lengths = lengths.slice(sources_.start_s.value_or(-1e300), sources_.end_s.value_or(1e300));
@@ -223,7 +223,7 @@ class TrialReader {
   }
 
   /// Returns the files of a trial, each once.
-  static std::vector<std::string> all_of(const IdentifyFiles& files, const std::vector<std::string>& more) {
+  static std::vector<std::string> all_of(const TrialFiles& files, const std::vector<std::string>& more) {
     std::vector<std::string> all{files.lengths, files.activations, files.velocities, files.torques};
     all.insert(all.end(), more.begin(), more.end());
     all.insert(all.end(), files.moment_arms.begin(), files.moment_arms.end());
@@ -234,7 +234,7 @@ class TrialReader {
   }
 
   /// Excludes stretches without samples, whose values would be interpolated between neighbors.
-  void leave_out_gaps(const IdentifyFiles& files, const std::vector<std::string>& more, TrialData& trial) {
+  void leave_out_gaps(const TrialFiles& files, const std::vector<std::string>& more, TrialData& trial) {
     constexpr double kSplines_s = 0.1;  // reach of a spline's ends
     constexpr double kBehind_s = 0.3;   // longest lag of torque behind EMG
     const double begin_s = trial.time_s[0], end_s = trial.time_s[trial.time_s.size() - 1];
@@ -249,7 +249,7 @@ class TrialReader {
     }
   }
 
-  void add_torques(const IdentifyFiles& files, TrialData& trial) {
+  void add_torques(const TrialFiles& files, TrialData& trial) {
     trial.moment_arm_m = columns_of(files.moment_arms[0], trial.time_s);
     const TimeSeries& torques = series(files.torques);
     const std::vector<Channel> columns = torque_columns(sources_.coordinates, files.torques, torques);

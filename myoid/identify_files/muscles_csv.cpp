@@ -15,9 +15,8 @@
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identify_files/muscle_columns.h"
-#include "myoid/muscle/force_velocity.h"
+#include "myoid/muscle/absent_parameters.h"
 #include "myoid/muscle/hill_parameters.h"
-#include "myoid/muscle/literature.h"
 #include "myoid/tables/csv_reader.h"
 
 namespace myoid {
@@ -45,23 +44,6 @@ double* extra_field(identification::MuscleExtras& extras, std::string_view name)
 constexpr const char* kProduct = "eccentric_curvature_product";
 constexpr const char* kRatio = "eccentric_slope_ratio";
 constexpr const char* kSpeed = "max_shortening_speed";
-
-/// Replaces every number that is 0 by the literature's, which follows from the other numbers.
-void fill_in(double slope_ratio, MuscleSetup& setup) {
-  muscle::HillParameters<double>& start = setup.start;
-  const auto absent = [](double& value, double literature) {
-    if (value == 0.0) value = literature;
-  };
-  absent(start.force_length_width_m, muscle::kLiteratureWidth * start.optimal_fiber_length_m);
-  absent(start.concentric_curvature, muscle::kLiteratureCurvature);
-  absent(start.eccentric_plateau, muscle::kLiteraturePlateau);
-  absent(start.max_shortening_speed_mps, muscle::kLiteratureSpeed * start.optimal_fiber_length_m);
-  // With a plateau of 1 the law in lengthening is level for every product.
-  absent(start.eccentric_curvature_product,
-         std::max(muscle::hill_field(kProduct).bounds.lower,
-                  muscle::curvature_product_from_slope_ratio(slope_ratio, start.concentric_curvature,
-                                                             start.eccentric_plateau)));
-}
 
 /// Lists the literature's values that replace empty cells, in a sentence.
 std::string assumption(const std::filesystem::path& path,
@@ -168,7 +150,7 @@ StartingMuscle read_start(const Row& row) {
     if (!may_be_absent && !(result.slope_ratio && name == kProduct)) result.assumed.push_back(name);
   }
   if (row.speed_in_fiber_lengths()) setup.start.max_shortening_speed_mps *= setup.start.optimal_fiber_length_m;
-  fill_in(ratio.value_or(muscle::kLiteratureSlopeRatio), setup);
+  muscle::complete_by_literature(setup.start, ratio.value_or(muscle::kLiteratureSlopeRatio));
   try {
     muscle::validate(setup.start);
   } catch (const InvalidInput& error) {

@@ -11,6 +11,7 @@
 #include "myoid/core/provenance.h"
 #include "myoid/files/byte_source.h"
 #include "myoid/intake/emg_cover.h"
+#include "myoid/intake/read_given.h"
 #include "myoid/intake/trial_emg.h"
 #include "myoid/intake/trial_loads.h"
 #include "myoid/intake/trial_markers.h"
@@ -24,16 +25,22 @@ namespace {
 /// Throws ReadError, naming the trial and its key, for a missing file.
 void require_files(const Study& study, const TrialSpec& trial) {
   using Key = std::pair<const char*, const std::optional<std::filesystem::path>*>;
-  for (const auto& [key, path] : {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
-                                  Key{"external_torque", &trial.external_torque},
-                                  Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell}}) {
+  const auto require = [&](const char* key, const std::filesystem::path& path) {
     std::error_code ignored;
-    if (!*path || std::filesystem::exists(**path, ignored)) continue;
+    if (std::filesystem::exists(path, ignored)) return;
     throw ReadError(
         study.file, 0,
         fmt::format("trial '{}': {} = \"{}\": there is no such file; a path counts from the folder of the study",
-                    trial.name, key, (*path)->string()));
+                    trial.name, key, path.string()));
+  };
+  for (const auto& [key, path] : {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
+                                  Key{"external_torque", &trial.external_torque},
+                                  Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell},
+                                  Key{"lengths", &trial.given.lengths}, Key{"velocities", &trial.given.velocities},
+                                  Key{"torques", &trial.given.torques}, Key{"forces", &trial.given.forces}}) {
+    if (*path) require(key, **path);
   }
+  for (const std::filesystem::path& path : trial.given.moment_arms) require("moment_arms", path);
 }
 
 TimeSeries read_motion(const std::filesystem::path& path, const model::BodyModel& model, TrialInput& input) {
@@ -103,13 +110,16 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   return result;
 }
 
-/// Returns the part of the motion with measured loads, if more than 0.1 s of it has none: neither
+/// Returns the part of the motion with measured loads and given stages, if more than 0.1 s of it has none: neither
 /// the last value nor a line through the last two is a load of the time after it. Load cells and
 /// force plates refuse such a motion where they are read.
-std::optional<Cover> cover_by_loads(const TrialSpec& trial, const TrialInput& input) {
+std::optional<Cover> cover_by_files(const TrialSpec& trial, const TrialInput& input) {
   if (trial.external_loads) {
     const Eigen::Vector2d clock(input.loads->start_s, input.loads->end_s);
     if (auto cover = check_cover(*trial.external_loads, "force", clock, input)) return cover;
+  }
+  for (const GivenFile& given : given_files(trial, input)) {
+    if (auto cover = check_cover(given.file, given.holds, given.series->time_s(), input)) return cover;
   }
   if (!trial.external_torque) return std::nullopt;
   return check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), input);
@@ -131,6 +141,7 @@ TrialInput read_trial_input(const Study& study, const TrialSpec& trial, const mo
     remember(*trial.motion);
     input.motion = read_trial_motion(study, trial, model, input);
   }
+  read_given_stages(study, trial, model, remember, input);
   if (trial.emg) {
     remember(*trial.emg);
     input.emg = read_trial_emg(study, trial, remember, input);
@@ -147,7 +158,7 @@ std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& tri
   std::vector<TrialPart> parts;
   try {
     TrialPart whole{trial, read_trial_input(study, trial, model)};
-    const auto cover = cover_by_loads(trial, whole.input);
+    const auto cover = cover_by_files(trial, whole.input);
     if (!cover) {
       parts.push_back(std::move(whole));
       return parts;

@@ -12,6 +12,7 @@
 #include "myoid/files/marker_series.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intake/clock_check.h"
+#include "myoid/intake/given_stages.h"
 #include "myoid/intake/trial_clock.h"
 #include "myoid/model/body_model.h"
 #include "myoid/study/study.h"
@@ -31,10 +32,11 @@ struct TrialLengths {
 struct TrialInput {
   std::optional<recording::MarkerSeries> markers;
   Vec3 up_L = Vec3::UnitY();                  ///< Upward axis of the markers' laboratory, as recorded.
-  std::optional<TimeSeries> motion;           ///< Coordinates [rad | m].
+  std::optional<TimeSeries> motion;           ///< Coordinates [rad | m]; no columns: given lengths alone.
   std::optional<TimeSeries> emg;              ///< [V], or dimensionless for envelopes and activations.
   std::optional<TimeSeries> external_torque;  ///< [N m]
   std::optional<dynamics::ExternalLoads> loads;
+  GivenStages given;
   std::optional<TrialClock> emg_clock;  ///< Steps that put the EMG on the clock of the motion.
   std::vector<Remark> remarks;          ///< Notes and warnings about the files.
   std::vector<Remark> marker_faults;    ///< Faults of the markers as recorded, before mending.

@@ -12,7 +12,7 @@
 namespace myoid {
 
 TimeSeries movement_of(const TrialInput& input) {
-  if (input.motion) return *input.motion;
+  if (input.motion) return input.motion->channel_count() > 0 ? *input.motion : TimeSeries();
   if (!input.markers) return {};
   std::vector<Channel> channels;
   Eigen::MatrixXd values(input.markers->frame_count(), 0);

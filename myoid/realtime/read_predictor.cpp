@@ -248,7 +248,10 @@ void refuse_unlike(const Study& study, const json& parameters) {
   if (study.identify.normalised) throw InvalidInput("a study with normalised = true cannot be predicted");
   if (!parameters.at("resting_torque").empty())
     throw InvalidInput("a study with measured resting torques cannot be predicted");
-  if (!study.model.file && !study.model.forearm_length_m)
+  if (study.model.is_none())
+    throw InvalidInput(
+        "a study without a model has no lengths and moment arms for other postures: give it a model file");
+  if (study.model.is_arm() && !study.model.forearm_length_m)
     throw InvalidInput(
         "the built-in arm of this study got its length from the markers; state forearm_length_m in [model], or give a "
         "model file");

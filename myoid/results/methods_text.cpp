@@ -81,6 +81,10 @@ void say_trials(const StudyResult& result, Writer& out) {
 
 void say_motion(const StudyResult& result, Writer& out) {
   const Study& study = result.source.study;
+  if (study.model.is_none()) {
+    out.say("Lengths and moment arms of the muscles were given, computed by another program.");
+    return;
+  }
   const bool given_model = study.model.file || !study.model.text.empty();
   const std::string model = fmt::format("the {} {}{}", given_model ? "musculoskeletal model" : "built-in model",
                                         result.source.model->name, given_model ? out.cite("delp2007") : "");
@@ -105,6 +109,10 @@ void say_motion(const StudyResult& result, Writer& out) {
 }
 
 void say_torque(const StudyResult& result, Writer& out) {
+  const std::size_t given = count_trials(result, [](const TrialResult& t) { return t.spec.given.torques.has_value(); });
+  if (given > 0)
+    out.say("The torque of the muscles about {} was given for {}.", joints_of(result), counted(given, "trial"));
+  if (result.source.study.model.is_none()) return;
   std::vector<std::string> from;
   const auto add = [&](const auto& is, std::string_view what) {
     if (count_trials(result, is) > 0) from.emplace_back(what);

@@ -70,7 +70,7 @@ void write_informed_forces(const StudyResult& result,
 /// Writes only numbers that are `identified`, and F_max only if EMG is relative to an MVC. Writes
 /// no model if the motion failed its gates or no number changes.
 void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
-  if (motion_is_unreliable(result.source.study, result.trials)) return;
+  if (result.source.study.model.is_none() || motion_is_unreliable(result.source.study, result.trials)) return;
   const IdentificationResult* torque = torque_of(result.fit);
   if (torque == nullptr) return;
   const Study& study = result.source.study;
@@ -154,12 +154,17 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
       recording::write_storage(place / "activation.sto", trial.emg.activation,
                                {.title = "Activation", .comments = of_activation});
     if (!trial.has_motion()) continue;
-    write_motion(*trial.motion.model, trial.motion.joints.q, place / "ik.mot", comments);
+    if (trial.motion.joints.q.channel_count() > 0)
+      write_motion(*trial.motion.model, trial.motion.joints.q, place / "ik.mot", comments);
     if (trial.motion.ik) write_marker_errors(*trial.motion.ik, place / "ik_marker_errors.sto");
-    recording::write_storage(place / "id.sto", trial.forces.generalized,
-                             {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
-    write_muscle_kinematics(trial.forces.muscles, place);
-    write_shared_forces(trial.forces.shared, place);
+    kinematics::MuscleKinematics paths = trial.forces.muscles;
+    if (trial.forces.generalized.empty())
+      paths.moment_arm.clear();
+    else
+      recording::write_storage(place / "id.sto", trial.forces.generalized,
+                               {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
+    write_muscle_kinematics(paths, place);
+    if (!trial.spec.given.forces) write_shared_forces(trial.forces.shared, place);
   }
   for (const IdentificationResult& method : result.fit.methods) {
     if (method.method != "torque" && result.fit.methods.size() > 1) continue;

@@ -60,7 +60,7 @@ std::vector<std::string> assumptions(const StudyResult& result) {
           fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can hardly be told apart.",
                       muscle.name, *muscle.same_as));
   }
-  if (!result.source.study.subject.mass_kg && !result.source.study.model.file)
+  if (!result.source.study.subject.mass_kg && result.source.study.model.is_arm())
     list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
   for (const signals::WhiteningFilter& filter : result.emg.whitening.filters) {
     if (filter.reason.empty())
@@ -72,6 +72,10 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
   const Study& study = result.source.study;
   list.push_back(meaning_of_strength(study, from_maximal_effort(study.emg)));
+  if (result.fit_input.nuisances_held)
+    list.push_back(
+        "The trials hold few independent rows of torque for the unknowns of the muscles: exponents of the EMG, the "
+        "joint's own torque and the shift of the optimal length with activation stay at their expected values.");
   for (const std::string& text : result.source.model->unsupported) list.push_back("Model: " + text + ".");
   return list;
 }

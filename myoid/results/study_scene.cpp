@@ -76,7 +76,8 @@ report::Scene trial_scene(const Study& study, const TrialResult& trial, int most
 }  // namespace
 
 report::ScenePage study_scenes(const StudyResult& result, int most_frames) {
-  const auto moving = [](const TrialResult& trial) { return trial.has_motion(); };
+  const bool none = result.source.study.model.is_none();
+  const auto moving = [none](const TrialResult& trial) { return trial.has_motion() && !none; };
   const auto count = std::ranges::count_if(result.trials, moving);
   report::ScenePage page{.title = result.source.study.subject.name,
                          .subtitle = fmt::format("model {}, {} trials", result.source.model->name, count)};

@@ -259,7 +259,7 @@ void add_shared_forces(const TrialResult& trial, TrialPlots& plots) {
                .title = force.channels()[at(c)].name,
                .unit = "N",
                .lines = {plots.line("shared", Role::reference, force.time_s(), force.values().col(c))},
-               .file = plots.folder() + "/StaticOptimization_force.sto"});
+               .file = trial.spec.given.forces ? "" : plots.folder() + "/StaticOptimization_force.sto"});
   }
 }
 
@@ -416,7 +416,7 @@ report::Workbench study_workbench(const StudyResult& result, const std::filesyst
   int scene = 0;
   for (const TrialResult& trial : result.trials) {
     WorkbenchTrial shown = shown_trial(result, fit, outlying, trial, ids.of(trial.spec.name), most);
-    if (trial.has_motion()) shown.scene = scene++;
+    if (trial.has_motion() && !result.source.study.model.is_none()) shown.scene = scene++;
     if (trial.spec.video) shown.video = path_from(folder, *trial.spec.video);
     shown.video_offset_s = trial.spec.video_offset_s;
     if (!shown.plots.empty() || shown.scene >= 0 || shown.badge == Badge::bad)

@@ -214,14 +214,16 @@ Table trials_table(const StudyResult& result) {
       std::vector<std::string> angles, torques;
       const std::vector<std::string> coordinates = study_coordinates(result.source.study.model);
       for (std::size_t j = 0; j < coordinates.size(); ++j) {
-        angles.push_back(range_text(t.motion.joints.q.column(coordinates[j]) / kDegree, 0));
-        torques.push_back(range_text(t.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j)), 1));
+        const auto angle = t.motion.joints.q.find(coordinates[j]);
+        if (angle) angles.push_back(range_text(t.motion.joints.q.values().col(*angle) / kDegree, 0));
+        if (!t.forces.muscle_torque.empty())
+          torques.push_back(range_text(t.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j)), 1));
       }
       const auto& clock = t.motion.joints.q.time_s();
       row.insert(row.end(), {{fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])},
                              {fmt::format("{} kg", format_value(t.spec.held_mass_kg.value_or(0.0)))},
-                             {fmt::format("{} deg", fmt::join(angles, "; "))},
-                             {fmt::format("{} N m", fmt::join(torques, "; "))}});
+                             {angles.empty() ? "-" : fmt::format("{} deg", fmt::join(angles, "; "))},
+                             {torques.empty() ? "-" : fmt::format("{} N m", fmt::join(torques, "; "))}});
     } else {
       row.resize(row.size() + 4, {"-"});
     }

@@ -1,10 +1,12 @@
 #include "myoid/run/estimator_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/units.h"
 #include "myoid/identification/nuisances.h"
 #include "myoid/intake/emg_cover.h"
@@ -15,6 +17,24 @@
 
 namespace myoid {
 namespace {
+
+/// Adds angle, speed and acceleration of a joint and its resting torque, as far as the angle is known.
+void add_motion(const kinematics::JointMotion& motion,
+                const std::vector<identification::RestingJoint>& resting,
+                const std::string& name,
+                auto& joint) {
+  joint.resting_nm = resting_torque_nm(resting, name, motion.q);
+  if (motion.q.channel_count() == 0) return;
+  joint.angle_rad = motion.q.column(name);
+  joint.velocity_radps = motion.qdot.column(name);
+  joint.acceleration_radps2 = motion.qddot.column(name);
+}
+
+/// Returns the torques of the joints; 0 where the trial gives forces alone, which methods `force` and `paper` fit.
+Eigen::MatrixXd torques_of(const TrialForces& forces, std::size_t joints) {
+  if (!forces.muscle_torque.empty()) return forces.muscle_torque.values();
+  return Eigen::MatrixXd::Zero(forces.muscles.length.sample_count(), static_cast<Eigen::Index>(joints));
+}
 
 identification::TrialData trial_data(const Study& study,
                                      const TrialSpec& spec,
@@ -34,26 +54,21 @@ identification::TrialData trial_data(const Study& study,
   if (!trial.forces.shared.force.empty()) {
     data.force_n = Eigen::MatrixXd::Zero(data.length_m.rows(), data.length_m.cols());
     for (Eigen::Index g = 0; g < data.force_n.cols(); ++g) {
-      for (const int head : groups[static_cast<std::size_t>(g)].members)
-        data.force_n.col(g) += trial.forces.shared.force.values().col(head);
+      for (const std::string& head : study.muscles[static_cast<std::size_t>(g)].osim)
+        data.force_n.col(g) += trial.forces.shared.force.column(head);
     }
   }
-  data.torque_nm = trial.forces.muscle_torque.values().col(0);
+  const Eigen::MatrixXd torque_nm = torques_of(trial.forces, study.model.more_coordinates.size() + 1);
+  data.torque_nm = torque_nm.col(0);
   data.condition = trial.spec.condition;
   data.joint = study.model.coordinate;
-  data.angle_rad = trial.motion.joints.q.column(study.model.coordinate);
-  data.velocity_radps = trial.motion.joints.qdot.column(study.model.coordinate);
-  data.acceleration_radps2 = trial.motion.joints.qddot.column(study.model.coordinate);
-  data.resting_nm = resting_torque_nm(resting, data.joint, data.angle_rad);
+  add_motion(trial.motion.joints, resting, data.joint, data);
   for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
     const std::string& name = study.model.more_coordinates[j];
     data.more_joints.push_back({.name = name,
-                                .torque_nm = trial.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
-                                .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name),
-                                .angle_rad = trial.motion.joints.q.column(name),
-                                .velocity_radps = trial.motion.joints.qdot.column(name),
-                                .acceleration_radps2 = trial.motion.joints.qddot.column(name),
-                                .resting_nm = resting_torque_nm(resting, name, trial.motion.joints.q.column(name))});
+                                .torque_nm = torque_nm.col(static_cast<Eigen::Index>(j) + 1),
+                                .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name)});
+    add_motion(trial.motion.joints, resting, name, data.more_joints.back());
   }
   data.activation = activation;
   data.excluded = trial.spec.exclude.windows;
@@ -82,8 +97,8 @@ identification::StudyData estimator_data(const FitSource& source) {
     if (!study.fits(spec) && spec.use != Use::validation) continue;
     data.trials.push_back(trial_data(study, spec, trial, activation, groups, source.resting));
   }
-  // EMG that is given as activation is taken at its word.
-  const bool scaled = study.emg.kind != EmgKind::activation && study.emg.has_mvc;
+  // Without an unknown gain EMG that is given as activation is taken at its word.
+  const bool scaled = study.emg.kind == EmgKind::activation ? study.identify.gain : study.emg.has_mvc;
   data.rules = identification::nuisance_rules(data, scaled);
   if (unknown_effort) data.rules.push_back(effort_bounds());
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
@@ -122,6 +137,13 @@ identification::ActivationSource activation_source(const Study& study,
                                           .rest = n.resting_level_v / n.reference_v};
     if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, effort.sd);
     source.channels.push_back(std::move(channel));
+  }
+  // Another program's normalisation is of unknown exactness.
+  if (study.emg.kind != EmgKind::activation || !study.identify.gain) return source;
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (std::ranges::find(source.channels, muscle.emg, &identification::ChannelSource::channel) ==
+        source.channels.end())
+      source.channels.push_back({.channel = muscle.emg, .gain_sd = identification::beliefs::kEmgGain.sd});
   }
   return source;
 }

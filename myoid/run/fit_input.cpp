@@ -1,15 +1,24 @@
 #include "myoid/run/fit_input.h"
 
+#include <algorithm>
+
+#include "myoid/identification/nuisances.h"
 #include "myoid/run/estimator_input.h"
 #include "myoid/run/study_phases.h"
 
 namespace myoid {
 
-FitInput fit_input(const FitSource& source, const Progress& progress) {
+FitInput fit_input(const FitSource& source, const Progress& progress, std::optional<bool> hold) {
   const Study& study = source.study;
   FitInput input{.data = estimator_data(source),
                  .options = torque_options(study, source.scale.normalisation, progress),
                  .phases = {}};
+  // Method `force` decides that for each muscle.
+  const std::vector<identification::Method>& methods = study.identify.methods;
+  const bool given = study.emg.kind == EmgKind::activation && !input.data.trials.empty() &&
+                     std::ranges::find(methods, identification::Method::torque) != methods.end();
+  input.nuisances_held = hold.value_or(given && !identification::tells_nuisances(input.data, input.options));
+  if (input.nuisances_held) identification::hold_nuisances(input.data);
   if (study.phases.search && !input.data.trials.empty()) {
     input.phases = study_phases(source, input.data, input.options);
     exclude_phases(study.phases.exclude, input.phases, input.data);

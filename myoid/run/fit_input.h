@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "myoid/core/progress.h"
@@ -30,9 +31,13 @@ struct FitInput {
   identification::StudyData data;  ///< Without the phases that the study excludes.
   identification::EstimatorOptions options;
   std::vector<TrialPhases> phases;  ///< Phases of the trials of `data`; empty: not searched.
+  bool nuisances_held = false;      ///< The trials are too few to tell them (identification::tells_nuisances).
 };
 
-/// Makes the data of the estimators, their options and the phases of the trials.
-[[nodiscard]] FitInput fit_input(const FitSource& source, const Progress& progress);
+/// Makes the data of the estimators, their options and the phases of the trials. Of given activations the nuisances are
+/// held if the trials do not tell them; `hold` decides that for a fold as for the whole.
+[[nodiscard]] FitInput fit_input(const FitSource& source,
+                                 const Progress& progress,
+                                 std::optional<bool> hold = std::nullopt);
 
 }  // namespace myoid

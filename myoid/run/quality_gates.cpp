@@ -37,8 +37,9 @@ std::optional<double> largest_range_deg(const Study& study, const std::vector<Tr
   for (const TrialResult& t : trials) {
     const bool still = t.spec.use == Use::mvc || t.spec.use == Use::static_pose || t.spec.use == Use::isometric ||
                        t.spec.external_torque;
-    if (!t.has_motion() || still) continue;
-    const Eigen::VectorXd q = t.motion.joints.q.column(study.model.coordinate) / kDegree;
+    const auto angle = t.motion.joints.q.find(study.model.coordinate);
+    if (!t.has_motion() || still || !angle) continue;
+    const Eigen::VectorXd q = t.motion.joints.q.values().col(*angle) / kDegree;
     largest = std::max(largest.value_or(0.0), q.maxCoeff() - q.minCoeff());
   }
   return largest;
@@ -85,7 +86,8 @@ MissingMuscles missing_muscles(const StudyResult& result) {
 /// Returns a gate for a trial whose torque exceeds any joint's capacity; empty if there is none.
 std::optional<Gate> torque_gate(const StudyResult& result) {
   for (const TrialResult& t : result.trials) {
-    if (!t.has_motion()) continue;
+    // Torques that are given with moment arms are compared with them (given_check.h).
+    if (!t.has_motion() || (t.spec.given.torques && !t.spec.given.moment_arms.empty())) continue;
     const std::vector<Remark> found = dynamics::implausible(*result.source.model, t.forces.muscle_torque,
                                                             result.source.study.subject.mass_kg.value_or(0.0));
     if (found.empty()) continue;
@@ -116,7 +118,8 @@ std::optional<Gate> support_gate(const StudyResult& result) {
                               100.0 * t.forces.uncarried->share),
                   "no time in which half of the weight is on the joint to the ground",
                   "Torques of the legs there lack the ground reaction; they are not fitted."};
-    if (!t.has_motion() || t.spec.external_torque || t.forces.generalized.empty()) continue;
+    const bool measured = t.spec.external_torque || t.spec.given.torques;
+    if (!t.has_motion() || measured || t.forces.generalized.empty()) continue;
     const auto weight = dynamics::unsupported_weight(*t.motion.model, t.forces.generalized);
     if (!weight) continue;
     const auto wrong = t.input.loads
@@ -261,6 +264,7 @@ std::vector<Gate> sharing_gates(const Study& study, const std::vector<TrialResul
     reserves += t.forces.shared.frames_with_reserve;
   }
   std::vector<Gate> list;
+  if (sharing_frames == 0) return list;
   // No result of the recording rests on the forces that method paper alone fits.
   const bool counts =
       std::ranges::find(study.identify.methods, identification::Method::force) != study.identify.methods.end();

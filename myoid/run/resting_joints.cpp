@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/error.h"
 #include "myoid/intake/limits.h"
 #include "myoid/kinematics/lumped_muscles.h"
 #include "myoid/study/study_model.h"
@@ -114,9 +115,16 @@ RestingJoints resting_joints(const Study& study,
 
 Eigen::VectorXd resting_torque_nm(const std::vector<RestingJoint>& joints,
                                   const std::string& coordinate,
-                                  const Eigen::VectorXd& angle_rad) {
+                                  const TimeSeries& q) {
   const auto found = std::ranges::find_if(joints, [&](const RestingJoint& joint) { return joint.joint == coordinate; });
-  return found == joints.end() ? Eigen::VectorXd() : found->torque.at(angle_rad);
+  if (found == joints.end()) return {};
+  const auto angle = q.find(coordinate);
+  if (!angle)
+    throw InvalidInput(
+        fmt::format("the resting torque of {} was measured and depends on its angle: give 'motion' to "
+                    "every trial",
+                    coordinate));
+  return found->torque.at(Eigen::VectorXd(q.values().col(*angle)));
 }
 
 }  // namespace myoid

@@ -41,9 +41,10 @@ struct RestingJoints {
                                            const model::BodyModel& model,
                                            const std::vector<RelaxedTrial>& trials);
 
-/// Returns the resting torque of a coordinate at these angles, one per sample; empty if it was not measured.
+/// Returns the resting torque of a coordinate at the angles of `q`, one per sample; empty if it was not measured.
+/// Throws InvalidInput if it was and `q` lacks the angle.
 [[nodiscard]] Eigen::VectorXd resting_torque_nm(const std::vector<identification::RestingJoint>& joints,
                                                 const std::string& coordinate,
-                                                const Eigen::VectorXd& angle_rad);
+                                                const TimeSeries& q);
 
 }  // namespace myoid

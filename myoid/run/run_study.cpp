@@ -15,6 +15,7 @@
 #include "myoid/core/error.h"
 #include "myoid/methods/torque.h"
 #include "myoid/run/fit_input.h"
+#include "myoid/run/given_trials.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/stage_store.h"
 #include "myoid/run/study_fit.h"
@@ -114,11 +115,12 @@ std::vector<TrialResult> joined(const Study& study,
 }
 
 /// Returns movements that would determine more than this recording; without a dynamometer the
-/// movements use the laboratory's masses. Empty if the fit is no basis for a design.
+/// movements use the laboratory's masses. Empty if the fit is no basis for a design, or no model can move.
 std::optional<DesignStudyResult> next_recording(const StudySource& source,
                                                 const StudyFit& fit,
                                                 const Progress& progress) {
   const Study& study = source.study;
+  if (study.model.is_none()) return std::nullopt;
   DesignStudyOptions options;
   options.choice.movements = study.identify.next_movements;
   options.catalogue.dynamometer = false;
@@ -167,6 +169,7 @@ StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& st
   result.resting = std::move(forces.resting);
   result.fit_input = stages.run("data", "gathers the data of the fit", 0.7, 0.72,
                                 [&](const Progress& progress) { return fit_input(fit_source(result), progress); });
+  check_given(result.source.study, result.fit_input.data, result.trials);
   return result;
 }
 

@@ -40,6 +40,16 @@ bool wants_torque(const Study& study) {
   return std::ranges::find(methods, identification::Method::torque) != methods.end();
 }
 
+namespace {
+
+/// Returns true if force sharing made the forces of a fitted trial.
+bool shares_forces(const Study& study) {
+  return std::ranges::any_of(study.trials,
+                             [&](const TrialSpec& trial) { return study.fits(trial) && !trial.given.forces; });
+}
+
+}  // namespace
+
 StudyFit study_fit(const Study& study, const FitInput& input, const EmgScale& emg, const Progress& progress) {
   StudyFit found;
   if (wants_torque(study)) {
@@ -51,14 +61,16 @@ StudyFit study_fit(const Study& study, const FitInput& input, const EmgScale& em
     found.shifted =
         identification::shifted_emg(input.data, {signals::kLimits.earliest_offset_s, signals::kLimits.latest_offset_s});
   }
+  const bool shared = shares_forces(study);
   for (const identification::Method method : study.identify.methods) {
     progress.check();
     if (method == identification::Method::paper) {
       found.methods.push_back(identification::identify_paper(
-          input.data, {.multistart = study.identify.starts, .muscles = study.identify.muscles, .shared_forces = true}));
+          input.data,
+          {.multistart = study.identify.starts, .muscles = study.identify.muscles, .shared_forces = shared}));
     } else if (method == identification::Method::force) {
-      found.methods.push_back(
-          identification::identify_force(input.data, {.estimator = input.options, .shared_forces = true}));
+      found.methods.push_back(identification::identify_force(
+          input.data, {.estimator = input.options, .shared_forces = shared, .detect_exact = !shared}));
     } else {
       // EMG that is given as activation may be that of a simulation, without noise.
       std::optional<IdentificationResult> exact;

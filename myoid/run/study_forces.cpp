@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/sharing_input.h"
+#include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/run/resting_joints.h"
 #include "myoid/signals/resample.h"
 #include "myoid/study/study_model.h"
@@ -22,7 +23,7 @@ std::optional<dynamics::UncarriedTime> uncarried_time(const Study& study,
                                                       const TrialSpec& spec,
                                                       const TrialMotion& motion,
                                                       const TimeSeries& generalized) {
-  if (spec.external_torque) return std::nullopt;
+  if (spec.external_torque || spec.given.torques) return std::nullopt;
   const std::vector<std::string> names = study_coordinates(study.model);
   const Eigen::VectorXd posture = motion.joints.q.values().row(0).transpose();
   const bool bears = std::ranges::any_of(names, [&](const std::string& name) {
@@ -50,6 +51,65 @@ void for_each_trial(const std::vector<TrialMotion>& motion,
       forces[i].failure = error.what();
     }
   });
+}
+
+/// Puts the columns of a given stage in the place of the computed ones. `stage` is empty where nothing was computed.
+void take_given(const model::BodyModel& model, const TimeSeries& given, Unit unit, TimeSeries& stage) {
+  std::vector<Channel> channels;
+  for (const model::Muscle& muscle : model.muscles) channels.push_back({muscle.name, unit});
+  Eigen::MatrixXd values = stage.values();
+  for (Eigen::Index c = 0; c < given.channel_count(); ++c)
+    values.col(model.muscle_index(given.channels()[static_cast<std::size_t>(c)].name)) = given.values().col(c);
+  stage = TimeSeries(stage.time_s(), std::move(channels), std::move(values));
+}
+
+/// Returns true if the trial gives the paths of every muscle of the model.
+bool gives_paths(const model::BodyModel& model, const GivenStages& given) {
+  const auto whole = [&](const TimeSeries& series) {
+    return series.channel_count() == static_cast<Eigen::Index>(model.muscles.size());
+  };
+  return given.lengths && !given.moment_arms.empty() && whole(*given.lengths) && whole(*given.velocities) &&
+         std::ranges::all_of(given.moment_arms, whole);
+}
+
+/// Returns the muscles' paths: those that the trial gives, and those of the model for the rest.
+kinematics::MuscleKinematics muscle_paths(const Study& study, const TrialMotion& motion, const GivenStages& given) {
+  const model::BodyModel& model = *motion.model;
+  const Eigen::VectorXd& time_s = motion.joints.q.time_s();
+  const std::vector<std::string> coordinates = study_coordinates(study.model);
+  kinematics::MuscleKinematics found;
+  if (study.model.is_none() || gives_paths(model, given)) {
+    std::vector<Channel> names;
+    for (const model::Muscle& muscle : model.muscles) names.push_back({muscle.name, Unit::meter});
+    const TimeSeries blank(time_s, names,
+                           Eigen::MatrixXd::Zero(time_s.size(), static_cast<Eigen::Index>(names.size())));
+    found.length = found.velocity = blank;
+    for (const std::string& name : coordinates) found.moment_arm[name] = blank;
+  } else {
+    found = kinematics::muscle_kinematics(model, motion.joints);
+  }
+  const auto put = [&](const TimeSeries& series, Unit unit, TimeSeries& stage) {
+    take_given(model, {time_s, series.channels(), values_at(series, time_s)}, unit, stage);
+  };
+  if (given.lengths) {
+    put(*given.lengths, Unit::meter, found.length);
+    put(*given.velocities, Unit::meter_per_second, found.velocity);
+  }
+  for (std::size_t j = 0; j < given.moment_arms.size(); ++j)
+    put(given.moment_arms[j], Unit::meter, found.moment_arm.at(coordinates[j]));
+  return found;
+}
+
+/// Returns the torques of all coordinates by inverse dynamics.
+TimeSeries computed_torques(const TrialInput& input, const TrialMotion& motion) {
+  return dynamics::inverse_dynamics(*motion.model, motion.joints, {.loads = input.loads ? &*input.loads : nullptr});
+}
+
+/// Returns given forces on the clock of the motion.
+forces::MuscleForces given_forces(const TimeSeries& given, const Eigen::VectorXd& time_s) {
+  forces::MuscleForces forces;
+  forces.force = TimeSeries(time_s, given.channels(), values_at(given, time_s));
+  return forces;
 }
 
 std::vector<identification::RestingJoint> find_resting(const StudyInputs& inputs,
@@ -80,9 +140,13 @@ TrialForces trial_torques(const StudySource& source,
                           const TrialMotion& motion) {
   const model::BodyModel& model = *motion.model;
   TrialForces found;
+  found.muscles = muscle_paths(source.study, motion, input.given);
+  const std::optional<TimeSeries>& given = input.given.torques;
+  // Methods that fit forces need no torque.
+  if (source.study.model.is_none() && !given) return found;
+  const Eigen::VectorXd& time_s = motion.joints.q.time_s();
   found.generalized =
-      dynamics::inverse_dynamics(model, motion.joints, {.loads = input.loads ? &*input.loads : nullptr});
-  found.muscles = kinematics::muscle_kinematics(model, motion.joints);
+      given ? TimeSeries(time_s, given->channels(), values_at(*given, time_s)) : computed_torques(input, motion);
   const std::vector<std::string> coordinates = study_coordinates(source.study.model);
   std::vector<Channel> columns;
   Eigen::MatrixXd torque(motion.joints.sample_count(), static_cast<Eigen::Index>(coordinates.size()));
@@ -93,8 +157,8 @@ TrialForces trial_torques(const StudySource& source,
     torque.col(column) = found.generalized.column(columns.back().name);
   }
   // The muscles do not produce the torque that acts from outside.
-  if (input.external_torque) torque -= signals::resample(*input.external_torque, motion.joints.q.time_s()).values();
-  found.muscle_torque = TimeSeries(motion.joints.q.time_s(), std::move(columns), std::move(torque));
+  if (input.external_torque) torque -= signals::resample(*input.external_torque, time_s).values();
+  found.muscle_torque = TimeSeries(time_s, std::move(columns), std::move(torque));
   found.uncarried = uncarried_time(source.study, spec, motion, found.generalized);
   if (found.uncarried)
     found.remarks.push_back({.code = RemarkCode::body_unsupported, .says = found.uncarried->sentence()});
@@ -104,12 +168,16 @@ TrialForces trial_torques(const StudySource& source,
 forces::MuscleForces shared_forces(const Study& study,
                                    const TrialInput& input,
                                    const TrialMotion& motion,
-                                   const kinematics::MuscleKinematics& muscles,
+                                   const TrialForces& torques,
                                    const std::vector<identification::RestingJoint>& resting,
                                    std::vector<Remark>& remarks) {
+  const Eigen::VectorXd& time_s = motion.joints.q.time_s();
+  if (input.given.forces) return given_forces(*input.given.forces, time_s);
   const std::vector<std::string> coordinates = study_coordinates(study.model);
   forces::SharingInput sharing =
-      forces::sharing_input(*motion.model, motion.joints, muscles, coordinates, input.loads ? &*input.loads : nullptr);
+      input.given.torques ? forces::sharing_input(*motion.model, torques.generalized, torques.muscles, coordinates)
+                          : forces::sharing_input(*motion.model, motion.joints, torques.muscles, coordinates,
+                                                  input.loads ? &*input.loads : nullptr);
   add_notes(sharing.notes, remarks);
   Eigen::MatrixXd torque = sharing.torques.values();
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
@@ -117,11 +185,9 @@ forces::MuscleForces shared_forces(const Study& study,
     const Eigen::Index column =
         sharing.torques.find(dynamics::generalized_force_name(motion.model->coordinates[index])).value();
     if (input.external_torque)
-      torque.col(column) -= signals::resample(*input.external_torque, motion.joints.q.time_s())
-                                .values()
-                                .col(static_cast<Eigen::Index>(j));
-    const Eigen::VectorXd by_itself =
-        resting_torque_nm(resting, coordinates[j], motion.joints.q.column(coordinates[j]));
+      torque.col(column) -=
+          signals::resample(*input.external_torque, time_s).values().col(static_cast<Eigen::Index>(j));
+    const Eigen::VectorXd by_itself = resting_torque_nm(resting, coordinates[j], motion.joints.q);
     if (by_itself.size() > 0) torque.col(column) -= by_itself;
   }
   sharing.torques = TimeSeries(sharing.torques.time_s(), sharing.torques.channels(), std::move(torque));
@@ -149,7 +215,7 @@ StudyForces study_forces(const StudyInputs& inputs,
     TrialForces& trial = found.trials[i];
     // The passive trials give the resting torques, so in them the muscles share the whole torque.
     const bool passive = study.trials[i].use == Use::passive;
-    trial.shared = shared_forces(study, inputs.trials[i], motion[i], trial.muscles,
+    trial.shared = shared_forces(study, inputs.trials[i], motion[i], trial,
                                  passive ? std::vector<identification::RestingJoint>{} : found.resting, trial.remarks);
     progress.tell(++done / (2.0 * static_cast<double>(motion.size())), study.trials[i].name);
   });

@@ -18,7 +18,7 @@ namespace myoid {
 
 /// The torques, muscle paths and shared forces of one trial; all empty without motion.
 struct TrialForces {
-  TimeSeries generalized;                ///< Inverse dynamics, all coordinates.
+  TimeSeries generalized;                ///< Inverse dynamics, all coordinates; empty where forces alone are given.
   kinematics::MuscleKinematics muscles;  ///< Paths of the model's muscles.
   TimeSeries muscle_torque;              ///< Torque of the muscles, for the study's coordinates [N m].
   forces::MuscleForces shared;           ///< Forces of the model's muscles.
@@ -34,7 +34,8 @@ struct StudyForces {
   std::vector<identification::RestingJoint> resting;  ///< Joints whose passive torque was measured.
 };
 
-/// Computes inverse dynamics and muscle paths of one trial, without sharing. Throws InvalidInput.
+/// Computes inverse dynamics and muscle paths of one trial, without sharing. Columns that the trial gives are taken
+/// from there; given torques replace inverse dynamics. Throws InvalidInput.
 [[nodiscard]] TrialForces trial_torques(const StudySource& source,
                                         const TrialSpec& spec,
                                         const TrialInput& input,
@@ -42,11 +43,12 @@ struct StudyForces {
 
 /// Shares the torques of the study's joints among the model's muscles, as `myoid so` does (forces::sharing_input): with
 /// the curves of each muscle's own class and the model's passive forces. The torque of a dynamometer and the joints'
-/// resting torques (`resting`) are not shared. Notes on the sharing go to `remarks`.
+/// resting torques (`resting`) are not shared. Given forces are returned as they are. Notes on the sharing go to
+/// `remarks`.
 [[nodiscard]] forces::MuscleForces shared_forces(const Study& study,
                                                  const TrialInput& input,
                                                  const TrialMotion& motion,
-                                                 const kinematics::MuscleKinematics& muscles,
+                                                 const TrialForces& torques,
                                                  const std::vector<identification::RestingJoint>& resting,
                                                  std::vector<Remark>& remarks);
 

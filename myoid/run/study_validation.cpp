@@ -20,7 +20,10 @@ Study with_uses_of(const identification::StudyData& split, Study study) {
 }
 
 /// Returns the data of a fold as if its left-out trials had been held back for validation.
-FitInput without_left_out(const FitSource& source, const identification::StudyData& split, const Progress& progress) {
+FitInput without_left_out(const FitSource& source,
+                          const identification::StudyData& split,
+                          bool hold,
+                          const Progress& progress) {
   const Study study = with_uses_of(split, source.study);
   EmgOfTrials emg;
   std::vector<const TrialActivation*> known;
@@ -31,7 +34,7 @@ FitInput without_left_out(const FitSource& source, const identification::StudyDa
   const StudyActivation seen = activation_with_uses(study, emg, known, source.scale);
   FitSource of_fold{study, source.model, source.trials, source.resting, {}, seen.scale};
   for (const TrialActivation& trial : seen.trials) of_fold.activation.push_back(&trial.activation);
-  FitInput input = fit_input(of_fold, progress);
+  FitInput input = fit_input(of_fold, progress, hold);
   std::erase_if(input.data.trials, [&](const identification::TrialData& trial) {
     return std::ranges::none_of(split.trials, [&](const auto& of_split) { return of_split.name == trial.name; });
   });
@@ -47,7 +50,7 @@ StudyValidation study_validation(const FitSource& source,
   const identification::CrossValidationOptions how{.kind = source.study.identify.folds, .setting = "[identify] folds"};
   const auto fit = [&](identification::StudyData& split, identification::EstimatorOptions& options) {
     if (how.kind != identification::FoldKind::block) {
-      FitInput of_fold = without_left_out(source, split, progress);
+      FitInput of_fold = without_left_out(source, split, input.nuisances_held, progress);
       split = std::move(of_fold.data);
       of_fold.options.drives = options.drives;
       of_fold.options.begin_at = options.begin_at;

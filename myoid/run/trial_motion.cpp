@@ -67,8 +67,9 @@ void solve_ik(const StudySource& source,
   if (store != nullptr) store->keep(key, *motion.ik);
 }
 
-/// Adds the coordinates on the clock of the analysis, smoothed as the study says, with derivatives.
-void add_joint_motion(const Study& study, TimeSeries q, TrialMotion& motion) {
+/// Adds the coordinates at the times of given lengths, else on the clock of the analysis, smoothed as the study says,
+/// with derivatives.
+void add_joint_motion(const Study& study, const GivenStages& given, TimeSeries q, TrialMotion& motion) {
   kinematics::MotionOptions options;
   options.cutoff_hz = motion_cutoff_hz(study);
   const double rate = q.mean_rate_hz();
@@ -79,12 +80,14 @@ void add_joint_motion(const Study& study, TimeSeries q, TrialMotion& motion) {
     options.cutoff_hz.reset();
   }
   const Eigen::VectorXd& clock = q.time_s();
-  if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform())
+  if (given.lengths)
+    options.time_s = given.lengths->time_s();
+  else if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform())
     options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
   // Frequencies that a slower clock cannot hold are removed first, if the smoothing spline, whose
   // gain is 1 / (1 + (f/f_c)^6), leaves more than a thousandth of them at half the new rate.
   const bool smoothed_away = options.cutoff_hz && std::pow(0.5 * wanted / *options.cutoff_hz, 6) >= 999.0;
-  if (options.time_s && !smoothed_away && q.is_uniform()) q = signals::anti_aliased(q, wanted);
+  if (options.time_s && !given.lengths && !smoothed_away && q.is_uniform()) q = signals::anti_aliased(q, wanted);
   kinematics::MotionResult result = kinematics::joint_motion(*motion.model, q, options);
   motion.joints = std::move(result.motion);
   motion.notes.insert(motion.notes.end(), result.notes.begin(), result.notes.end());
@@ -101,9 +104,12 @@ TrialMotion trial_motion(const StudySource& source, const TrialSpec& spec, const
     motion.remarks = kinematics::implausible(motion.ik->q);
     std::ranges::move(kinematics::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(motion.remarks));
     for (Remark& remark : motion.remarks) remark.where = spec.name;
-    add_joint_motion(source.study, motion.ik->q, motion);
+    add_joint_motion(source.study, input.given, motion.ik->q, motion);
+  } else if (input.motion && input.motion->channel_count() == 0) {
+    const TimeSeries times(input.given.lengths->time_s(), {}, Eigen::MatrixXd(input.given.lengths->sample_count(), 0));
+    motion.joints = {times, times, times};
   } else if (input.motion) {
-    add_joint_motion(source.study, *input.motion, motion);
+    add_joint_motion(source.study, input.given, *input.motion, motion);
   }
   return motion;
 }

@@ -23,7 +23,7 @@ struct TrialMotion {
   bool ik_reused = false;                  ///< Read from an earlier run with the same input.
   bool ik_was_damaged = false;             ///< An earlier run kept it, and its bytes changed since.
   kinematics::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
-                                           ///< motion.
+                                           ///< motion, without columns where lengths are given and no angles.
   std::vector<std::string> notes;
   std::vector<Remark> remarks;  ///< What no movement does, in the solution of inverse kinematics.
   std::string failure;          ///< Reason why the motion is missing; empty: none.

@@ -64,6 +64,41 @@ void check_rule(const Study& study, const identification::ParameterRule& rule, c
   }
 }
 
+/// Refuses a study whose trials give too little for a study without a body, or too many or few moment arms.
+void check_given(const Study& study) {
+  const std::size_t joints = study_coordinates(study.model).size();
+  const bool to_torques =
+      std::ranges::find(study.identify.methods, identification::Method::torque) != study.identify.methods.end();
+  for (const TrialSpec& trial : study.trials) {
+    const std::size_t arms = trial.given.moment_arms.size();
+    if (arms > 0 && arms != joints)
+      refuse(study, fmt::format("trial '{}': found {} files of moment_arms, expected {}: one for each coordinate of "
+                                "[model]",
+                                trial.name, arms, joints));
+    if (study.model.is_none() && trial.markers)
+      refuse(study, fmt::format("trial '{}' has markers, but the study has no model that carries them: give [model] "
+                                "file, or 'motion'",
+                                trial.name));
+    if (!study.model.is_none() && trial.moves() && !trial.markers && !trial.motion)
+      refuse(study,
+             fmt::format("trial '{}' has neither markers nor motion, which the model of the study needs; without "
+                         "a model ([model] builtin = \"none\") the given stages are enough",
+                         trial.name));
+    if (!study.model.is_none() || !trial.moves()) continue;
+    if (to_torques ? !trial.given.tells_torques() : !trial.given.needs_no_body())
+      refuse(study, fmt::format("trial '{}': the study has no model, so the trial must give lengths, moment_arms and "
+                                "torques; methods force and paper take lengths and forces",
+                                trial.name));
+  }
+  if (!study.model.is_none()) return;
+  for (const MuscleSpec& muscle : study.muscles) {
+    for (const char* name : {"max_isometric_force", "optimal_fiber_length"}) {
+      if (!muscle.start.contains(name))
+        refuse(study, fmt::format("[[muscle]] {}: the study has no model, so start must hold {}", muscle.name, name));
+    }
+  }
+}
+
 void check_trials(const Study& study) {
   if (study.trials.empty())
     refuse(study, "no [[trial]]; add one table per recording, with name, markers or motion, and emg");
@@ -91,12 +126,21 @@ void check_norms(const Study& study) {
   }
 }
 
+/// Returns true if no trial needs a model.
+bool gives_everything(const Study& study) {
+  const auto moving = [](const TrialSpec& trial) { return trial.moves(); };
+  return std::ranges::any_of(study.trials, moving) && std::ranges::all_of(study.trials, [](const TrialSpec& trial) {
+           return !trial.moves() || (!trial.markers && trial.given.needs_no_body());
+         });
+}
+
 /// Refuses tables with wrong references to each other.
 void check_references(const Study& study) {
   const Names muscles = muscle_names(study);
   check_muscles(study, muscles);
   for (const identification::ParameterRule& rule : study.parameters) check_rule(study, rule, muscles);
   check_trials(study);
+  check_given(study);
   check_norms(study);
 }
 
@@ -110,7 +154,9 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
   SettingReader reader(table, file.parent_path());
   visit(study, reader);
   table.finish();
-  if (!study.model.file && study.model.builtin.empty()) study.model.builtin = "arm4";
+  if (!study.model.file && study.model.builtin.empty()) study.model.builtin = gives_everything(study) ? "none" : "arm4";
+  if (study.model.is_none() && !root["model"]["coordinate"])
+    refuse(study, "the study has no model, so [model] coordinate must name the joint of the torques");
   for (MuscleSpec& muscle : study.muscles) {
     if (!muscle.same_as) continue;
     for (const MuscleSpec& other : study.muscles) {

@@ -1,5 +1,7 @@
 #include "myoid/study/run_record.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -44,13 +46,14 @@ RunRecord read_run_record(const fs::path& folder) {
 void refuse_changed(const std::vector<InputFile>& inputs, const RunRecord& run, const fs::path& but) {
   for (const InputFile& now : inputs) {
     const fs::path name = fs::path(now.path).filename();
-    for (const InputFile& recorded : run.inputs) {
-      if (name != fs::path(recorded.path).filename() || recorded.sha256 == now.sha256 || name == but.filename())
-        continue;
-      throw ReadError(
-          now.path, 0,
-          fmt::format("has changed since the run in {}; run the study again (myoid run)", run.folder.string()));
-    }
+    // The trials of a study may have files of one name in folders of their own.
+    const auto of_name = [&](const InputFile& recorded) { return name == fs::path(recorded.path).filename(); };
+    const auto same = [&](const InputFile& recorded) { return of_name(recorded) && recorded.sha256 == now.sha256; };
+    if (name == but.filename() || std::ranges::none_of(run.inputs, of_name) || std::ranges::any_of(run.inputs, same))
+      continue;
+    throw ReadError(
+        now.path, 0,
+        fmt::format("has changed since the run in {}; run the study again (myoid run)", run.folder.string()));
   }
 }
 

@@ -28,6 +28,11 @@ TEST(RunRecord, HoldsWhatARunIsComputedAgainBy) {
   EXPECT_THROW(refuse_changed({{"/elsewhere/walk.c3d", "ax"}}, run), ReadError);
   EXPECT_THROW(refuse_changed({{"/there/s.toml", "ce"}}, run), ReadError);
   EXPECT_NO_THROW(refuse_changed({{"/there/s.toml", "ce"}}, run, "/there/s.toml"));
+  // Files of one name in several folders.
+  RunRecord twins = run;
+  twins.inputs = {{"1/l.sto", "ab"}, {"2/l.sto", "cd"}};
+  EXPECT_NO_THROW(refuse_changed({{"/there/1/l.sto", "ab"}, {"/there/2/l.sto", "cd"}}, twins));
+  EXPECT_THROW(refuse_changed({{"/there/1/l.sto", "ab"}, {"/there/2/l.sto", "ce"}}, twins), ReadError);
 }
 
 TEST(RunRecord, AFileThatIsNoneIsRefused) {

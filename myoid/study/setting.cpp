@@ -151,6 +151,16 @@ bool SettingVisitor::texts(std::string_view key, std::vector<std::string>& value
              });
 }
 
+bool SettingVisitor::paths(std::string_view key, std::vector<std::filesystem::path>& value, const About& about) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& path : value) names.push_back(path.string());
+  return met({key, SettingKind::paths, about}, names.empty() ? SettingValue() : SettingValue(names),
+             [&value](const SettingValue& given) {
+               const auto& list = std::get<std::vector<std::string>>(given);
+               value.assign(list.begin(), list.end());
+             });
+}
+
 bool SettingVisitor::numbers(std::string_view key, std::vector<double>& value, const About& about) {
   return met({key, SettingKind::numbers, about}, value.empty() ? SettingValue() : SettingValue(value),
              set_as<std::vector<double>>(value));

@@ -46,7 +46,19 @@ struct About {
   bool silent = false;              ///< Not written: another setting is in force, and both together are refused.
 };
 
-enum class SettingKind { flag, number, count, text, path, texts, numbers, stretches, texts_by_name, numbers_by_name };
+enum class SettingKind {
+  flag,
+  number,
+  count,
+  text,
+  path,
+  texts,
+  paths,
+  numbers,
+  stretches,
+  texts_by_name,
+  numbers_by_name
+};
 
 /// A setting: its key in the file and the facts about it.
 struct Setting {
@@ -108,6 +120,7 @@ class SettingVisitor {
   bool path(std::string_view key, std::optional<std::filesystem::path>& value, const About& about);
   /// Visits a list; an empty one stands for `about.word`, if there is one.
   bool texts(std::string_view key, std::vector<std::string>& value, const About& about);
+  bool paths(std::string_view key, std::vector<std::filesystem::path>& value, const About& about);
   bool numbers(std::string_view key, std::vector<double>& value, const About& about);
   /// Visits a list of stretches [begin, end]; `about.word` among them sets `worded`.
   bool stretches(std::string_view key, std::vector<Stretch>& value, bool& worded, const About& about);

@@ -53,7 +53,14 @@ SettingValue SettingReader::texts(const Setting& setting) {
   const About& about = setting.about;
   std::vector<std::string> value = *table_->texts(setting.key);
   if (!about.word.empty() && value == std::vector<std::string>{std::string(about.word)}) return std::string(about.word);
-  for (const std::string& each : value) refuse(setting, refusal(setting, each));
+  for (std::string& each : value) {
+    if (setting.kind == SettingKind::paths) {
+      if (each.empty()) table_->fail(setting.key, "the path is empty");
+      each = (folder_ / each).string();
+      continue;
+    }
+    refuse(setting, refusal(setting, each));
+  }
   if (about.count > 0 && value.size() != about.count)
     table_->fail(setting.key, fmt::format("found {} names, expected {}", value.size(), about.count));
   return value;
@@ -126,6 +133,7 @@ bool SettingReader::met(const Setting& setting, const SettingValue& /*now*/, con
       set(text(setting));
       break;
     case SettingKind::texts:
+    case SettingKind::paths:
       set(texts(setting));
       break;
     case SettingKind::numbers:

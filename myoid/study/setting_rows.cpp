@@ -53,6 +53,8 @@ std::string type_of(const Setting& setting, bool option) {
     case SettingKind::texts:
       if (!about.words.empty()) return words_of(setting);
       return option ? "one or several" : several + "text or list of texts";
+    case SettingKind::paths:
+      return "file or list of files";
     case SettingKind::numbers:
       return fmt::format("{}numbers{}", several,
                          about.limits.unit.empty() ? "" : fmt::format(" [{}]", about.limits.unit));

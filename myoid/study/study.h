@@ -45,7 +45,7 @@ struct HeldMassSpec {
 struct ModelSpec {
   std::optional<std::filesystem::path> file;  ///< .osim
   std::string text;                           ///< Text of the model instead of a file, for a study in memory.
-  std::string builtin;                        ///< "arm4" if there is no file.
+  std::string builtin;                        ///< "arm4" or "none" if there is no file.
   std::optional<double> upper_arm_length_m;   ///< For the built-in arm.
   std::optional<double> forearm_length_m;     ///< For the built-in arm: elbow to wrist.
   bool horizontal = false;                    ///< Plane of movement of the built-in arm.
@@ -54,6 +54,11 @@ struct ModelSpec {
   std::vector<std::string> more_coordinates;  ///< Further joints that the same muscles cross.
   std::optional<HeldMassSpec> held_mass;
   bool operator==(const ModelSpec&) const = default;
+
+  /// Returns true if there is no body: the trials give lengths, moment arms and torques of the muscles.
+  [[nodiscard]] bool is_none() const { return builtin == "none"; }
+  /// Returns true for the built-in arm.
+  [[nodiscard]] bool is_arm() const { return !file && text.empty() && !is_none(); }
 };
 
 /// A load cell in an object that the person holds.
@@ -184,6 +189,21 @@ struct ExcludeSpec {
   }
 };
 
+/// Files that hold stages of a trial, in the place of this program's computation.
+struct GivenSpec {
+  std::optional<std::filesystem::path> lengths;     ///< Musculotendon lengths [m].
+  std::optional<std::filesystem::path> velocities;  ///< Rates of `lengths` [m/s].
+  std::vector<std::filesystem::path> moment_arms;   ///< -dl/dq [m], in the order of the study's coordinates.
+  std::optional<std::filesystem::path> torques;     ///< Torques of the muscles [N m].
+  std::optional<std::filesystem::path> forces;      ///< Muscle forces [N].
+  bool operator==(const GivenSpec&) const = default;
+
+  /// Returns true if nothing of a fit to torques is left to compute from a body.
+  [[nodiscard]] bool tells_torques() const { return lengths && !moment_arms.empty() && torques; }
+  /// Returns true if nothing of a fit to torques, or to forces, is.
+  [[nodiscard]] bool needs_no_body() const { return tells_torques() || (lengths && forces); }
+};
+
 struct TrialSpec {
   std::string name;
   std::optional<std::filesystem::path> markers;
@@ -193,6 +213,7 @@ struct TrialSpec {
   std::optional<std::filesystem::path> external_loads;   ///< OpenSim's ExternalLoads (.xml).
   std::optional<std::filesystem::path> load_cell;        ///< File of the load cell's channels.
   std::optional<PlateSpec> plates;
+  GivenSpec given;
   Use use = Use::calibration;
   std::optional<double> held_mass_kg;  ///< Empty: the study does not say what was held.
   ExcludeSpec exclude;
@@ -202,6 +223,9 @@ struct TrialSpec {
   double video_offset_s = 0.0;                 ///< Time of the film's begin, on the clock of the motion.
   std::optional<SyncSpec> sync;
   bool operator==(const TrialSpec&) const = default;
+
+  /// Returns true if the trial has samples of a movement, or of a posture.
+  [[nodiscard]] bool moves() const { return markers || motion || given.lengths; }
 };
 
 /// Curves of a group of people, drawn behind the person's curves.
@@ -281,9 +305,10 @@ struct Study {
   /// Returns true if the fit takes the trial's torque. The torque of a maximal contraction has to be measured: whatever
   /// holds the limb is part of no model. A dynamometer measures one joint only; at the others straps hold the limb.
   [[nodiscard]] bool fits(const TrialSpec& trial) const {
-    const bool measured = trial.load_cell || (trial.external_torque && model.more_coordinates.empty());
+    const bool measured =
+        trial.load_cell || trial.given.torques || (trial.external_torque && model.more_coordinates.empty());
     return trial.use == Use::calibration || trial.use == Use::isometric ||
-           (trial.use == Use::mvc && (trial.markers || trial.motion) && measured);
+           (trial.use == Use::mvc && trial.moves() && measured);
   }
 };
 

@@ -16,7 +16,7 @@
 #include "myoid/core/units.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameter_fields.h"
-#include "myoid/muscle/literature.h"
+#include "myoid/muscle/absent_parameters.h"
 #include "myoid/osim/muscle_laws.h"
 #include "myoid/osim/osim_document.h"
 #include "myoid/osim/osim_reader.h"
@@ -51,6 +51,53 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
   return options;
 }
 
+/// Returns the starting values of a muscle without a model: those that the study states, and the literature's.
+muscle::HillParameters<double> stated_start(const MuscleSpec& spec) {
+  muscle::HillParameters<double> start;
+  for (const auto& [name, value] : spec.start) start.*muscle::hill_field(name).member = value;
+  muscle::complete_by_literature(start);
+  return start;
+}
+
+/// Returns a head of such a muscle, without a path: its length is constant, and it has no moment arm.
+model::Muscle stated_head(const MuscleSpec& spec, const std::string& name) {
+  const muscle::HillParameters<double> start = stated_start(spec);
+  const double l0_m = start.optimal_fiber_length_m;
+  model::Muscle head{.name = name, .class_name = "Thelen2003Muscle", .properties = {}, .path = {}};
+  head.properties = {.max_isometric_force_n = start.max_isometric_force_n / static_cast<double>(spec.osim.size()),
+                     .optimal_fiber_length_m = l0_m,
+                     .tendon_slack_length_m = start.tendon_slack_length_m,
+                     .max_contraction_velocity = start.max_shortening_speed_mps / l0_m,
+                     .active_shape = std::pow(start.force_length_width_m / l0_m, 2),
+                     .concentric_shape = start.concentric_curvature,
+                     .eccentric_plateau = start.eccentric_plateau,
+                     .default_fiber_length_m = l0_m,
+                     .curves = {}};
+  const double length_m = l0_m + start.tendon_slack_length_m;
+  head.path.function = {.coordinates = {0}, .length = {.coefficients = {length_m}}, .moment_arms = {}};
+  return head;
+}
+
+/// Returns the names of a study without a body as a model: massless bodies that turn about each other by the study's
+/// coordinates, and muscles without paths.
+model::BodyModel names_alone(const Study& study) {
+  model::BodyModel model;
+  model.name = "none";
+  model.bodies.push_back({.name = "ground"});
+  for (const std::string& name : study_coordinates(study.model)) {
+    const auto c = static_cast<int>(model.coordinates.size());
+    model::Joint joint{.name = name, .class_name = "PinJoint", .parent = c, .child = c + 1, .coordinates = {c}};
+    joint.rotation[2] = {.axis = Vec3::UnitZ(), .coordinate = c, .function = {model::Linear{}}};
+    model.joints.push_back(std::move(joint));
+    model.bodies.push_back({.name = name});
+    model.coordinates.push_back({.name = name, .joint = c});
+  }
+  for (const MuscleSpec& spec : study.muscles) {
+    for (const std::string& name : spec.osim) model.muscles.push_back(stated_head(spec, name));
+  }
+  return model::finalize(std::move(model));
+}
+
 /// Returns pennation, passive force and tendon of a model's muscle.
 identification::MuscleExtras model_extras(const model::Muscle& muscle) {
   const model::MuscleProperties& p = muscle.properties;
@@ -72,6 +119,14 @@ identification::MuscleExtras model_extras(const model::Muscle& muscle) {
           .passive_strain = unit.passive_strain,
           .passive_shape = unit.passive_shape,
           .tendon_strain = unit.tendon_strain};
+}
+
+/// Returns true if the study bounds V_sh V_shl of the muscle, or has a prior of its own for it.
+bool wishes_product(const Study& study, const std::string& muscle) {
+  return std::ranges::any_of(study.parameters, [&](const identification::ParameterRule& rule) {
+    return rule.parameter == "eccentric_curvature_product" && (rule.lower || rule.upper || rule.prior_sd) &&
+           identification::covers(rule.owners, muscle);
+  });
 }
 
 /// Applies the study's settings to the model, after a check that it has the study's names.
@@ -134,18 +189,19 @@ std::vector<double> forearm_lengths_m(const recording::MarkerSeries& markers) {
 std::string model_text(const Study& study) {
   if (!study.model.text.empty()) return study.model.text;
   if (study.model.file) return model::read_whole_text(*study.model.file);
+  if (study.model.is_none()) return "";
   return model::arm4_osim(arm_options(study, nullptr));
 }
 
 model::BodyModel load_model(const Study& study, const std::string& text) {
+  if (study.model.is_none()) return names_alone(study);
   return prepared(study, model::parse_osim(text, study.model.file.value_or("arm4.osim")));
 }
 
 model::BodyModel load_model(const Study& study) { return load_model(study, model_text(study)); }
 
 std::optional<model::BodyModel> arm_of_markers(const Study& study, const recording::MarkerSeries& markers) {
-  const bool built_in = study.model.text.empty() && !study.model.file;
-  if (!built_in || study.model.forearm_length_m || !forearm_length(markers)) return std::nullopt;
+  if (!study.model.is_arm() || study.model.forearm_length_m || !forearm_length(markers)) return std::nullopt;
   return prepared(study, model::parse_osim(model::arm4_osim(arm_options(study, &markers)), "arm4.osim"));
 }
 
@@ -155,7 +211,7 @@ std::string body_names(const model::BodyModel& model) {
 
 HeldMassSpec held_mass_place(const Study& study) {
   if (study.model.held_mass) return *study.model.held_mass;
-  if (!study.model.file) return {"forearm_hand", model::arm4_held_at_m()};
+  if (study.model.is_arm()) return {"forearm_hand", model::arm4_held_at_m()};
   throw InvalidInput("held_mass_kg is given, but [model] held_mass does not say where it acts");
 }
 
@@ -193,7 +249,9 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const
         setup.start.*field.member += share * head.*field.member;
       }
     }
-    if (study.identify.model_muscles || study.identify.elastic_tendon) {
+    if (study.model.is_none()) {
+      setup.start = stated_start(spec);
+    } else if (study.identify.model_muscles || study.identify.elastic_tendon) {
       identification::MuscleExtras mean{.passive_strain = 0.0, .passive_shape = 0.0};
       for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
         const auto head = model_extras(model.muscles[static_cast<std::size_t>(groups[g].members[i])]);
@@ -210,6 +268,8 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const
     for (const auto& [name, value] : spec.start) setup.start.*muscle::hill_field(name).member = value;
     setup.fixed = spec.fixed;
     setup.priors = identification::literature_priors(setup.start);
+    // A wish for the product makes it the unknown, in the place of the ratio of slopes.
+    if (wishes_product(study, spec.name)) setup.priors.erase("eccentric_slope_ratio");
     muscle::validate(setup.start);
     setups.push_back(std::move(setup));
   }

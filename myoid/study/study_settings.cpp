@@ -59,14 +59,16 @@ void visit_coordinates(ModelSpec& model, SettingVisitor& v) {
 }  // namespace
 
 void visit(ModelSpec& model, SettingVisitor& v) {
-  static constexpr std::string_view kBuiltIn[] = {"", "arm4"};
+  static constexpr std::string_view kBuiltIn[] = {"", "arm4", "none"};
   static constexpr std::string_view kPlanes[] = {"vertical", "horizontal"};
   constexpr SettingLimits kArms = within(0.08, 0.5, "m");  // arms of people, including children
   v.path("file", model.file, {.says = "The model, `.osim`."});
-  v.text("builtin", model.builtin,
-         {.says = "`arm4`: trunk, upper arm, forearm with hand; BIC, BRA, BRD, TRI.",
-          .otherwise = "`arm4` without a `file`",
-          .words = kBuiltIn});
+  v.text(
+      "builtin", model.builtin,
+      {.says = "`arm4`: trunk, upper arm, forearm with hand; BIC, BRA, BRD, TRI. `none`: trials [give](#given-stages) "
+               "the muscles' paths and torques.",
+       .otherwise = "without a `file`: `none` if every trial gives all, else `arm4`",
+       .words = kBuiltIn});
   v.must(!model.file || model.builtin.empty(), "builtin", "give either 'file' or 'builtin', not both");
   v.number("upper_arm_length_m", model.upper_arm_length_m,
            {.says = "Of the built-in arm.", .limits = kArms, .otherwise = "from markers, else the literature"});

@@ -36,8 +36,8 @@ TEST(StudySettings, ARateThatNoMachineCanHoldIsRefusedWithTheRange) {
   EXPECT_NE(settings_message("[motion]\nrate_hz = 1e9\n").find("expected 10 to 2000 Hz"), std::string::npos);
 }
 
-TEST(StudySettings, AnUnknownBuiltInModelIsRefusedWithTheOneThereIs) {
-  EXPECT_NE(settings_message("[model]\nbuiltin = \"arm26\"\n").find("expected arm4"), std::string::npos);
+TEST(StudySettings, AnUnknownBuiltInModelIsRefusedWithThoseThereAre) {
+  EXPECT_NE(settings_message("[model]\nbuiltin = \"arm26\"\n").find("expected one of arm4, none"), std::string::npos);
 }
 
 TEST(StudySettings, ALengthInCentimetersOrMillimetersIsRefusedByItsKey) {

@@ -34,6 +34,9 @@ class SettingWriter : public SettingVisitor {
       if (list->worded) written.push_back(std::string(setting.about.word));
     } else if (setting.kind == SettingKind::path && folder_) {
       written = from_folder(std::get<std::string>(now)).string();
+    } else if (setting.kind == SettingKind::paths && folder_) {
+      for (const std::string& each : std::get<std::vector<std::string>>(now))
+        written.push_back(from_folder(each).string());
     } else if (setting.kind == SettingKind::count) {
       written = static_cast<long>(std::get<double>(now));
     } else {

@@ -178,6 +178,15 @@ name = "u"
 motion = "/far/u.mot"
 emg = "u.sto"
 load_cell = "u.c3d"
+[[trial]]
+name = "v"
+motion = "v.mot"
+emg = "v.sto"
+lengths = "l.sto"
+velocities = "v_l.sto"
+moment_arms = ["knee.sto", "/far/ankle.sto"]
+torques = "id.sto"
+forces = "f.sto"
 [[norm]]
 name = "adults"
 file = "norm.csv"
@@ -191,6 +200,8 @@ TEST(StudyToml, ReadWrittenAndReadAgainIsTheSameStudy) {
     const Study study = parse_study(kEverything, file);
     EXPECT_EQ(parse_study(study_toml(study), file), study) << study_toml(study);
     EXPECT_EQ(study.trials[0].markers, file.parent_path() / "t.c3d");
+    EXPECT_EQ(study.trials[2].given.moment_arms[0], file.parent_path() / "knee.sto");
+    EXPECT_EQ(study.trials[2].given.moment_arms[1], "/far/ankle.sto");
   }
 }
 

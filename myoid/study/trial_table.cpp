@@ -105,13 +105,45 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
   }
 }
 
+/// Visits the files of stages that another program computed.
+void visit_given(TrialSpec& trial, SettingVisitor& v) {
+  GivenSpec& given = trial.given;
+  v.path(
+      "lengths", given.lengths,
+      {.says = "[Given](#given-stages): lengths of the muscles with their tendons [m], in columns named by `osim`."});
+  v.path("velocities", given.velocities,
+         {.says = "Given rates of these lengths [m/s], lengthening positive.", .otherwise = "by a spline"});
+  v.paths("moment_arms", given.moment_arms,
+          {.says = "Given moment arms −dl/dq [m]: a file for each coordinate of [model], in its order."});
+  v.path("torques", given.torques,
+         {.says = "Given torques of the muscles [N m], in columns `<coordinate>` or `<coordinate>_moment`."});
+  v.path("forces", given.forces, {.says = "Given muscle forces [N], for methods `force` and `paper`."});
+  v.must(!given.velocities || given.lengths, "velocities", "they are the rates of 'lengths', which are not given");
+}
+
+/// Visits the held mass; torques of the muscles exclude what they would be computed from.
+void visit_held_mass(TrialSpec& trial, SettingVisitor& v) {
+  v.number("held_mass_kg", trial.held_mass_kg,
+           {.says = "Mass in the hand; 0: the person held nothing. Without it and without measured forces [a "
+                    "gate](check.md#quality-gates-of-run) stays at caution.",
+            .limits = within(0.0, 100.0, "kg"),
+            .otherwise = "not stated; nothing is computed to be held"});
+  const bool loads = trial.external_torque || trial.external_loads || trial.load_cell || trial.plates ||
+                     trial.held_mass_kg.value_or(0.0) > 0.0;
+  v.must(!trial.given.torques || !loads, "torques",
+         "they are the muscles' own: leave out external_torque, external_loads, load_cell, force_plates and "
+         "held_mass_kg, from which they would be computed");
+}
+
 void visit_use(TrialSpec& trial, SettingVisitor& v) {
   v.choice("use", trial.use,
            {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; `mvc` sets activation "
                     "1, and is [fitted too](#measured-torques) where its torque is measured; [`passive` and "
                     "`static`](#trials-that-are-not-fitted) are not fitted."});
-  v.must(trial.use == Use::mvc || trial.markers || trial.motion, "name",
-         fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one", trial.name));
+  const bool passive = trial.use == Use::passive;
+  v.must(trial.use == Use::mvc || trial.markers || trial.motion || (trial.given.needs_no_body() && !passive), "name",
+         fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one{}", trial.name,
+                     passive ? "" : ", or give lengths with moment_arms and torques, or with forces"));
   v.must(trial.use == Use::static_pose || trial.use == Use::passive || trial.emg, "name",
          fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"", trial.name,
                      choice_name(trial.use)));
@@ -134,12 +166,9 @@ void visit_clock(TrialSpec& trial, SettingVisitor& v) {
 void visit(TrialSpec& trial, SettingVisitor& v) {
   visit_name(trial, v);
   visit_files(trial, v);
+  visit_given(trial, v);
   visit_use(trial, v);
-  v.number("held_mass_kg", trial.held_mass_kg,
-           {.says = "Mass in the hand; 0: the person held nothing. Without it and without measured forces [a "
-                    "gate](check.md#quality-gates-of-run) stays at caution.",
-            .limits = within(0.0, 100.0, "kg"),
-            .otherwise = "not stated; nothing is computed to be held"});
+  visit_held_mass(trial, v);
   v.stretches("exclude", trial.exclude.windows, trial.exclude.foreign_contacts,
               {.says = "Times, in seconds of the motion, that are [predicted only](#trials-that-are-not-fitted): "
                        "`[[0.66, 0.78], [2.1, 2.4]]`. `foreign_contacts`: also those of another foot on a plate.",

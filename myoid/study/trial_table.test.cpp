@@ -53,6 +53,32 @@ TEST(TrialTable, AMaximalContractionIsFittedWhereItsTorqueAndPostureAreMeasured)
   EXPECT_TRUE(fitted("markers = \"a.trc\"\nload_cell = \"m.sto\"\n"));
 }
 
+const std::string kGiven =
+    "name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\nmoment_arms = \"r.sto\"\ntorques = \"id.sto\"\n";
+
+TEST(TrialTable, ATrialThatGivesPathsAndTorquesNeedsNoMotion) {
+  const TrialSpec trial = trial_of(kGiven);
+  EXPECT_EQ(trial.given.lengths, "dir/l.sto");
+  EXPECT_EQ(trial.given.moment_arms, std::vector<std::filesystem::path>{"dir/r.sto"});
+  EXPECT_TRUE(trial.given.needs_no_body());
+  EXPECT_TRUE(trial.moves());
+  EXPECT_EQ(trial_message("name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\nforces = \"f.sto\"\n"), "(no error)");
+  EXPECT_NE(trial_message("name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\n")
+                .find("moment_arms and torques, or with forces"),
+            std::string::npos);
+  EXPECT_NE(trial_message(kGiven + "use = \"passive\"\n").find("neither"), std::string::npos);
+  EXPECT_TRUE(Study{}.fits(trial_of(kGiven + "use = \"mvc\"\n")));
+}
+
+TEST(TrialTable, TorquesOfTheMusclesExcludeWhatTheyWouldBeComputedFrom) {
+  for (const char* more : {"external_torque = \"m.sto\"\n", "external_loads = \"l.xml\"\n", "held_mass_kg = 2\n"}) {
+    const std::string message = trial_message(kGiven + more);
+    EXPECT_NE(message.find("dir/study.toml:5"), std::string::npos) << message;
+  }
+  EXPECT_EQ(trial_message(kGiven + "held_mass_kg = 0\n"), "(no error)");
+  EXPECT_NE(trial_message(kTrial + "velocities = \"v.sto\"\n").find("dir/study.toml:4"), std::string::npos);
+}
+
 TEST(TrialTable, AnEndBeforeTheStartIsRefused) {
   EXPECT_NE(trial_message(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"), std::string::npos);
 }

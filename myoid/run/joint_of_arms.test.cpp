@@ -1,4 +1,4 @@
-#include "myoid/identify_files/joint_of_arms.h"
+#include "myoid/run/joint_of_arms.h"
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@
 namespace myoid {
 namespace {
 
-const IdentifyFiles kArmFiles{
+const TrialFiles kArmFiles{
     .activations = "a.sto", .lengths = "l.sto", .velocities = "v.sto", .moment_arms = {"r.sto"}, .torques = "id.sto"};
 
 identification::StudyData elbow_data() { return test::elbow_study({.trials = 1, .seconds = 10.0}).data; }
@@ -38,7 +38,7 @@ TEST(JointOfArms, TheFileOfAnotherJointOfTheTorqueFileIsRefused) {
   EXPECT_EQ(check_joint_by_name("arms.sto", "ankle_angle_r_moment", leg), "");
   const std::string error = test::message_of([&] { (void)check_joint_by_name(knee, "ankle_angle_r_moment", leg); });
   EXPECT_NE(error.find("knee_angle_r"), std::string::npos) << error;
-  EXPECT_NE(error.find("--coordinate knee_angle_r"), std::string::npos) << error;
+  EXPECT_NE(error.find("coordinate knee_angle_r"), std::string::npos) << error;
   // A torque of another name is suspicious only, a part of the name is the same joint.
   const TimeSeries one = torque_series({"torque"});
   EXPECT_NE(check_joint_by_name(knee, "torque", one), "");

@@ -1,4 +1,4 @@
-#include "myoid/identify_files/torque_sign.h"
+#include "myoid/run/torque_sign.h"
 
 #include <algorithm>
 #include <cmath>

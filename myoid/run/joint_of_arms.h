@@ -6,7 +6,7 @@
 
 #include "myoid/core/time_series.h"
 #include "myoid/identification/study_data.h"
-#include "myoid/identify_files/identify_sources.h"
+#include "myoid/run/given_check.h"
 
 namespace myoid {
 
@@ -30,6 +30,6 @@ namespace myoid {
 /// +sum_j r_j dq_j explains more for all.
 [[nodiscard]] std::vector<std::string> check_joint_of_arms(const identification::StudyData& data,
                                                            const identification::TrialData& trial,
-                                                           const IdentifyFiles& files);
+                                                           const TrialFiles& files);
 
 }  // namespace myoid

@@ -4,9 +4,17 @@
 #include <vector>
 
 #include "myoid/identification/study_data.h"
-#include "myoid/identify_files/identify_sources.h"
 
 namespace myoid {
+
+/// The files of one trial that give its stages, for messages; empty names: not given, and not checked.
+struct TrialFiles {
+  std::string activations, lengths;
+  std::string velocities;                ///< Empty: rates of the spline through the lengths.
+  std::vector<std::string> moment_arms;  ///< By joint.
+  std::string torques;
+  bool resting_torque_is_free = false;  ///< The torque of the joint without activity is fitted.
+};
 
 /// Finds values that no muscle has: wrong units, swapped files, wrong signs. Throws InvalidInput for a certain fault,
 /// with the file, the value found, the expected one and the remedy. Returns a sentence for each suspicious value.
@@ -26,8 +34,8 @@ namespace myoid {
 /// with the measured one (cosine of both); a fault below -0.8. For two joints with files in the
 /// wrong order, each torque correlates with the other's moment arms; a fault above a correlation of
 /// 0.9 if the own moment arms give less than 0.5.
-[[nodiscard]] std::vector<std::string> check_identify_trial(const identification::StudyData& data,
-                                                            const identification::TrialData& trial,
-                                                            const IdentifyFiles& files);
+[[nodiscard]] std::vector<std::string> check_given_trial(const identification::StudyData& data,
+                                                         const identification::TrialData& trial,
+                                                         const TrialFiles& files);
 
 }  // namespace myoid

@@ -1,4 +1,4 @@
-#include "myoid/identify_files/identify_input.h"
+#include "myoid/run/given_check.h"
 
 #include <gtest/gtest.h>
 
@@ -11,16 +11,16 @@ namespace {
 
 using identification::TrialData;
 
-const IdentifyFiles kFiles{
+const TrialFiles kFiles{
     .activations = "a.sto", .lengths = "l.sto", .velocities = "v.sto", .moment_arms = {"r.sto"}, .torques = "id.sto"};
 
 /// One trial of four muscles, spoiled.
 struct Spoiled {
   test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 10.0});
-  IdentifyFiles files = kFiles;
+  TrialFiles files = kFiles;
 
   TrialData& trial() { return study.data.trials[0]; }
-  std::vector<std::string> check() { return check_identify_trial(study.data, trial(), files); }
+  std::vector<std::string> check() { return check_given_trial(study.data, trial(), files); }
   /// Message of the error; empty: none.
   std::string error() {
     try {
@@ -36,13 +36,13 @@ void expect_in(const std::string& text, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
 }
 
-TEST(IdentifyInput, OfGoodDataNothingIsSaid) {
+TEST(GivenCheck, OfGoodDataNothingIsSaid) {
   Spoiled good;
   const std::vector<std::string> remarks = good.check();
   EXPECT_TRUE(remarks.empty()) << (remarks.empty() ? "" : remarks[0]);
 }
 
-TEST(IdentifyInput, LengthsInMillimetersOrOfFibersAreNamed) {
+TEST(GivenCheck, LengthsInMillimetersOrOfFibersAreNamed) {
   Spoiled mm;
   mm.trial().length_m *= 1000.0;
   expect_in(mm.error(), {"l.sto", "BIC", "mm", "0.01 to 1 m"});
@@ -56,7 +56,7 @@ TEST(IdentifyInput, LengthsInMillimetersOrOfFibersAreNamed) {
   expect_in(fibers.error(), {"l.sto", "tendon_slack_length", "fiber lengths"});
 }
 
-TEST(IdentifyInput, LengthsOfWholeMusclesWithoutATendonAreRefused) {
+TEST(GivenCheck, LengthsOfWholeMusclesWithoutATendonAreRefused) {
   const auto without_tendon = [](double times_optimal) {
     Spoiled s;
     for (Eigen::Index k = 0; k < 4; ++k) {
@@ -80,17 +80,17 @@ TEST(IdentifyInput, LengthsOfWholeMusclesWithoutATendonAreRefused) {
   expect_in(remarks[0], {"whole muscles", "tendon_slack_length"});
 }
 
-TEST(IdentifyInput, SwappedLengthsAndVelocitiesAreNamed) {
+TEST(GivenCheck, SwappedLengthsAndVelocitiesAreNamed) {
   Spoiled swapped;
   std::swap(swapped.trial().length_m, swapped.trial().velocity_mps);
-  expect_in(swapped.error(), {"l.sto", "--velocities"});
+  expect_in(swapped.error(), {"l.sto", "velocities"});
 }
 
-TEST(IdentifyInput, ExchangedLengthsAndMomentArmsAreNamed) {
+TEST(GivenCheck, ExchangedLengthsAndMomentArmsAreNamed) {
   Spoiled swapped;
   std::swap(swapped.trial().length_m, swapped.trial().moment_arm_m);
   swapped.trial().length_m = swapped.trial().length_m.cwiseAbs();
-  expect_in(swapped.error(), {"r.sto", "BIC", "--lengths and --moment-arms exchanged?"});
+  expect_in(swapped.error(), {"r.sto", "BIC", "lengths and moment arms exchanged?"});
   // Fibers without a tendon may be shorter than a moment arm, as those of the soleus are.
   Spoiled fibers;
   for (Eigen::Index k = 0; k < 4; ++k) {
@@ -107,7 +107,7 @@ TEST(IdentifyInput, ExchangedLengthsAndMomentArmsAreNamed) {
   expect_in(remarks[0], {"r.sto", "exchanged?", "Fibers"});
 }
 
-TEST(IdentifyInput, ActivationsInPercentOrRawAreNamed) {
+TEST(GivenCheck, ActivationsInPercentOrRawAreNamed) {
   Spoiled percent, raw, beyond, volts;
   const auto scale = [](Spoiled& s, double factor, double offset) {
     const TimeSeries& a = s.trial().activation;
@@ -131,7 +131,7 @@ TEST(IdentifyInput, ActivationsInPercentOrRawAreNamed) {
   expect_in(remarks[0], {"volts"});
 }
 
-TEST(IdentifyInput, APeakAboveTheGreatestHalfSecondIsNothingToSay) {
+TEST(GivenCheck, APeakAboveTheGreatestHalfSecondIsNothingToSay) {
   Spoiled peaked;
   const TimeSeries& a = peaked.trial().activation;
   Eigen::MatrixXd values = a.values() / a.values().maxCoeff();
@@ -141,7 +141,7 @@ TEST(IdentifyInput, APeakAboveTheGreatestHalfSecondIsNothingToSay) {
   EXPECT_TRUE(peaked.check().empty());
 }
 
-TEST(IdentifyInput, VelocitiesThatAreNotTheRateOfTheLengthsAreNamed) {
+TEST(GivenCheck, VelocitiesThatAreNotTheRateOfTheLengthsAreNamed) {
   Spoiled flipped, mm, other;
   flipped.trial().velocity_mps *= -1.0;
   expect_in(flipped.error(), {"v.sto", "opposite", "sign"});
@@ -153,7 +153,7 @@ TEST(IdentifyInput, VelocitiesThatAreNotTheRateOfTheLengthsAreNamed) {
   expect_in(remarks[0], {"v.sto", "same trial"});
 }
 
-TEST(IdentifyInput, NoiseOfTheLengthsIsNoError) {
+TEST(GivenCheck, NoiseOfTheLengthsIsNoError) {
   // 1 mm of white noise at 100 Hz: its rate, 140 mm/s, is as large as the movement's.
   Spoiled noisy;
   test::StudyNoise noise(5);
@@ -161,7 +161,7 @@ TEST(IdentifyInput, NoiseOfTheLengthsIsNoError) {
   EXPECT_EQ(noisy.error(), "");
 }
 
-TEST(IdentifyInput, MomentArmsOfAWrongUnitSignOrMuscleAreNamed) {
+TEST(GivenCheck, MomentArmsOfAWrongUnitSignOrMuscleAreNamed) {
   Spoiled mm, flipped, torque, one;
   mm.trial().moment_arm_m *= 1000.0;
   expect_in(mm.error(), {"r.sto", "mm", "0.2 m"});
@@ -175,7 +175,7 @@ TEST(IdentifyInput, MomentArmsOfAWrongUnitSignOrMuscleAreNamed) {
   expect_in(remarks[0], {"r.sto", "is the sign of BIC wrong?"});
 }
 
-TEST(IdentifyInput, TorqueInNewtonMillimetersIsNamed) {
+TEST(GivenCheck, TorqueInNewtonMillimetersIsNamed) {
   Spoiled mm;
   mm.trial().torque_nm *= 1000.0;
   expect_in(mm.error(), {"id.sto", "N mm", "Divide by 1000"});
@@ -185,7 +185,7 @@ TEST(IdentifyInput, TorqueInNewtonMillimetersIsNamed) {
   EXPECT_EQ(strong.error(), "");
 }
 
-TEST(IdentifyInput, MomentArmsOfTwoJointsInTheWrongOrderAreNamed) {
+TEST(GivenCheck, MomentArmsOfTwoJointsInTheWrongOrderAreNamed) {
   // A second joint that the muscles turn otherwise.
   Spoiled two;
   TrialData& trial = two.trial();
@@ -208,10 +208,10 @@ TEST(IdentifyInput, MomentArmsOfTwoJointsInTheWrongOrderAreNamed) {
   if (said.empty()) {
     for (const std::string& remark : two.check()) said += remark;
   }
-  expect_in(said, {"rA.sto", "--coordinate"});
+  expect_in(said, {"rA.sto", "the order of the coordinates"});
 }
 
-TEST(IdentifyInput, TorqueWhileAllEmgIsQuietIsNamed) {
+TEST(GivenCheck, TorqueWhileAllEmgIsQuietIsNamed) {
   const auto resting = [](double offset_nm, Eigen::Index rows) {
     Spoiled s;
     const TimeSeries& a = s.trial().activation;
@@ -228,7 +228,7 @@ TEST(IdentifyInput, TorqueWhileAllEmgIsQuietIsNamed) {
   Spoiled raw = resting(0.2 * peak_nm, 400);
   const std::vector<std::string> remarks = raw.check();
   ASSERT_EQ(remarks.size(), 1U);
-  expect_in(remarks[0], {"id.sto", "while all EMG is below 0.02", "gravity", "--free joint_torque_offset"});
+  expect_in(remarks[0], {"id.sto", "while all EMG is below 0.02", "gravity", "joint_torque_offset"});
   raw.files.resting_torque_is_free = true;
   EXPECT_TRUE(raw.check().empty());
 }

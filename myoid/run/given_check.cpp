@@ -1,4 +1,4 @@
-#include "myoid/identify_files/identify_input.h"
+#include "myoid/run/given_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@
 #include "myoid/dynamics/joint_capacity.h"
 #include "myoid/dynamics/torque_plausibility.h"
 #include "myoid/files/text_file.h"
-#include "myoid/identify_files/torque_sign.h"
 #include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
+#include "myoid/run/torque_sign.h"
 #include "myoid/signals/emg_levels.h"
 
 namespace myoid {
@@ -64,7 +64,7 @@ double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
 /// Checks one trial and collects remarks.
 class TrialCheck {
  public:
-  TrialCheck(const StudyData& data, const TrialData& trial, const IdentifyFiles& files)
+  TrialCheck(const StudyData& data, const TrialData& trial, const TrialFiles& files)
       : data_(data), trial_(trial), files_(files) {}
 
   std::vector<std::string> run() {
@@ -92,6 +92,7 @@ class TrialCheck {
   /// shorter than their moment arm; dl = -r dq over all muscles tells the two apart. Refuses files that follow it
   /// exchanged and not as given, or by their sizes where nothing moves; asks where fibers alone are short.
   void exchanged() {
+    if (files_.lengths.empty()) return;
     for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
       std::vector<Eigen::Index> longer;
       for (Eigen::Index k = 0; k < arms(j).cols(); ++k) {
@@ -106,9 +107,8 @@ class TrialCheck {
       const double arm = arms(j).col(k).cwiseAbs().maxCoeff();
       const double tendon = data_.muscles[static_cast<std::size_t>(k)].start.tendon_slack_length_m;
       const std::string found = fmt::format(
-          "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m{}; are the files of --lengths "
-          "and "
-          "--moment-arms exchanged?",
+          "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m{}; are the files of lengths and "
+          "moment arms exchanged?",
           muscle(k), arm, files_.lengths, trial_.length_m.col(k).maxCoeff(),
           longer.size() > 1 ? fmt::format(", and so of {} muscles", longer.size()) : "");
       const bool most = 2 * static_cast<Eigen::Index>(longer.size()) > arms(j).cols();
@@ -136,14 +136,15 @@ class TrialCheck {
   }
 
   void lengths() {
+    if (files_.lengths.empty()) return;
     for (Eigen::Index k = 0; k < trial_.length_m.cols(); ++k) {
       const Eigen::VectorXd l = trial_.length_m.col(k);
       const std::string found =
           fmt::format("length of {} from {:.4g} to {:.4g} m", muscle(k), l.minCoeff(), l.maxCoeff());
       if (l.minCoeff() <= 0.0)
         fail(files_.lengths, found +
-                                 ", expected positive lengths of 0.01 to 1 m; are the files of --lengths and "
-                                 "--velocities in the wrong order?");
+                                 ", expected positive lengths of 0.01 to 1 m; are the files of lengths and "
+                                 "velocities in the wrong order?");
       const double typical = median_of(l);
       const auto& start = data_.muscles[static_cast<std::size_t>(k)].start;
       const double usual = start.tendon_slack_length_m + start.optimal_fiber_length_m;
@@ -158,26 +159,24 @@ class TrialCheck {
         continue;
       }
       const FiberRoom room = fiber_room(muscle(k), typical, start.tendon_slack_length_m, start.optimal_fiber_length_m);
-      if (room.none)
-        fail(files_.lengths,
-             room.says + "; are these fiber lengths? Then leave tendon_slack_length empty in muscles.csv");
+      if (room.none) fail(files_.lengths, room.says + "; are these fiber lengths? Then their tendon_slack_length is 0");
       if (!room.says.empty())
-        remark(files_.lengths, room.says + "; check tendon_slack_length and optimal_fiber_length in muscles.csv");
+        remark(files_.lengths, room.says + "; check tendon_slack_length and optimal_fiber_length of the start");
     }
   }
 
-  /// Checks that the lengths of a muscle without a tendon in muscles.csv are fiber lengths.
+  /// Checks that the lengths of a muscle whose tendon has no length are fiber lengths.
   void lengths_without_tendon(Eigen::Index k, double typical_m, const std::string& found) {
     const double optimal_m = data_.muscles[static_cast<std::size_t>(k)].start.optimal_fiber_length_m;
     const double relative = typical_m / optimal_m;
     const std::string against = fmt::format(
-        "{}, {:.2g} times its optimal_fiber_length of {:.4g} m, and muscles.csv has no tendon_slack_length for it",
-        found, relative, optimal_m);
+        "{}, {:.2g} times its optimal_fiber_length of {:.4g} m, and the start has no tendon_slack_length for it", found,
+        relative, optimal_m);
     if (relative > kLongestActive)
       fail(files_.lengths,
            fmt::format(
                "{}; expected fiber lengths, 0.4 to 1.8 times the optimal one. Are these lengths of whole muscles with "
-               "their tendons? Then give tendon_slack_length in muscles.csv. Else mend optimal_fiber_length",
+               "their tendons? Then give tendon_slack_length. Else mend optimal_fiber_length",
                against));
     if (relative < kShortestActive)
       fail(files_.lengths, fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one; check the unit "
@@ -185,7 +184,7 @@ class TrialCheck {
                                        against));
     if (names_whole_muscles(files_.lengths))
       remark(files_.lengths, fmt::format("by its name the file has lengths of whole muscles, {}: they are taken for "
-                                         "fiber lengths; give tendon_slack_length in muscles.csv",
+                                         "fiber lengths; give tendon_slack_length",
                                          against));
   }
 
@@ -196,6 +195,7 @@ class TrialCheck {
   }
 
   void activations() {
+    if (files_.activations.empty()) return;
     double largest = 0.0;
     for (const identification::MuscleSetup& setup : data_.muscles) {
       const Eigen::VectorXd a = trial_.activation.column(setup.emg_channel);
@@ -206,7 +206,7 @@ class TrialCheck {
       const bool spike = high > kCertainlyHigh && signals::time_above_s(a, rate_hz, kCertainlyHigh) < kSpike_s;
       if (spike)
         remark(files_.activations, fmt::format("{}, above {:g} for less than {:g} s: an artefact? Leave that time out "
-                                               "(--start, --end) or mend the EMG",
+                                               "or mend the EMG",
                                                found, kCertainlyHigh, kSpike_s));
       if (high > kCertainlyHigh && !spike)
         fail(files_.activations,
@@ -359,7 +359,7 @@ class TrialCheck {
   }
 
   void length_changes() {
-    if (files_.moment_arms.empty()) return;
+    if (files_.moment_arms.empty() || files_.lengths.empty()) return;
     const Changes c = changes();
     if (c.of_length.rows() < 5 || c.of_length.norm() < kMoves_m * std::sqrt(static_cast<double>(c.of_length.size())))
       return;
@@ -407,8 +407,8 @@ class TrialCheck {
       const double other = std::min(correlation(torque(0), predicted(1)), correlation(torque(1), predicted(0)));
       const std::string found = fmt::format(
           "these moment arms make the other joint's torque (with the starting values r is {:.2f} or more, of their own "
-          "at most {:.2f}); --moment-arms has the first trial's files in the order of --coordinate, then the next "
-          "trial's",
+          "at most {:.2f}); the files of moment arms come in the order of the coordinates, trial by "
+          "trial",
           other, own);
       if (other > kTogether && own < kDoubtful) fail(files_.moment_arms.front(), found);
       if (other > kDoubtful && other > own + kClearly) remark(files_.moment_arms.front(), found);
@@ -463,8 +463,8 @@ class TrialCheck {
       remark(
           files_.torques,
           fmt::format("{:.3g} to {:.3g} N m{} while all EMG is below {:g}, expected about 0: torque without activity "
-                      "is that of gravity and passive tissue. Subtract them, or fit them: --free "
-                      "joint_torque_offset, and --free joint_stiffness with --motion",
+                      "is that of gravity and passive tissue. Subtract them, or free "
+                      "joint_torque_offset and, with the joint's angle, joint_stiffness",
                       here.minCoeff(), here.maxCoeff(),
                       files_.moment_arms.size() > 1 ? fmt::format(" (joint {})", j + 1) : "", kFlatActivation));
     }
@@ -472,15 +472,13 @@ class TrialCheck {
 
   const StudyData& data_;
   const TrialData& trial_;
-  const IdentifyFiles& files_;
+  const TrialFiles& files_;
   std::vector<std::string> remarks_;
 };
 
 }  // namespace
 
-std::vector<std::string> check_identify_trial(const StudyData& data,
-                                              const TrialData& trial,
-                                              const IdentifyFiles& files) {
+std::vector<std::string> check_given_trial(const StudyData& data, const TrialData& trial, const TrialFiles& files) {
   return TrialCheck(data, trial, files).run();
 }
 

@@ -1,4 +1,4 @@
-#include "myoid/identify_files/joint_of_arms.h"
+#include "myoid/run/joint_of_arms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ std::vector<JointArms> joints_of(const TrialData& trial) {
 
 void add_muscles_without_arm(const StudyData& data,
                              const std::vector<JointArms>& joints,
-                             const IdentifyFiles& files,
+                             const TrialFiles& files,
                              std::vector<std::string>& remarks) {
   Eigen::VectorXd most = Eigen::VectorXd::Zero(joints.front().arm_m.cols());
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -60,7 +60,7 @@ void add_muscles_without_arm(const StudyData& data,
   if (!still.empty())
     remarks.push_back(
         fmt::format("{}: the moment arm of {} stays below 0.1 mm: such a muscle makes no torque here, and nothing of "
-                    "it can be identified; is this the file of another joint? Else leave the muscle out of muscles.csv",
+                    "it can be identified; is this the file of another joint? Else leave the muscle out",
                     files.moment_arms.front(), fmt::join(still, ", ")));
 }
 
@@ -98,7 +98,7 @@ double share_explained(const Eigen::VectorXd& change, const Eigen::VectorXd& by)
 void compare_with_angles(const StudyData& data,
                          const TrialData& trial,
                          const std::vector<JointArms>& joints,
-                         const IdentifyFiles& files,
+                         const TrialFiles& files,
                          std::vector<std::string>& remarks) {
   const bool known = std::ranges::all_of(
       joints, [&](const JointArms& joint) { return joint.angle_rad.size() == trial.time_s.size(); });
@@ -123,18 +123,19 @@ void compare_with_angles(const StudyData& data,
   }
   if (any && best >= kExplains && !suspects.empty())
     remarks.push_back(
-        fmt::format("{}: with the angles of --motion the moment arms make another change of length than {} has: {}; "
+        fmt::format("{}: with the angles of the motion the moment arms make another change of length than {} has: {}; "
                     "expected times 1 (dl = -r dq): mend the sign or the unit of these muscles",
                     files.moment_arms.front(), files.lengths, fmt::join(suspects, ", ")));
   if (!any || best >= kExplains) return;
-  remarks.push_back(fmt::format(
-      "{}: {}", files.moment_arms.front(),
-      best_reversed >= kExplains ? std::string("lengths change by +r dq with the angles of --motion, expected dl = -r "
-                                               "dq: the sign of the moment arms or of the angles is reversed")
-                                 : fmt::format("with the angles of --motion dl = -r dq explains at most {:.0f} % of "
-                                               "the change of any muscle's length, expected most of it for a muscle "
-                                               "that crosses no other joint; is it the file of another joint or trial?",
-                                               100.0 * std::max(0.0, best))));
+  remarks.push_back(
+      fmt::format("{}: {}", files.moment_arms.front(),
+                  best_reversed >= kExplains
+                      ? std::string("lengths change by +r dq with the angles of the motion, expected dl = -r "
+                                    "dq: the sign of the moment arms or of the angles is reversed")
+                      : fmt::format("with the angles of the motion dl = -r dq explains at most {:.0f} % of "
+                                    "the change of any muscle's length, expected most of it for a muscle "
+                                    "that crosses no other joint; is it the file of another joint or trial?",
+                                    100.0 * std::max(0.0, best))));
 }
 
 }  // namespace
@@ -155,14 +156,12 @@ std::string check_joint_by_name(const std::string& path, const std::string& torq
       fmt::format("by its name the moment arms about '{}', but the torque fitted is '{}'", stated, torque_column);
   if (torques.find(stated) || torques.find(fmt::format("{}_moment", stated)))
     throw InvalidInput(
-        fmt::format("{}: {}; the torque file has both: give --coordinate {}, or the file of the other moment arms",
+        fmt::format("{}: {}; the torque file has both: name the coordinate {}, or the file of the other moment arms",
                     path, found, stated));
   return fmt::format("{}: {}; is it the file of another joint?", path, found);
 }
 
-std::vector<std::string> check_joint_of_arms(const StudyData& data,
-                                             const TrialData& trial,
-                                             const IdentifyFiles& files) {
+std::vector<std::string> check_joint_of_arms(const StudyData& data, const TrialData& trial, const TrialFiles& files) {
   std::vector<std::string> remarks;
   if (files.moment_arms.empty()) return remarks;
   const std::vector<JointArms> joints = joints_of(trial);

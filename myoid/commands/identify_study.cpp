@@ -1,0 +1,126 @@
+#include "myoid/commands/identify_study.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/core/error.h"
+#include "myoid/identification/parameter_fields.h"
+#include "myoid/identify_files/electrode_ties.h"
+#include "myoid/identify_files/muscle_specs.h"
+#include "myoid/study/read_study.h"
+
+namespace myoid::commands {
+namespace {
+
+using identification::ParameterRule;
+
+ParameterRule free_or_held(const std::string& name, bool free) {
+  (void)identification::parameter_field(name);
+  ParameterRule rule;
+  rule.parameter = name;
+  rule.free = free;
+  return rule;
+}
+
+std::vector<TrialSpec> trials_of(const IdentifyOptions& o) {
+  IdentifySources files = o.files;
+  files.torque = o.method == "torque";
+  require_counts(files);
+  const auto one = [](const std::vector<std::string>& list, std::size_t i) -> std::optional<std::filesystem::path> {
+    if (i < list.size()) return list[i];
+    return std::nullopt;
+  };
+  std::vector<TrialSpec> trials;
+  const std::size_t joints = std::max<std::size_t>(1, files.coordinates.size());
+  for (std::size_t i = 0; i < files.lengths.size(); ++i) {
+    TrialSpec trial;
+    trial.name = trial_label(files.lengths, i);
+    trial.emg = files.activations[i];
+    trial.given.lengths = files.lengths[i];
+    trial.given.velocities = one(files.velocities, i);
+    if (!files.torque) trial.given.forces = one(files.forces, i);
+    if (files.torque) {
+      trial.motion = one(files.motions, i);
+      trial.given.torques = one(files.torques, i);
+      for (std::size_t j = 0; j < joints; ++j) trial.given.moment_arms.emplace_back(files.moment_arms[joints * i + j]);
+    }
+    trials.push_back(std::move(trial));
+  }
+  if (!files.torque) return trials;
+  for (const std::string& name : files.held_back) trials[trial_named(name, files.lengths)].use = Use::validation;
+  return trials;
+}
+
+/// Returns the rules in the order in which later ones win: shared scales, muscles.csv, the options.
+std::vector<ParameterRule> rules_of(const IdentifyOptions& o, const MuscleTable& table, Remarks& remarks) {
+  std::vector<ParameterRule> rules;
+  if (o.method == "torque" && o.scales == "electrode") {
+    ElectrodeTies ties = electrode_ties(table.muscles);
+    rules = std::move(ties.rules);
+    if (!ties.says.empty()) remarks.note(ties.says);
+  }
+  const std::vector<ParameterRule> of_table = parameter_rules(table);
+  rules.insert(rules.end(), of_table.begin(), of_table.end());
+  for (const std::string& name : o.free_more) rules.push_back(free_or_held(name, true));
+  for (const std::string& name : o.hold) rules.push_back(free_or_held(name, false));
+  return rules;
+}
+
+IdentifySpec fit_of(const IdentifyOptions& o) {
+  IdentifySpec fit;
+  fit.methods = {*choice_named<identification::Method>(o.method)};
+  fit.posterior_draws = o.posterior_draws;
+  fit.cross_validate = o.folds != "none";
+  fit.folds = o.folds == "block" ? identification::FoldKind::block : identification::FoldKind::trial;
+  fit.starts = o.starts.value_or(1);
+  fit.next_movements = 0;
+  fit.elastic_tendon = false;
+  if (!o.lag.empty()) fit.lag = *choice_named<identification::LagChoice>(o.lag);
+  return fit;
+}
+
+}  // namespace
+
+Study identify_study(const IdentifyOptions& o, const MuscleTable& table, Remarks& remarks) {
+  Study study;
+  study.model.builtin = "none";
+  study.model.coordinate = "joint";
+  if (!o.files.coordinates.empty()) {
+    study.model.coordinate = o.files.coordinates.front();
+    study.model.more_coordinates.assign(o.files.coordinates.begin() + 1, o.files.coordinates.end());
+  }
+  study.motion.smoothing = o.files.motion_cutoff_hz ? Smoothing::cutoff : Smoothing::none;
+  study.motion.cutoff_hz = o.files.motion_cutoff_hz.value_or(study.motion.cutoff_hz);
+  study.emg.kind = EmgKind::activation;
+  study.emg.has_mvc = false;
+  study.emg.delay_s = o.delay_s;
+  study.phases.search = false;
+  if (o.beliefs && o.method != "paper") study.beliefs = read_beliefs(*o.beliefs);
+  study.identify = fit_of(o);
+  study.muscles = muscle_specs(table);
+  study.parameters = rules_of(o, table, remarks);
+  study.trials = trials_of(o);
+  restrict_trials(study, o.call.start_s, o.call.end_s);
+  return study;
+}
+
+Study seen_from(const std::filesystem::path& folder, Study study) {
+  const std::filesystem::path here = std::filesystem::absolute(folder).lexically_normal();
+  const auto turn = [&](std::filesystem::path& path) {
+    path = std::filesystem::absolute(path).lexically_normal().lexically_relative(here);
+  };
+  for (TrialSpec& trial : study.trials) {
+    for (std::optional<std::filesystem::path>* path :
+         {&trial.emg, &trial.motion, &trial.given.lengths, &trial.given.velocities, &trial.given.torques,
+          &trial.given.forces}) {
+      if (*path) turn(**path);
+    }
+    for (std::filesystem::path& path : trial.given.moment_arms) turn(path);
+  }
+  study.file = "study.toml";
+  return study;
+}
+
+}  // namespace myoid::commands

@@ -1,0 +1,72 @@
+#include "myoid/identify_files/muscle_specs.h"
+
+#include <algorithm>
+#include <string>
+
+#include "myoid/identification/muscle_law.h"
+#include "myoid/identification/parameter_fields.h"
+#include "myoid/muscle/hill_parameters.h"
+
+namespace myoid {
+namespace {
+
+using identification::MuscleSetup;
+using identification::ParameterRule;
+
+bool is_hill(std::string_view name) {
+  return std::ranges::any_of(muscle::kHillFields, [&](const muscle::HillField& field) { return field.name == name; });
+}
+
+/// Returns what a muscle's row says of one parameter beyond its start; without content it says nothing.
+ParameterRule rule_of(const MuscleSetup& setup, const identification::ParameterField& field) {
+  const std::string name(field.name);
+  ParameterRule rule;
+  rule.parameter = name;
+  rule.owners = {setup.name};
+  if (const auto bounds = setup.bounds.find(name); bounds != setup.bounds.end()) {
+    rule.lower = bounds->second.lower;
+    rule.upper = bounds->second.upper;
+  }
+  if (identification::contains(setup.given_priors, name)) {
+    rule.prior_mean = setup.priors.at(name).mean;
+    rule.prior_sd = setup.priors.at(name).sd;
+  }
+  const auto at = static_cast<std::size_t>(field.field);
+  const double value = identification::muscle_values(setup.start, setup.extras)[at];
+  const bool beyond = !is_hill(name) && field.field != identification::kSlopeRatio;
+  if (beyond && value != identification::muscle_values(setup.start, {})[at]) rule.value = value;
+  if (name == "length_activation" && identification::contains(setup.fixed, name)) rule.free = false;
+  return rule;
+}
+
+}  // namespace
+
+std::vector<MuscleSpec> muscle_specs(const MuscleTable& table) {
+  std::vector<MuscleSpec> specs;
+  for (const MuscleSetup& setup : table.muscles) {
+    MuscleSpec spec;
+    spec.name = setup.name;
+    spec.osim = {setup.name};
+    spec.emg = setup.emg_channel;
+    for (const muscle::HillField& field : muscle::kHillFields)
+      spec.start[std::string(field.name)] = setup.start.*field.member;
+    std::ranges::copy_if(setup.fixed, std::back_inserter(spec.fixed), is_hill);
+    specs.push_back(std::move(spec));
+  }
+  return specs;
+}
+
+std::vector<ParameterRule> parameter_rules(const MuscleTable& table) {
+  std::vector<ParameterRule> rules;
+  for (const MuscleSetup& setup : table.muscles) {
+    for (const identification::ParameterField& field : identification::parameter_fields()) {
+      if (field.scope != identification::Scope::muscle) continue;
+      ParameterRule rule = rule_of(setup, field);
+      if (rule.lower || rule.prior_sd || rule.value || rule.free) rules.push_back(std::move(rule));
+    }
+  }
+  rules.insert(rules.end(), table.rules.begin(), table.rules.end());
+  return rules;
+}
+
+}  // namespace myoid

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "myoid/identification/study_data.h"
+#include "myoid/identify_files/muscles_csv.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// Returns the muscles of a table as [[muscle]]: names, channels, starting values and held parameters.
+[[nodiscard]] std::vector<MuscleSpec> muscle_specs(const MuscleTable& table);
+
+/// Returns the rest of a table as [[parameter]]: bounds, priors, values beyond the paper's law, and its rules.
+[[nodiscard]] std::vector<identification::ParameterRule> parameter_rules(const MuscleTable& table);
+
+}  // namespace myoid
