@@ -96,10 +96,11 @@ myoid_install_python() {
 }
 
 # Programs that some tests run with: engines of a cohort (Snakemake, which takes longer to install, is left out), Octave
-# for matlab/+myoid, man for the manual pages. Without them these tests are skipped, and say so. CI only: on a
+# for matlab/+myoid, man for the manual pages, Sphinx for the site. Without them these tests are skipped, and say so. CI only: on a
 # workstation Slurm's package would start services.
 myoid_install_test_programs() {
-  local wanted=(parallel slurm-wlm munge octave man-db)
+  local wanted=(parallel slurm-wlm munge octave man-db python3-sphinx python3-myst-parser python3-sphinx-rtd-theme
+                libjs-katex)
   if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then return 0; fi
   myoid_log "Installing: ${wanted[*]}"
   { myoid_as_root apt-get update -qq && myoid_as_root env DEBIAN_FRONTEND=noninteractive \
