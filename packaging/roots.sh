@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # usage: packaging/roots.sh build SUITE...          builds the committed tree in an empty root of each suite, and runs it
+#        packaging/roots.sh wheel FOLDER SUITE...   the same, and puts the wheel of the suite's Python into FOLDER
 #        packaging/roots.sh run FOLDER SUITE...     runs the tarball and the wheels of FOLDER (release.sh) in such roots
 # Suites are those of the archive: bookworm (Debian 12), trixie (13), bullseye (11). It must be root and needs
 # debootstrap. The roots stay in MYOID_ROOTS (build/roots), so that a second call is quicker; DEBIAN_MIRROR names another
@@ -8,13 +9,13 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 roots=${MYOID_ROOTS:-$root/build/roots}
 mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
-usage() { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
+usage() { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
 [ "$#" -ge 2 ] || usage
 order=$1
 shift
 case $order in
   build) ;;
-  run) [ "$#" -ge 2 ] || usage; artefacts=$(realpath "$1"); shift ;;
+  wheel | run) [ "$#" -ge 2 ] || usage; artefacts=$(realpath "$1"); shift ;;
   *) usage ;;
 esac
 [ "$(id -u)" -eq 0 ] && command -v debootstrap >/dev/null ||
@@ -34,6 +35,7 @@ inside() {  # inside SUITE SCRIPT: the script of standard shell in the root, wit
   mountpoint -q "$roots/$1/proc" || mount --bind /proc "$roots/$1/proc"
   local status=0
   env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+    SOURCE_DATE_EPOCH="$(git -C "$root" log -1 --format=%ct)" \
     chroot "$roots/$1" sh -euc "$2" >>"$roots/$1.log" 2>&1 || status=$?
   umount "$roots/$1/proc"
   return "$status"
@@ -57,6 +59,15 @@ build_in() {
     PYTHONPATH=build/user/python python3 -c "import myoid; myoid.run(\"build/demo/recording/study.toml\")"
     build/user/bin/myoid --version >/tmp/version'
   echo "built by ./run-demo and by the preset user; the demo ran, in Python too: myoid $(cat "$roots/$1/tmp/version")"
+}
+
+wheel_in() {
+  build_in "$1"
+  inside "$1" 'cd /src/myoid && rm -rf /tmp/wheels && mkdir /tmp/wheels
+    python3 -c "import sys; sys.path.insert(0, \"python\"); import build_backend
+build_backend.build_wheel(\"/tmp/wheels\", {\"build-dir\": \"build/user\"})"'
+  cp "$roots/$1"/tmp/wheels/*.whl "$artefacts"
+  echo "wheel: $(basename "$roots/$1"/tmp/wheels/*.whl)"
 }
 
 # The tarball's program, then each wheel that this Python takes.
