@@ -26,6 +26,23 @@ if(NOT OPENSSL_FOUND)
   set(OPENSSL_USE_STATIC_LIBS OFF)
   find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 endif()
+# Debian 13's static library needs zlib's, which is not built for shared libraries and modules.
+if(OPENSSL_USE_STATIC_LIBS)
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_FLAGS -fPIC)
+  set(CMAKE_REQUIRED_LINK_OPTIONS -shared)
+  set(CMAKE_REQUIRED_LIBRARIES OpenSSL::Crypto)
+  check_cxx_source_compiles("#include <openssl/evp.h>
+const void* sha256() { return EVP_sha256(); }
+int main() { return sha256() == nullptr; }" MYOID_STATIC_CRYPTO_IN_MODULES)
+  unset(CMAKE_REQUIRED_FLAGS)
+  unset(CMAKE_REQUIRED_LINK_OPTIONS)
+  unset(CMAKE_REQUIRED_LIBRARIES)
+  if(NOT MYOID_STATIC_CRYPTO_IN_MODULES)
+    find_library(MYOID_SHARED_CRYPTO NAMES libcrypto.so REQUIRED)
+    set_target_properties(OpenSSL::Crypto PROPERTIES IMPORTED_LOCATION ${MYOID_SHARED_CRYPTO} INTERFACE_LINK_LIBRARIES "")
+  endif()
+endif()
 find_package(Threads REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers only
 find_path(MYOID_TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)

@@ -57,15 +57,15 @@ build_in() {
     cmake --preset user
     cmake --build --preset user
     PYTHONPATH=build/user/python python3 -c "import myoid; myoid.run(\"build/demo/recording/study.toml\")"
-    build/user/bin/myoid --version >/tmp/version'
+    build/user/bin/myoid --version >/tmp/version' || return 1
   echo "built by ./run-demo and by the preset user; the demo ran, in Python too: myoid $(cat "$roots/$1/tmp/version")"
 }
 
 wheel_in() {
-  build_in "$1"
+  build_in "$1" >/dev/null || return 1
   inside "$1" 'cd /src/myoid && rm -rf /tmp/wheels && mkdir /tmp/wheels
     python3 -c "import sys; sys.path.insert(0, \"python\"); import build_backend
-build_backend.build_wheel(\"/tmp/wheels\", {\"build-dir\": \"build/user\"})"'
+build_backend.build_wheel(\"/tmp/wheels\", {\"build-dir\": \"build/user\"})"' || return 1
   cp "$roots/$1"/tmp/wheels/*.whl "$artefacts"
   echo "wheel: $(basename "$roots/$1"/tmp/wheels/*.whl)"
 }
@@ -88,12 +88,13 @@ run_in() {
       /tmp/env/bin/myoid demo --no-open --overwrite --out /tmp/demo_of_wheel
       /tmp/env/bin/python -c "import myoid; myoid.run(\"/tmp/demo_of_wheel/recording/study.toml\")"
       echo "$wheel" >/tmp/wheel
-    done'
+    done' || return 1
   local wheel
   wheel=$(cat "$roots/$1/tmp/wheel" 2>/dev/null || echo "no wheel for its $(cat "$roots/$1/tmp/python")")
   echo "the demo ran from the tarball and from the wheel: $wheel"
 }
 
+# (`set -e` does not hold in a function whose result is tested: each step that may fail returns by itself.)
 status=0
 for suite in "$@"; do
   if make_root "$suite" && said=$("${order}_in" "$suite"); then
