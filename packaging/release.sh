@@ -102,7 +102,8 @@ needs() {  # needs FILE: one line on what a user needs for it
   echo
   date -u -d "@$SOURCE_DATE_EPOCH" "+%Y-%m-%d, commit $(git rev-parse --short=12 HEAD)"
   echo
-  awk '/^## / { if (seen++) exit; next } seen' CHANGELOG.md
+  awk '/^## / { if (seen++) exit; next } seen' CHANGELOG.md | sed '1{/^$/d}'
+  echo
   echo "| file | bytes | needs |"
   echo "| --- | --- | --- |"
   (cd "$out" && for file in *; do
