@@ -90,8 +90,11 @@ run_in() {
       echo "$wheel" >/tmp/wheel
     done' || return 1
   local wheel
-  wheel=$(cat "$roots/$1/tmp/wheel" 2>/dev/null || echo "no wheel for its $(cat "$roots/$1/tmp/python")")
-  echo "the demo ran from the tarball and from the wheel: $wheel"
+  if wheel=$(cat "$roots/$1/tmp/wheel" 2>/dev/null); then
+    echo "the demo ran from the tarball and from $wheel, in Python too"
+  else
+    echo "the demo ran from the tarball; no wheel for its Python ($(cat "$roots/$1/tmp/python"))"
+  fi
 }
 
 # (`set -e` does not hold in a function whose result is tested: each step that may fail returns by itself.)
