@@ -1,4 +1,4 @@
-# Everything comes from Debian 12's packages; nothing is fetched.
+# Everything comes from packages of the system (Debian 12 has all of them); nothing is fetched.
 find_program(MYOID_CCACHE ccache)
 if(MYOID_CCACHE)
   # A second checkout finds the first one's objects.
@@ -26,6 +26,23 @@ if(NOT OPENSSL_FOUND)
   set(OPENSSL_USE_STATIC_LIBS OFF)
   find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 endif()
+# Debian 13's static library needs zlib's, which is not built for shared libraries and modules.
+if(OPENSSL_USE_STATIC_LIBS)
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_FLAGS -fPIC)
+  set(CMAKE_REQUIRED_LINK_OPTIONS -shared)
+  set(CMAKE_REQUIRED_LIBRARIES OpenSSL::Crypto)
+  check_cxx_source_compiles("#include <openssl/evp.h>
+const void* sha256() { return EVP_sha256(); }
+int main() { return sha256() == nullptr; }" MYOID_STATIC_CRYPTO_IN_MODULES)
+  unset(CMAKE_REQUIRED_FLAGS)
+  unset(CMAKE_REQUIRED_LINK_OPTIONS)
+  unset(CMAKE_REQUIRED_LIBRARIES)
+  if(NOT MYOID_STATIC_CRYPTO_IN_MODULES)
+    find_library(MYOID_SHARED_CRYPTO NAMES libcrypto.so REQUIRED)
+    set_target_properties(OpenSSL::Crypto PROPERTIES IMPORTED_LOCATION ${MYOID_SHARED_CRYPTO} INTERFACE_LINK_LIBRARIES "")
+  endif()
+endif()
 find_package(Threads REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers only
 find_path(MYOID_TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)
@@ -38,15 +55,7 @@ target_include_directories(myoid_jet SYSTEM INTERFACE ${MYOID_CERES_INCLUDE})
 add_library(myoid_toml INTERFACE)
 target_include_directories(myoid_toml SYSTEM INTERFACE ${MYOID_TOMLPLUSPLUS_INCLUDE})
 
-# CVODES and the serial vectors and dense matrices that it works with. By hand: the distribution's
-# config names an MPI that is not needed. Static, as above, where they are.
-find_path(MYOID_SUNDIALS_INCLUDE cvodes/cvodes.h REQUIRED)
-add_library(myoid_sundials INTERFACE)
-target_include_directories(myoid_sundials SYSTEM INTERFACE $<BUILD_INTERFACE:${MYOID_SUNDIALS_INCLUDE}>)
-foreach(part cvodes nvecserial sunmatrixdense sunlinsoldense)
-  find_library(MYOID_SUNDIALS_${part} NAMES libsundials_${part}.a sundials_${part} REQUIRED)
-  target_link_libraries(myoid_sundials INTERFACE ${MYOID_SUNDIALS_${part}})
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/sundials.cmake)
 
 # libmatio (MATLAB files) is loaded by its soname when such a file is written; without its header none can be.
 find_path(MYOID_MATIO_INCLUDE matio.h)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # usage: packaging/tarball.sh BUILD OUT
-# Packs the program of a build (release) with every shared library but the C library's, for other Linux systems with a
-# C library of this or a newer version: OUT/myoid-VERSION-ARCH.tar.gz, the same bytes for the same build.
+# Packs the program of a build (release, user) with every shared library, the C library and its loader too, for all Linux
+# systems of this processor, older ones too: OUT/myoid-VERSION-ARCH.tar.gz, the same bytes for the same build.
 set -euo pipefail
 build=$(realpath "$1")
 mkdir -p "$2"
@@ -11,20 +11,36 @@ version=$("$build/bin/myoid" --version)
 name=myoid-$version-$(uname -m)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work/$name/bin" "$work/$name/lib" "$work/$name/share"
+mkdir -p "$work/$name/bin" "$work/$name/lib" "$work/$name/share/doc/libraries"
 install -s "$build/bin/myoid" "$work/$name/lib/myoid"
-ldd "$build/bin/myoid" | awk '/=> \// { print $3 }' | grep -vE '/(libc|libm|libpthread|libdl|librt)\.so' |
-  while read -r library; do cp -L "$library" "$work/$name/lib/"; done
-cat >"$work/$name/bin/myoid" <<'SH'
+ldd "$build/bin/myoid" | grep -o '/[^ ]*' | sort >"$work/libraries"
+loader=$(basename "$(grep -E '/ld-linux[^/]*$' "$work/libraries")")
+owner_of() {  # owner_of FILE: its package. /lib is /usr/lib, and the package may list either.
+  local file
+  file=$(realpath "$1")
+  { dpkg-query -S "$file" || dpkg-query -S "${file#/usr}"; } 2>/dev/null | head -1 | cut -d: -f1 | grep .
+}
+# Debian's libraries as they are, each with the package and version whose source Debian keeps, and its licences.
+while read -r library; do
+  cp -L "$library" "$work/$name/lib/"
+  package=$(owner_of "$library") ||
+    { echo "$library belongs to no package of Debian: its licence is not known" >&2; exit 1; }
+  cp -L "/usr/share/doc/$package/copyright" "$work/$name/share/doc/libraries/$package.copyright"
+  echo "$(basename "$library"): package $(dpkg-query -W -f='${Package} ${Version}, source ${source:Package} ${source:Version}' "$package")"
+done <"$work/libraries" >"$work/$name/share/doc/libraries/packages.txt"
+cp -L /usr/share/common-licenses/{LGPL-2.1,GPL-3,GPL-2,Apache-2.0} "$work/$name/share/doc/libraries/"
+cat >"$work/$name/bin/myoid" <<SH
 #!/bin/sh
-# Starts the program with the libraries beside it.
-here=$(CDPATH= cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
-LD_LIBRARY_PATH="$here/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" exec "$here/lib/myoid" "$@"
+# Starts the program with the loader and the libraries beside it.
+here=\$(CDPATH= cd -- "\$(dirname -- "\$(readlink -f -- "\$0")")/.." && pwd)
+exec "\$here/lib/$loader" --library-path "\$here/lib" "\$here/lib/myoid" "\$@"
 SH
-chmod 755 "$work/$name/bin/myoid"
+chmod 755 "$work/$name/bin/myoid" "$work/$name/lib/$loader"
 "$build/bin/myoid" help-files "$work/$name/share"
 cp -r "$root/examples" "$root/LICENSE" "$root/NOTICE" "$root/licenses.txt" "$root/README.md" "$work/$name/"
+find "$work/$name" -name __pycache__ -prune -exec rm -rf {} +
 epoch=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct)}
-tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$epoch" -c "$name" | gzip -n9 >"$out/$name.tar.gz"
+tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mode=go=rX,u+rw --mtime="@$epoch" -c "$name" |
+  gzip -n9 >"$out/$name.tar.gz"
 env -i PATH=/usr/bin:/bin "$work/$name/bin/myoid" --version >/dev/null
 ls -l "$out/$name.tar.gz"

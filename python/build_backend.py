@@ -65,12 +65,31 @@ def metadata() -> str:
     return "\n".join([*lines, "Description-Content-Type: text/markdown", "", readme])
 
 
-def tag() -> str:
-    """The interpreter, and the C library that is needed at least: the one of this system."""
+# The oldest C library of the systems whose libstdc++ has these symbols (PEP 600 names systems by the C library).
+SYSTEMS_WITH_GLIBCXX = {28: 31, 29: 34, 30: 35, 31: 36, 32: 38, 33: 39, 34: 41}
+
+
+def oldest_system(binaries: list[bytes]) -> int:
+    """N of the oldest C library 2.N with all symbols that the binaries need, by the versions in their tables."""
+    needed = {17}  # the oldest that pip knows as manylinux_2_N for every processor
+    for data in binaries:
+        needed |= {int(n) for n in re.findall(rb"\0GLIBC_2\.(\d+)(?=[.\0])", data)}
+        for n in {int(n) for n in re.findall(rb"\0GLIBCXX_3\.4\.(\d+)\0", data)}:
+            needed.add(next((system for symbols, system in SYSTEMS_WITH_GLIBCXX.items() if n <= symbols), 99))
+    return max(needed)
+
+
+def tag(system: str = "linux") -> str:
     python = f"cp{sys.version_info[0]}{sys.version_info[1]}"
-    name, number = platform.libc_ver()
-    system = f"manylinux_{number.replace('.', '_')}" if name == "glibc" else "linux"
     return f"{python}-{python}-{system}_{platform.machine()}"
+
+
+def tag_of(files: Mapping[str, tuple[bytes, bool]]) -> str:
+    """The interpreter, and the oldest C library that has what the files need."""
+    binaries = [data for data, _ in files.values() if data.startswith(b"\x7fELF")]
+    if platform.libc_ver()[0] != "glibc":
+        return tag()
+    return tag(f"manylinux_2_{oldest_system(binaries)}")
 
 
 def build_time() -> int:
@@ -125,12 +144,12 @@ def contents(package: Path) -> dict[str, tuple[bytes, bool]]:
     for name in ("LICENSE", "NOTICE", "licenses.txt"):
         files[f"{info}/{name}"] = ((ROOT / name).read_bytes(), False)
     files[f"{info}/METADATA"] = (metadata().encode(), False)
-    files[f"{info}/WHEEL"] = (wheel_file().encode(), False)
+    files[f"{info}/WHEEL"] = (wheel_file(tag_of(files)).encode(), False)
     return files
 
 
-def wheel_file() -> str:
-    return f"Wheel-Version: 1.0\nGenerator: myoid\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+def wheel_file(system: str) -> str:
+    return f"Wheel-Version: 1.0\nGenerator: myoid\nRoot-Is-Purelib: false\nTag: {system}\n"
 
 
 def record(files: Mapping[str, tuple[bytes, bool]], name: str) -> str:
@@ -153,7 +172,7 @@ def prepare_metadata_for_build_wheel(metadata_directory: str, config_settings: S
     folder = Path(metadata_directory) / f"myoid-{version()}.dist-info"
     folder.mkdir()
     (folder / "METADATA").write_text(metadata(), encoding="utf-8")
-    (folder / "WHEEL").write_text(wheel_file(), encoding="utf-8")
+    (folder / "WHEEL").write_text(wheel_file(tag()), encoding="utf-8")
     return folder.name
 
 
@@ -161,7 +180,7 @@ def build_wheel(wheel_directory: str, config_settings: Settings = None, metadata
     files = contents(linked(config_settings))
     listed = f"myoid-{version()}.dist-info/RECORD"
     files[listed] = (record(files, listed).encode(), False)
-    name = f"myoid-{version()}-{tag()}.whl"
+    name = f"myoid-{version()}-{tag_of(files)}.whl"
     date = time.gmtime(max(build_time(), 315532800))[:6]  # a .zip begins at 1980
     with zipfile.ZipFile(Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as archive:
         for path, (data, program) in files.items():

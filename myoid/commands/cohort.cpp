@@ -1,17 +1,13 @@
 #include "myoid/commands/cohort.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
-#include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "myoid/cohort/person_study.h"
+#include "myoid/commands/in_jobs.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/commands/run.h"
 #include "myoid/core/build_identity.h"
@@ -121,34 +117,6 @@ PersonJob job(const CohortOptions& o, const Person& person, const fs::path& out)
   } catch (const fs::filesystem_error& error) {
     return {{.person = person.name, .outcome = failure(error.what())}};
   }
-}
-
-/// Calls `body(i)` for 0 .. count - 1 on `jobs` threads, each with its share of the program's
-/// threads; after the first exception no further number begins, and the exception is rethrown.
-template <typename Body>
-void in_jobs(std::size_t count, std::size_t jobs, const Body& body) {
-  using Limit = oneapi::tbb::global_control;
-  const std::size_t threads = Limit::active_value(Limit::max_allowed_parallelism);
-  jobs = std::min(jobs == 0 ? threads : jobs, std::max<std::size_t>(count, 1));
-  const int share = static_cast<int>(std::max<std::size_t>(threads / jobs, 1));
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr error;
-  const auto work = [&] {
-    try {
-      oneapi::tbb::task_arena arena(share);
-      for (std::size_t i = next++; i < count; i = next++) arena.execute([&] { body(i); });
-    } catch (...) {
-      const std::scoped_lock lock(mutex);
-      if (!error) error = std::current_exception();
-      next = count;
-    }
-  };
-  std::vector<std::jthread> others;
-  for (std::size_t k = 1; k < jobs; ++k) others.emplace_back(work);
-  work();
-  others.clear();
-  if (error) std::rethrow_exception(error);
 }
 
 }  // namespace

@@ -15,9 +15,11 @@ RunToolResult run_tool(const RunToolOptions& o) {
   check_word("--compat", o.compat, {"opensim", "exact"});
   Remarks remarks(o.call);
   RunToolResult result;
-  result.tool = myoid::run_tool(
-      o.setup,
-      {.compat = model::parse_compat(o.compat), .files = o.files, .anywhere = o.anywhere, .progress = o.call.progress});
+  result.tool = myoid::run_tool(o.setup, {.compat = model::parse_compat(o.compat),
+                                          .files = o.files,
+                                          .anywhere = o.anywhere,
+                                          .progress = o.call.progress,
+                                          .folders = o.folders});
   for (const std::string& note : result.tool.notes) remarks.warn(note);
   for (const Remark& remark : result.tool.remarks) remarks.add(remark);
   if (result.tool.replaced > 0)
@@ -28,7 +30,7 @@ RunToolResult run_tool(const RunToolOptions& o) {
   return result;
 }
 
-std::string run_tool_json(const RunToolResult& result) {
+nlohmann::ordered_json run_tool_object(const RunToolResult& result) {
   const ToolResult& tool = result.tool;
   nlohmann::ordered_json json{{"tool", tool.tool},
                               {"summary", tool.summary},
@@ -37,7 +39,9 @@ std::string run_tool_json(const RunToolResult& result) {
                               {"notes", tool.notes}};
   for (const std::string& text : sentences(tool.remarks)) json["notes"].push_back(text);
   for (const std::filesystem::path& file : tool.files) json["files"].push_back(file.string());
-  return json_text(json) + "\n";
+  return json;
 }
+
+std::string run_tool_json(const RunToolResult& result) { return json_text(run_tool_object(result)) + "\n"; }
 
 }  // namespace myoid::commands

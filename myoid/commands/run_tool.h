@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "myoid/commands/call.h"
 #include "myoid/opensim_tools/run_tool.h"
 
@@ -15,6 +17,7 @@ struct RunToolOptions {
   SetupFiles files;                ///< Instead of the set-up's own.
   bool anywhere = false;           ///< Writes outside the folder of the set-up too, where the set-up says so.
   std::string compat = "opensim";  ///< Paths of muscles: as OpenSim 4.5.2 has them, or "exact".
+  ToolFolders* folders = nullptr;  ///< As in ToolOptions, for several set-ups (run_tools.h).
 };
 
 struct RunToolResult {
@@ -29,7 +32,9 @@ struct RunToolResult {
 /// reading, computing and writing are one call.) Throws as `myoid::run_tool`.
 RunToolResult run_tool(const RunToolOptions& options);
 
-/// Returns tool, summary, counts of frames, notes and files as JSON.
+/// Returns tool, summary, counts of frames, notes and files.
+[[nodiscard]] nlohmann::ordered_json run_tool_object(const RunToolResult& result);
+/// The same as JSON's text.
 [[nodiscard]] std::string run_tool_json(const RunToolResult& result);
 
 }  // namespace myoid::commands

@@ -6,13 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <cvodes/cvodes.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
-
 #include "myoid/core/error.h"
+#include "myoid/math/sundials.h"
 
 namespace myoid::math {
 namespace {
@@ -58,7 +53,7 @@ struct StiffIntegrator::Parts {
   struct FreeAt {
     void operator()(auto* it) const { free(&it); }
   };
-  using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeAt<SUNContext_Free>>;
+  using Context = std::unique_ptr<std::remove_pointer_t<sundials::Context>, FreeAt<sundials::free_context>>;
   using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, Free<N_VDestroy>>;
   using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Free<SUNMatDestroy>>;
   using Solver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Free<SUNLinSolFree>>;
@@ -69,9 +64,9 @@ struct StiffIntegrator::Parts {
     std::vector<Vector> owned;
     std::vector<N_Vector> raw;
 
-    Vectors(std::size_t count, std::size_t length, SUNContext context) {
+    Vectors(std::size_t count, std::size_t length, sundials::Context context) {
       for (std::size_t k = 0; k < count; ++k) {
-        owned.emplace_back(N_VNew_Serial(static_cast<sunindextype>(length), context));
+        owned.emplace_back(sundials::new_vector(static_cast<sunindextype>(length), context));
         if (!owned.back()) throw std::bad_alloc();
         N_VConst(0.0, owned.back().get());
         raw.push_back(owned.back().get());
@@ -136,7 +131,6 @@ struct StiffIntegrator::Parts {
     }
     return self.problem.sensitivity(t, NV_DATA_S(y), self.s_in.data(), self.s_out.data()) ? 0 : 1;
   }
-  static void quiet(int, const char*, const char*, char*, void*) {}
 
   OdeStatistics counted() const {
     OdeStatistics s = before;
@@ -164,19 +158,19 @@ StiffIntegrator::StiffIntegrator(StiffProblem problem, const OdeOptions& options
     throw InvalidInput("a system of differential equations needs at least one state and a rate");
   p.problem = std::move(problem);
   p.options = options;
-  SUNContext context = nullptr;
-  if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
+  const sundials::Context context = sundials::new_context();
+  if (context == nullptr) throw std::bad_alloc();
   p.context.reset(context);
   const auto n = static_cast<sunindextype>(p.problem.state_count);
-  p.y.reset(N_VNew_Serial(n, context));
-  p.scratch.reset(N_VNew_Serial(n, context));
-  p.tolerance.reset(N_VNew_Serial(n, context));
-  p.matrix.reset(SUNDenseMatrix(n, n, context));
-  p.memory.reset(CVodeCreate(CV_BDF, context));
+  p.y.reset(sundials::new_vector(n, context));
+  p.scratch.reset(sundials::new_vector(n, context));
+  p.tolerance.reset(sundials::new_vector(n, context));
+  p.matrix.reset(sundials::new_matrix(n, context));
+  p.memory.reset(sundials::new_integrator(context));
   if (!p.y || !p.scratch || !p.tolerance || !p.matrix || !p.memory) throw std::bad_alloc();
   N_VConst(0.0, p.y.get());
   void* memory = p.memory.get();
-  must(CVodeSetErrHandlerFn(memory, Parts::quiet, nullptr));
+  must(sundials::silence(memory));
   must(CVodeInit(memory, Parts::rate, 0.0, p.y.get()));
   must(CVodeSetUserData(memory, &p));
   for (sunindextype i = 0; i < n; ++i) {
@@ -185,7 +179,7 @@ StiffIntegrator::StiffIntegrator(StiffProblem problem, const OdeOptions& options
                                          : options.absolute_tolerances[static_cast<std::size_t>(i)];
   }
   must(CVodeSVtolerances(memory, options.relative_tolerance, p.tolerance.get()));
-  p.solver.reset(SUNLinSol_Dense(p.y.get(), p.matrix.get(), context));
+  p.solver.reset(sundials::new_solver(p.y.get(), p.matrix.get(), context));
   if (!p.solver) throw std::bad_alloc();
   must(CVodeSetLinearSolver(memory, p.solver.get(), p.matrix.get()));
   if (p.problem.jacobian) must(CVodeSetJacFn(memory, Parts::jacobian));
@@ -194,8 +188,8 @@ StiffIntegrator::StiffIntegrator(StiffProblem problem, const OdeOptions& options
   if (options.first_step_s > 0.0) must(CVodeSetInitStep(memory, options.first_step_s));
   if (p.problem.quadrature_count > 0) {
     const auto count = static_cast<sunindextype>(p.problem.quadrature_count);
-    p.quadrature.reset(N_VNew_Serial(count, context));
-    p.quadrature_scratch.reset(N_VNew_Serial(count, context));
+    p.quadrature.reset(sundials::new_vector(count, context));
+    p.quadrature_scratch.reset(sundials::new_vector(count, context));
     if (!p.quadrature || !p.quadrature_scratch) throw std::bad_alloc();
     N_VConst(0.0, p.quadrature.get());
     must(CVodeQuadInit(memory, Parts::quadrature_rate, p.quadrature.get()));

@@ -14,12 +14,6 @@
 namespace myoid::model {
 namespace {
 
-bool moves(const BodyModel& model, int coordinate) {
-  const Coordinate& c = model.coordinates[at(coordinate)];
-  return !c.locked && !c.prescribed &&
-         std::ranges::find(model.couplers, coordinate, &CoordinateCoupler::dependent) == model.couplers.end();
-}
-
 /// Length and arm of one muscle along one coordinate.
 class Sweep {
  public:
@@ -39,10 +33,10 @@ class Sweep {
     return {value, result_.length_m, model_.couplers.empty() ? result_.moment_arm_m[coordinate_] : bound_arm_m()};
   }
 
-  /// Returns the arm with all that the constraints bind to the coordinate, closed loops included.
-  double bound_arm_at(double value) {
+  /// The same with all that the constraints bind to the coordinate, closed loops included, in the moment arm.
+  Point bound_at(double value) {
     move_to(value);
-    return bound_arm_m();
+    return {value, result_.length_m, bound_arm_m()};
   }
 
  private:
@@ -72,6 +66,12 @@ double excess(const Sweep::Point& a, const Sweep::Point& b) {
 }
 
 }  // namespace
+
+bool moves(const BodyModel& model, int coordinate) {
+  const Coordinate& c = model.coordinates[at(coordinate)];
+  return !c.locked && !c.prescribed &&
+         std::ranges::find(model.couplers, coordinate, &CoordinateCoupler::dependent) == model.couplers.end();
+}
 
 CoordinateRange usual_range(const Coordinate& c) {
   const double most = c.motion == MotionType::rotational ? 3.0 : 1.0;
@@ -168,22 +168,27 @@ std::vector<PathJump> find_jumps(const BodyModel& model, int steps) {
   return jumps;
 }
 
-Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps) {
-  const CoordinateRange range = usual_range(model.coordinates[at(coordinate)]);
+PathOverRange path_over_range(
+    const BodyModel& model, int muscle, int coordinate, const CoordinateRange& range, int steps) {
   Sweep sweep(model, muscle, coordinate);
-  Eigen::VectorXd arms(steps + 1);
-  for (int step = 0; step <= steps; ++step)
-    arms[step] = sweep.bound_arm_at(range.lower + (range.upper - range.lower) * step / steps);
-  return arms;
+  PathOverRange path;
+  path.values.setLinSpaced(steps + 1, range.lower, range.upper);
+  path.lengths_m.resize(steps + 1);
+  path.arms_m.resize(steps + 1);
+  for (Eigen::Index i = 0; i <= steps; ++i) {
+    const Sweep::Point here = sweep.bound_at(path.values[i]);
+    path.lengths_m[i] = here.length_m;
+    path.arms_m[i] = here.arm_m;
+  }
+  return path;
+}
+
+Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps) {
+  return path_over_range(model, muscle, coordinate, usual_range(model.coordinates[at(coordinate)]), steps).arms_m;
 }
 
 Eigen::VectorXd lengths_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps) {
-  const CoordinateRange range = usual_range(model.coordinates[at(coordinate)]);
-  Sweep sweep(model, muscle, coordinate);
-  Eigen::VectorXd lengths(steps + 1);
-  for (int step = 0; step <= steps; ++step)
-    lengths[step] = sweep.at(range.lower + (range.upper - range.lower) * step / steps).length_m;
-  return lengths;
+  return path_over_range(model, muscle, coordinate, usual_range(model.coordinates[at(coordinate)]), steps).lengths_m;
 }
 
 std::string describe(const BodyModel& model, const PathJump& jump) {

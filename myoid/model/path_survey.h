@@ -51,13 +51,26 @@ struct PathJump {
 /// than 0.01 mm or, of the moment arm, 1 mm, in the mode of `model.compat`.
 [[nodiscard]] std::vector<PathJump> find_jumps(const BodyModel& model, int steps = 200);
 
-/// Returns the muscle's moment arms by the coordinate at steps + 1 places from end to end of its
-/// range. Other coordinates have their default values; those that couplers or constraints bind to
-/// it move along, as in OpenSim (coupling_matrix in constraints.h).
+/// A muscle's path while one coordinate moves.
+struct PathOverRange {
+  Eigen::VectorXd values;     ///< Of the coordinate [rad] or [m], evenly from end to end.
+  Eigen::VectorXd lengths_m;  ///< Musculotendon lengths there.
+  Eigen::VectorXd arms_m;     ///< Moment arms by the coordinate there.
+};
+
+/// Returns the muscle's path at steps + 1 places of a range. Other coordinates have their default values; those that
+/// couplers or constraints bind to it move along, as in OpenSim (coupling_matrix in constraints.h).
+[[nodiscard]] PathOverRange path_over_range(
+    const BodyModel& model, int muscle, int coordinate, const CoordinateRange& range, int steps);
+
+/// The same over the coordinate's usual range: moment arms.
 [[nodiscard]] Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps);
 
-/// Returns the muscle's lengths at the places of `arms_over_range_m`.
+/// Lengths at the places of `arms_over_range_m`.
 [[nodiscard]] Eigen::VectorXd lengths_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps);
+
+/// Returns true if the coordinate can be moved: it is neither locked nor prescribed, and no coupler decides on it.
+[[nodiscard]] bool moves(const BodyModel& model, int coordinate);
 
 /// Describes the jump in a sentence: muscle, coordinate, place and size.
 [[nodiscard]] std::string describe(const BodyModel& model, const PathJump& jump);

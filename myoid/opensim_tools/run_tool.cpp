@@ -31,7 +31,8 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
   result.inputs = setup.inputs();
   result.notes = setup.notes();
   const std::vector<std::string> unknown = unknown_elements(setup.xml(), setup.tool());
-  std::map<std::filesystem::path, recording::RecordedFolder> folders;
+  ToolFolders own;
+  ToolFolders& folders = options.folders != nullptr ? *options.folders : own;
   const ToolRun run{setup, options, result, folders};
   run.add_notes(unknown);
   run.add_notes(setup.xml().ignored());
@@ -45,10 +46,7 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
     throw InvalidInput(fmt::format("{}; {}", error.what(), fmt::join(unknown, "; ")));
   }
   run.add_notes(setup.xml().repairs());
-  for (auto& [folder, held] : folders) {
-    held.finish();
-    run.add_notes(held.take_notes());
-  }
+  run.add_notes(own.finish());
   return result;
 }
 

@@ -13,6 +13,8 @@
 
 namespace myoid {
 
+class ToolFolders;
+
 struct ToolOptions {
   model::Compat compat = model::kOpenSim452;
   SetupFiles files{};     ///< Replacements of the files named in the set-up.
@@ -21,6 +23,7 @@ struct ToolOptions {
   /// Called with each file before it is computed; throws to refuse it.
   std::function<void(const std::filesystem::path&)> claim{};
   forces::InspectFrame inspect{};  ///< Static optimization, for checks.
+  ToolFolders* folders = nullptr;  ///< Held by the caller for several runs, who finishes them; null: the run's own.
 };
 
 struct ToolResult {

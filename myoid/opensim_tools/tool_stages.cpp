@@ -62,8 +62,7 @@ void ToolRun::claim(const std::filesystem::path& path) const {
         "{}: the set-up names a place outside its own folder for this result; give --anywhere to write there, or --out "
         "FOLDER",
         path.string());
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  folders.try_emplace(folder, folder, "run-tool", recording::RecordTerms{.replaces_alike = true});
+  folders.claim(path, setup.xml().path());
   recording::require_replaceable(path);
   if (options.claim) options.claim(path);
   if (exists) ++result.replaced;

@@ -1,16 +1,15 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/dynamics/external_loads.h"
-#include "myoid/files/result_record.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/opensim_tools/opensim_setup.h"
+#include "myoid/opensim_tools/tool_folders.h"
 #include "myoid/opensim_tools/tool_result.h"
 
 namespace myoid {
@@ -20,7 +19,7 @@ struct ToolRun {
   const OpensimSetup& setup;
   const ToolOptions& options;
   ToolResult& result;
-  std::map<std::filesystem::path, recording::RecordedFolder>& folders;  ///< Of the results.
+  ToolFolders& folders;
 
   template <typename... T>
   void note(fmt::format_string<T...> text, T&&... values) const {
@@ -30,7 +29,8 @@ struct ToolRun {
   /// Adds the findings of a check on a file or a result; its name goes before each.
   void add_remarks(std::vector<Remark> found, const std::string& where) const;
   /// Remembers the file of a result. Throws InvalidInput if it is an input or stands outside the folder of the set-up,
-  /// if it would replace anything but a result of such a tool, or if `options.claim` throws.
+  /// if another set-up writes it, if it would replace anything but a result of such a tool, or if `options.claim`
+  /// throws.
   void claim(const std::filesystem::path& path) const;
 };
 

@@ -33,9 +33,10 @@ if TYPE_CHECKING:
     import numpy as np
 
 __all__ = [
-    "run", "identify", "predict", "check", "compare", "design", "emg", "ik", "id", "paths", "so", "muscle", "simulate",
-    "twin", "twin_study", "run_tool", "scale", "info", "convert",
+    "run", "identify", "predict", "check", "compare", "design", "emg", "ik", "id", "paths", "sweep", "so", "muscle",
+    "simulate", "twin", "twin_study", "run_tool", "scale", "info", "convert",
     "CheckResult", "CompareResult", "DesignResult", "EmgResult", "IkResult", "IdResult", "PathsResult", "SoResult",
+    "SweepResult",
     "MuscleResult", "SimulateResult", "TwinResult", "ToolResult",
 ]  # fmt: skip
 
@@ -409,6 +410,42 @@ def paths(*, model: File, motion: File, out: File | None = None, lowpass: float 
         compat: "exact" (default) or "opensim".
     """
     return PathsResult(**call("paths", locals()))
+
+
+@dataclass(eq=False)
+class SweepResult:
+    """Muscles over one coordinate, the others at their defaults; arrays by muscle.
+
+    Attributes:
+        coordinate: Its name.
+        values: Of the coordinate [rad, m].
+        moment_arm: r = -dl/dq [m].
+        length: Musculotendon lengths [m].
+        full_force, passive_force: Along the tendon at rest, fully active and without activation [N].
+    """
+
+    coordinate: str
+    values: np.ndarray
+    moment_arm: dict[str, np.ndarray]
+    length: dict[str, np.ndarray]
+    full_force: dict[str, np.ndarray]
+    passive_force: dict[str, np.ndarray]
+    remarks: list[Remark] = field(default_factory=list)
+
+
+def sweep(*, model: File, coordinate: str, muscle: Texts | None = None, out: File | None = None,
+          compat: str | None = None, threads: int | None = None, overwrite: bool = False,
+          progress: Report = None) -> SweepResult:  # fmt: skip
+    """Moment arms, lengths and forces of muscles over one coordinate (`myoid paths --sweep`).
+
+    Args:
+        model: OpenSim model (.osim), or "arm4".
+        coordinate: "elbow_flexion" for its range, or "elbow_flexion=0:130" in degrees (meters for a translation).
+        muscle: Only these muscles (default: all with a moment arm of 0.1 mm).
+        out: Folder for sweep_<coordinate>.csv and .svg.
+        compat: "exact" (default) or "opensim".
+    """
+    return SweepResult(**call("sweep", locals()))
 
 
 @dataclass(eq=False)

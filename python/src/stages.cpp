@@ -9,6 +9,7 @@
 #include "myoid/commands/paths.h"
 #include "myoid/commands/run_tool.h"
 #include "myoid/commands/so.h"
+#include "myoid/commands/sweep.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -199,6 +200,47 @@ py::dict paths(py::dict given) {
   return d;
 }
 
+py::dict sweep(py::dict given) {
+  Keywords k("sweep", std::move(given));
+  Work work(k);
+  commands::SweepOptions o;
+  std::string out;
+  bool overwrite = false;
+  k.take("model", o.model);
+  k.take("coordinate", o.coordinate);
+  k.take("muscle", o.muscles);
+  k.take("out", out);
+  k.word("compat", o.compat, {"exact", "opensim"});
+  k.take("overwrite", overwrite);
+  k.refuse_others();
+  o.call = work.call();
+  commands::SweepResult result = work.run([&] {
+    ResultOut folder(out, o.call, overwrite);
+    if (!out.empty()) commands::protect_files(out, commands::kSweepFiles, {o.model});
+    commands::SweepResult r = commands::sweep(o);
+    if (!out.empty()) (void)commands::write_sweep(r, out);
+    folder.finish();
+    return r;
+  });
+  py::dict arm, length, full, passive;
+  for (forces::SweptMuscle& muscle : result.muscles) {
+    const py::str name(muscle.name);
+    arm[name] = to_array(std::move(muscle.path.arms_m));
+    length[name] = to_array(std::move(muscle.path.lengths_m));
+    full[name] = to_array(std::move(muscle.full_force_n));
+    passive[name] = to_array(std::move(muscle.passive_force_n));
+  }
+  py::dict d;
+  d["coordinate"] = result.coordinate;
+  d["values"] = to_array(std::move(result.muscles.front().path.values));
+  d["moment_arm"] = arm;
+  d["length"] = length;
+  d["full_force"] = full;
+  d["passive_force"] = passive;
+  d["remarks"] = to_python(result.remarks);
+  return d;
+}
+
 py::dict so(py::dict given) {
   Keywords k("so", std::move(given));
   Work work(k);
@@ -285,6 +327,7 @@ void bind_stages(py::module_& module) {
   module.def("ik", &ik);
   module.def("id", &id);
   module.def("paths", &paths);
+  module.def("sweep", &sweep);
   module.def("so", &so);
   module.def("run_tool", &run_tool);
 }

@@ -17,7 +17,8 @@ namespace myoid::architecture {
 namespace {
 
 std::vector<fs::path> pages() {
-  std::vector<fs::path> result{kRoot / "README.md", kRoot / "CHANGELOG.md"};
+  std::vector<fs::path> result{kRoot / "README.md", kRoot / "CHANGELOG.md", kRoot / "CONTRIBUTING.md",
+                               kRoot / "SECURITY.md"};
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
     if (entry.path().extension() == ".md") result.push_back(entry.path());
   }
@@ -106,7 +107,7 @@ std::size_t limit_of(const fs::path& page, const std::map<std::string, std::size
 TEST(Documentation, IsShort) {
   std::size_t all = 0;
   for (const fs::path& page : pages()) {
-    if (page.parent_path() == kRoot) continue;  // README.md and CHANGELOG.md
+    if (page.parent_path() == kRoot) continue;  // README.md, CHANGELOG.md, CONTRIBUTING.md, SECURITY.md
     const PageWords words = words_of(content(page));
     all += words.all;
     EXPECT_LE(words.by_hand, kMostOfAPage) << page << ": split it, or use fewer words";
@@ -163,6 +164,35 @@ TEST(Documentation, TheCitationFileIsValid) {
   for (const char* required : {"authors", "cff-version", "message", "title"})
     EXPECT_TRUE(found.contains(required)) << required;
   EXPECT_NE(text.find("cff-version: 1.2.0\n"), std::string::npos);
+  const std::string built = content(kRoot / "CMakeLists.txt"), before = "project(myoid VERSION ";
+  const std::size_t at = built.find(before) + before.size();
+  const std::string version = built.substr(at, built.find(' ', at) - at);
+  EXPECT_NE(text.find("\nversion: " + version + "\n"), std::string::npos) << version;
+}
+
+/// The text of every source of the program, the parts of each literal joined.
+std::string messages_of_the_program() {
+  const std::regex seam(R"("\s*\n\s*")");
+  std::string all;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "myoid")) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".cpp") && !name.ends_with(".test.cpp"))
+      all += std::regex_replace(content(entry.path()), seam, "");
+  }
+  return all;
+}
+
+TEST(Documentation, EveryMessageOfTheTroubleshootingPageIsOneOfTheProgram) {
+  const std::string page = content(kRoot / "docs" / "guide" / "troubleshooting.md");
+  const std::string said = messages_of_the_program();
+  const std::string table = page.substr(0, page.find("| what happens |"));
+  const std::regex message(R"(\n\| `([^`]+)` \|)");
+  int seen = 0;
+  for (std::sregex_iterator it(table.begin(), table.end(), message), end; it != end; ++it) {
+    EXPECT_NE(said.find((*it)[1].str()), std::string::npos) << "no message holds: " << (*it)[1];
+    ++seen;
+  }
+  EXPECT_GT(seen, 10);
 }
 
 std::set<std::string> commands_of_the_program() {

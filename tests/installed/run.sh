@@ -8,6 +8,11 @@ trap 'rm -rf "$work"' EXIT
 built=${3:-$work/examples}
 rm -rf "$built"
 [ "$1" = system ] || cmake --install "$1" --component dev --prefix "$work/prefix" >"$work/log"
+# Headers and CMake's files name no place of the build: another computer has neither.
+source=$(cd "$(dirname "$0")/../.." && pwd)
+mkdir -p "$work/prefix"
+! grep -rIl --include='*.cmake' --include='*.h' -F -e "$source" "$work/prefix" ||
+  { echo "the installed package names the checkout"; exit 1; }
 [ ! -e "$work/prefix/bin" ] || { echo "the component dev holds programs"; exit 1; }
 cmake -S "$(dirname "$0")" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release >"$work/log"
 cmake --build "$work/build" >"$work/log" || { cat "$work/log"; exit 1; }

@@ -162,6 +162,14 @@ def test_ik_id_paths_so_are_the_program_s(recording, motion, tmp_path):
     same_series(muscles.moment_arm["elbow_flexion"], tmp_path / "paths/MuscleAnalysis_MomentArm_elbow_flexion.sto")
     assert muscles.velocity.unit("BIC") == "m/s"
 
+    # Over the angle, at the motion's own: the same paths.
+    swept = myoid.sweep(model=model, coordinate="elbow_flexion=10:130", muscle=["BIC", "TRI"], out=tmp_path / "sweep")
+    assert swept.coordinate == "elbow_flexion" and set(swept.moment_arm) == {"BIC", "TRI"}
+    assert (tmp_path / "sweep/sweep_elbow_flexion.svg").is_file()
+    np.testing.assert_allclose(-np.gradient(swept.length["BIC"], swept.values)[1:-1], swept.moment_arm["BIC"][1:-1],
+                               atol=1e-4)  # fmt: skip
+    assert all((swept.full_force[m] >= swept.passive_force[m]).all() for m in swept.full_force)
+
     shared = myoid.so(model=model, motion=file, lowpass=6, coordinate="elbow_flexion", out=tmp_path / "so")
     written = myoid.read_series(tmp_path / "so/StaticOptimization_force.sto")
     for muscle in shared.force.channels:

@@ -57,6 +57,16 @@ def test_the_wheel_needs_nothing_but_the_libraries_of_the_system(wheel, tmp_path
         assert (tmp_path / f"myoid.libs/{name}.copyright").is_file()
 
 
+def test_the_tag_is_the_oldest_system_that_has_every_symbol():
+    sys.path.insert(0, str(SOURCE / "python"))
+    from build_backend import oldest_system
+
+    assert oldest_system([b"\0GLIBC_2.2.5\0"]) == 17
+    assert oldest_system([b"\0GLIBC_2.34\0GLIBC_2.3.4\0", b"\0GLIBC_2.4\0"]) == 34
+    assert oldest_system([b"\0GLIBC_2.34\0GLIBCXX_3.4.30\0"]) == 35  # libstdc++ of GCC 12
+    assert oldest_system([b"\0GLIBCXX_3.4.21\0"]) == 31
+
+
 def test_the_version_stands_in_one_place(wheel):
     number = program("--version").strip()
     assert wheel.name.startswith(f"myoid-{number}-")
