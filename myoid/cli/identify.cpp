@@ -216,9 +216,7 @@ void add_identify(CLI::App& app, Context& context) {
       say_whole(identify_json(result));
     } else {
       print_identify(result, o, context.verbose);
-      say("{0}/parameters.csv{1}
-report: myoid run {0}/study.toml --out FOLDER
-", *out,
+      say("{0}/parameters.csv{1}\nreport: myoid run {0}/study.toml --out FOLDER\n", *out,
           context.verbose || o.method == "paper" ? "" : "; all numbers and errors: --verbose");
     }
     if (failed(result.fit, o.method, context.strict)) context.exit_code = kQualityGateFailed;
