@@ -6,15 +6,18 @@
 
 #include "myoid/core/index.h"
 #include "myoid/kinematics/joint_angles.h"
+#include "myoid/math/sobol.h"
 
 namespace myoid::kinematics {
 namespace {
 
-constexpr int kStarts = 24;     ///< Bent postures from which a limb is searched,
-constexpr int kFirstSteps = 3;  ///< each so far,
-constexpr int kPromising = 8;   ///< of which so many go on
-constexpr int kNextSteps = 4;   ///< so far,
-constexpr int kFinalists = 3;   ///< and so many to the end.
+constexpr Eigen::Index kMostPostures = 512;  ///< Of a table.
+constexpr Eigen::Index kMostAssembled = 64;  ///< The same where constraints must be met.
+constexpr std::size_t kStarts = 16;          ///< Postures of the table from which a limb is searched,
+constexpr std::size_t kThoroughStarts = 32;  ///< the same where it fits worse than usual,
+constexpr int kFirstSteps = 2;               ///< so far,
+constexpr int kThoroughSteps = 4;            ///< more in a thorough search,
+constexpr std::size_t kFinalists = 5;        ///< and so many to the end.
 constexpr int kLastSteps = 30;
 constexpr double kMet_rad = 0.05;  ///< Searches that are nearer to each other go to one minimum.
 constexpr double kElsewhere_rad = 0.02;
@@ -191,25 +194,40 @@ void LimbFit::stand(const PoseFit& whole,
   fit_->set_scale(whole.scale());
 }
 
-/// Returns the next of postures that fill the ranges of the varied coordinates evenly; the others stay as in q.
-Eigen::VectorXd LimbFit::bent(const Eigen::VectorXd& q) {
-  // Roberts' sequence: multiples of the powers of 1 / g, where g^(d + 1) = g + 1.
-  const auto d = static_cast<double>(varied_.size());
-  double g = 1.5;
-  for (int i = 0; i < 30; ++i) g = std::pow(1.0 + g, 1.0 / (d + 1.0));
-  ++drawn_;
-  Eigen::VectorXd bent = q;
-  double power = 1.0;
-  for (const std::size_t v : varied_) {
-    power /= g;
-    const double share = std::fmod(0.5 + drawn_ * power, 1.0);
-    const model::Coordinate& c = model_.coordinates[v];
-    const double width = c.upper - c.lower;
+/// Fills the ranges of the varied coordinates evenly; the others have their default values.
+void LimbFit::make_table() {
+  const auto varied = static_cast<Eigen::Index>(std::min<std::size_t>(varied_.size(), math::kSobolMaxDimensions));
+  Eigen::Index count = 8;
+  for (Eigen::Index i = 0; i < varied && count < kMostPostures; ++i) count *= 3;
+  count = std::min(count, model_.constraints.empty() ? kMostPostures : kMostAssembled);
+  const Eigen::MatrixXd shares = math::sobol_points(count, static_cast<int>(varied), {.first = 1});
+  Eigen::MatrixXd postures = model_.default_q().transpose().replicate(count, 1);
+  for (Eigen::Index v = 0; v < varied; ++v) {
+    const auto c = static_cast<Eigen::Index>(varied_[at(v)]);
+    const model::Coordinate& of = model_.coordinates[at(c)];
+    const double width = of.upper - of.lower;
     const bool ranged = width > 0.0 && width < 2.0 * kPi;
-    double& value = bent[static_cast<Eigen::Index>(v)];
-    value = ranged ? c.lower + share * width : value + (share - 0.5) * 2.0 * kPi;
+    const double lower = ranged ? of.lower : of.default_value - kPi;
+    postures.col(c) = lower + shares.col(v).array() * (ranged ? width : 2.0 * kPi);
   }
-  return bent;
+  Eigen::MatrixXd places(count, static_cast<Eigen::Index>(3 * pairs_of_whole_.size()));
+  const myoid::Pose to_base = base().inverse();
+  for (Eigen::Index row = 0; row < count; ++row) {
+    (void)fit_->place_within(postures.row(row).transpose());
+    fit_->locate(places, row);
+    for (Eigen::Index m = 0; m < places.cols(); m += 3)
+      places.block<1, 3>(row, m) = (to_base * Vec3(places.block<1, 3>(row, m).transpose())).transpose();
+  }
+  table_.emplace(std::move(postures), places);
+}
+
+/// Returns the targets of the frame as the base sees them.
+std::vector<PostureTable::Target> LimbFit::targets() const {
+  std::vector<PostureTable::Target> targets(fit_->pairs().size());
+  const myoid::Pose to_base = base().inverse();
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    if (const auto& target = fit_->target(i)) targets[i] = {to_base * *target, fit_->pairs()[i].weight};
+  return targets;
 }
 
 /// Keeps the searches with the least cost, one of those that meet.
@@ -227,19 +245,26 @@ void LimbFit::keep_best(std::vector<PoseFit::Search>& searches, std::size_t coun
   searches = std::move(kept);
 }
 
-/// Returns searches on their way from bent postures and from the other angles of joints that lie at an end of a range.
-std::vector<PoseFit::Search> LimbFit::first_steps(const Eigen::VectorXd& q) {
+/// Returns searches on their way from postures of the table and from the other angles of joints that lie at an end of a
+/// range.
+std::vector<PoseFit::Search> LimbFit::set_out(const Eigen::VectorXd& q, bool thorough) {
+  if (!table_) make_table();
   std::vector<PoseFit::Search> searches;
-  const auto set_out = [&](Eigen::VectorXd start) {
+  const auto add = [&](Eigen::VectorXd start) {
     searches.push_back(fit_->begin(std::move(start)));
-    fit_->advance(searches.back(), kFirstSteps);
+    fit_->advance(searches.back(), thorough ? kThoroughSteps : kFirstSteps);
   };
-  for (int k = 0; k < kStarts; ++k) set_out(bent(q));
+  for (const Eigen::Index row : table_->minima(targets(), thorough ? kThoroughStarts : kStarts)) {
+    Eigen::VectorXd start = q;
+    const Eigen::VectorXd posture = table_->posture(row);
+    for (const std::size_t v : varied_) start[static_cast<Eigen::Index>(v)] = posture[static_cast<Eigen::Index>(v)];
+    add(std::move(start));
+  }
   for (const model::Joint& joint : model_.joints) {
     const bool at_end = std::any_of(joint.coordinates.begin(), joint.coordinates.end(),
                                     [&](int c) { return lies_at_end(model_.coordinates[at(c)], q[c]); });
     if (!at_end) continue;
-    for (Eigen::VectorXd& twin : twin_angles(model_, joint, q)) set_out(std::move(twin));
+    for (Eigen::VectorXd& twin : twin_angles(model_, joint, q)) add(std::move(twin));
   }
   return searches;
 }
@@ -260,26 +285,22 @@ bool LimbFit::bring_into_ranges(PoseFit::Pose& pose, const Eigen::VectorXd& here
   return false;
 }
 
-std::optional<Eigen::VectorXd> LimbFit::other_posture(const Eigen::VectorXd& q, double share) {
+std::vector<Eigen::VectorXd> LimbFit::other_postures(const Eigen::VectorXd& q, double share, bool thorough) {
   const Eigen::VectorXd here = q(whole_coordinate_);
   const double cost = fit_->place(here);
-  if (cost < kPerfect_m2) return std::nullopt;
-  std::vector<PoseFit::Search> searches = first_steps(here);
-  keep_best(searches, kPromising);
-  for (PoseFit::Search& search : searches) fit_->advance(search, kNextSteps);
+  if (cost < kPerfect_m2) return {};
+  std::vector<PoseFit::Search> searches = set_out(here, thorough);
+  keep_best(searches, thorough ? 2 * kFinalists : kFinalists);
+  for (PoseFit::Search& search : searches) fit_->advance(search, kLastSteps);
   keep_best(searches, kFinalists);
-  const PoseFit::Pose* best = nullptr;
+  std::vector<Eigen::VectorXd> others;
   for (PoseFit::Search& search : searches) {
-    fit_->advance(search, kLastSteps);
-    PoseFit::Pose& pose = search.pose;
-    const bool better = pose.cost < share * cost && (best == nullptr || pose.cost < best->cost);
-    const bool elsewhere = (pose.q - here).cwiseAbs().maxCoeff() > kElsewhere_rad;
-    if (better && elsewhere && bring_into_ranges(pose, here)) best = &pose;
+    const bool elsewhere = (search.pose.q - here).cwiseAbs().maxCoeff() > kElsewhere_rad;
+    if (search.pose.cost > share * cost || !elsewhere || !bring_into_ranges(search.pose, here)) continue;
+    others.push_back(q);
+    others.back()(whole_coordinate_) = search.pose.q;
   }
-  if (best == nullptr) return std::nullopt;
-  Eigen::VectorXd other = q;
-  other(whole_coordinate_) = best->q;
-  return other;
+  return others;
 }
 
 std::vector<std::unique_ptr<LimbFit>> limbs_of(const model::BodyModel& model,

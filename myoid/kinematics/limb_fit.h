@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "myoid/kinematics/pose_fit.h"
+#include "myoid/kinematics/posture_table.h"
 #include "myoid/model/body_model.h"
 
 namespace myoid::kinematics {
@@ -37,11 +38,11 @@ class LimbFit {
              const recording::MarkerSeries& markers,
              Eigen::Index frame);
 
-  /// Searches the limb from bent postures, spread evenly over the ranges of its rotations, and from the other angles of
-  /// joints at an end of a range. After a few steps only the most promising searches go on. Returns q with the limb in
-  /// the best other posture if its own cost is less than `share` of the cost at q; else nothing. stand() must have been
-  /// called with q.
-  [[nodiscard]] std::optional<Eigen::VectorXd> other_posture(const Eigen::VectorXd& q, double share);
+  /// Searches the limb for other minima: from the postures of a table (posture_table.h) that fit best among their
+  /// neighbors, and from the other angles of joints at an end of a range. Returns q with the limb in each of them, the
+  /// best first, if its own cost is less than `share` of the cost at q. A thorough search has more starts. stand() must
+  /// have been called with q.
+  [[nodiscard]] std::vector<Eigen::VectorXd> other_postures(const Eigen::VectorXd& q, double share, bool thorough);
 
   /// Returns the work of all searches so far: evaluations of a posture times bodies and coordinates.
   [[nodiscard]] double work() const { return fit_->work(); }
@@ -51,10 +52,12 @@ class LimbFit {
   void add_coordinates(const model::BodyModel& whole);
   void add_constraints(const model::BodyModel& whole);
   void choose_varied(const model::BodyModel& whole, std::size_t first_joint, const std::vector<bool>& carries);
-  [[nodiscard]] Eigen::VectorXd bent(const Eigen::VectorXd& q);
-  [[nodiscard]] std::vector<PoseFit::Search> first_steps(const Eigen::VectorXd& q);
+  void make_table();
+  [[nodiscard]] std::vector<PostureTable::Target> targets() const;
+  [[nodiscard]] std::vector<PoseFit::Search> set_out(const Eigen::VectorXd& q, bool thorough);
   [[nodiscard]] bool bring_into_ranges(PoseFit::Pose& pose, const Eigen::VectorXd& here);
   static void keep_best(std::vector<PoseFit::Search>& searches, std::size_t count);
+  [[nodiscard]] myoid::Pose base() const { return base_ != 0 ? model_.joints[0].X_PF : myoid::Pose{}; }
 
   model::BodyModel model_;
   IkOptions options_;
@@ -65,7 +68,7 @@ class LimbFit {
   std::vector<std::size_t> pairs_of_whole_;
   std::vector<std::size_t> varied_;  ///< Free rotations from the base to the next branch.
   std::unique_ptr<PoseFit> fit_;
-  int drawn_ = 0;  ///< Postures so far.
+  std::optional<PostureTable> table_;  ///< Made before the first search.
 };
 
 /// Returns the limbs of the model that have markers and can move.

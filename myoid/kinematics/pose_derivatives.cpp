@@ -19,10 +19,16 @@ void PoseFit::update_gains(const Eigen::VectorXd& q) {
   }
 }
 
-/// Returns the velocity, per rate of a coordinate, of the chain body's point at the origin of ground.
-Vec3 PoseFit::origin_rate(const Chain& chain, std::size_t place) const {
-  const std::size_t c = at(chain.coordinates[place]);
-  return state_.H_v_G[c] + state_.X_GB[chain.body_of[place]].p.cross(state_.H_w_G[c]);
+/// Computes the motion of each coordinate's body per rate of its free coordinate: turn, and velocity of the body's
+/// point at the origin of ground.
+void PoseFit::update_motions() {
+  for (std::size_t c = 0; c < reduced_.size(); ++c) {
+    if (reduced_[c] < 0) continue;
+    const double gain = gain_[static_cast<Eigen::Index>(c)];
+    const Vec3& p_G = state_.X_GB[at(model_.joints[at(model_.coordinates[c].joint)].child)].p;
+    motions_[c].w = gain * state_.H_w_G[c];
+    motions_[c].v = gain * state_.H_v_G[c] + p_G.cross(motions_[c].w);
+  }
 }
 
 PoseFit::Pull& PoseFit::Pull::operator+=(const Pull& other) {
@@ -39,15 +45,15 @@ void PoseFit::gather_pulls() {
   std::fill(pulls_.begin(), pulls_.end(), Pull{});
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (!seen_[i]) continue;
-    const Vec3 p_G = marker_position(i);
-    const double weight = pairs_[i].weight * scale_;
-    const Vec3 force = weight * (p_G - target_[i]);
+    const Vec3& p_G = place_[i];
+    const Vec3 first = pairs_[i].weight * scale_ * p_G;
+    const Vec3 force = first - pairs_[i].weight * scale_ * target_[i];
     Pull& pull = pulls_[at(model_.markers[pairs_[i].model].body)];
-    pull.weight += weight;
-    pull.first += weight * p_G;
-    pull.second += weight * p_G * p_G.transpose();
+    pull.weight += pairs_[i].weight * scale_;
+    pull.first += first;
+    pull.second.noalias() += first * p_G.transpose();
     pull.force += force;
-    pull.lever += p_G * force.transpose();
+    pull.lever.noalias() += p_G * force.transpose();
   }
 }
 
@@ -57,8 +63,7 @@ void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull
   const int kb = reduced_[at(cb)];
   if (kb < 0) return;
   // A marker at r has the velocity v + w x r.
-  const Vec3 w = gain_[cb] * state_.H_w_G[at(cb)];
-  const Vec3 v = gain_[cb] * origin_rate(chain, b);
+  const auto& [w, v] = motions_[at(cb)];
   const Vec3 moved = pull.weight * v + w.cross(pull.first);
   const Vec3 turned = pull.first.cross(v) + pull.second.trace() * w - pull.second * w;
   const Vec3 bent = v.cross(pull.force) + pull.lever * w - pull.lever.trace() * w;
@@ -66,29 +71,25 @@ void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull
                     pull.lever(0, 1) - pull.lever(1, 0));
   gradient_[kb] += v.dot(pull.force) + w.dot(torque);
   for (std::size_t a = 0; a <= b; ++a) {
-    const int ca = chain.coordinates[a];
-    const int ka = reduced_[at(ca)];
+    const int ka = reduced_[at(chain.coordinates[a])];
     if (ka < 0) continue;
-    const Vec3& w_a = state_.H_w_G[at(ca)];
-    const double first = gain_[ca] * (origin_rate(chain, a).dot(moved) + w_a.dot(turned));
+    const auto& [w_a, v_a] = motions_[at(chain.coordinates[a])];
+    // Two coordinates of one free coordinate have both mixed derivatives on the diagonal.
+    const double times = a != b && ka == kb ? 2.0 : 1.0;
+    gauss_(std::max(ka, kb), std::min(ka, kb)) += times * (v_a.dot(moved) + w_a.dot(turned));
     // The column of an outer coordinate turns with a: its derivative is w_a x column.
-    const double second = gain_[ca] * w_a.dot(bent);
-    gauss_(ka, kb) += first;
-    bend_(ka, kb) += second;
-    if (a != b) {
-      gauss_(kb, ka) += first;
-      bend_(kb, ka) += second;
-    }
+    bend_(std::max(ka, kb), std::min(ka, kb)) += times * w_a.dot(bent);
   }
 }
 
-/// Computes the derivatives of J at the posture of the last cost_at(q).
+/// Computes the derivatives of J at the posture of the last cost_at(q); of second ones the lower triangle.
 void PoseFit::linearize(const Eigen::VectorXd& q) {
   const auto n = static_cast<Eigen::Index>(free_.size());
   update_gains(q);
   gradient_.setZero(n);
   gauss_.setZero(n, n);
   bend_.setZero(n, n);
+  update_motions();
   gather_pulls();
   for (std::size_t j = model_.joints.size(); j-- > 0;) {
     const model::Joint& joint = model_.joints[j];

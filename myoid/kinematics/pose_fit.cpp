@@ -62,6 +62,8 @@ PoseFit::PoseFit(const model::BodyModel& model, const IkOptions& options, std::v
   for (const CoordinateTask& task : options.tasks) task_index_.push_back(model.coordinate_index(task.coordinate));
   seen_.assign(pairs_.size(), false);
   target_.assign(pairs_.size(), Vec3::Zero());
+  place_.assign(pairs_.size(), Vec3::Zero());
+  motions_.resize(count);
 }
 
 void PoseFit::set_targets(const recording::MarkerSeries& markers, Eigen::Index frame) {
@@ -84,11 +86,6 @@ double PoseFit::target_of(std::size_t task) const {
   return t.values.size() > 0 ? t.values[frame_] : t.value;
 }
 
-Vec3 PoseFit::marker_position(std::size_t pair) const {
-  const model::Marker& marker = model_.markers[pairs_[pair].model];
-  return state_.X_GB[at(marker.body)] * marker.p_BM;
-}
-
 /// Applies locks, prescriptions, ranges, couplers and constraints.
 void PoseFit::obey(Eigen::VectorXd& q) const {
   for (std::size_t c = 0; c < model_.coordinates.size(); ++c) {
@@ -109,12 +106,16 @@ void PoseFit::obey(Eigen::VectorXd& q) const {
 double PoseFit::cost_at(const Eigen::VectorXd& q) {
   if (!posed_ || state_.q != q) {
     model::compute_poses(model_, q, state_);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const model::Marker& marker = model_.markers[pairs_[i].model];
+      place_[i] = state_.X_GB[at(marker.body)] * marker.p_BM;
+    }
     posed_ = true;
     ++evaluations_;
   }
   double cost = 0.0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (seen_[i]) cost += pairs_[i].weight * scale_ * (marker_position(i) - target_[i]).squaredNorm();
+    if (seen_[i]) cost += pairs_[i].weight * scale_ * (place_[i] - target_[i]).squaredNorm();
   }
   for (std::size_t j = 0; j < task_index_.size(); ++j) {
     const double off = q[task_index_[j]] - target_of(j);
@@ -172,23 +173,24 @@ std::optional<Eigen::VectorXd> PoseFit::damped_step(const Eigen::VectorXd& q,
                                                     const Eigen::MatrixXd& N,
                                                     bool second_order,
                                                     double shift) {
-  Eigen::MatrixXd hessian = second_order ? Eigen::MatrixXd(gauss_ + bend_) : gauss_;
-  for (Eigen::Index k = 0; k < hessian.rows(); ++k) {
+  hessian_ = gauss_;
+  if (second_order) hessian_ += bend_;
+  for (Eigen::Index k = 0; k < hessian_.rows(); ++k) {
     if (!held[at(k)]) continue;
     gradient_[k] = 0.0;
-    hessian.row(k).setZero();
-    hessian.col(k).setZero();
-    hessian(k, k) = 1.0;
+    hessian_.row(k).setZero();
+    hessian_.col(k).setZero();
+    hessian_(k, k) = 1.0;
   }
-  Eigen::VectorXd right = -gradient_;
+  Eigen::VectorXd step = -gradient_;
   if (N.size() > 0) {
-    hessian = (N.transpose() * hessian * N).eval();
-    right = (N.transpose() * right).eval();
+    hessian_ = (N.transpose() * hessian_.selfadjointView<Eigen::Lower>() * N).eval();
+    step = (N.transpose() * step).eval();
   }
-  hessian.diagonal().array() += shift;
-  const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
+  hessian_.diagonal().array() += shift;
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(hessian_);
   if (factor.info() != Eigen::Success) return std::nullopt;
-  Eigen::VectorXd step = factor.solve(right);
+  factor.solveInPlace(step);
   if (N.size() > 0) step = (N * step).eval();
   // Two nearly parallel axes determine only the sum of their angles: a full step could turn them
   // against each other by many turns.
@@ -316,7 +318,7 @@ double PoseFit::place_within(Eigen::VectorXd q) {
 double PoseFit::part_of(const std::vector<std::size_t>& pairs) const {
   double part = 0.0;
   for (const std::size_t i : pairs)
-    if (seen_[i]) part += pairs_[i].weight * scale_ * (marker_position(i) - target_[i]).squaredNorm();
+    if (seen_[i]) part += pairs_[i].weight * scale_ * (place_[i] - target_[i]).squaredNorm();
   return part;
 }
 
@@ -325,7 +327,7 @@ double PoseFit::mean_square(const std::vector<std::size_t>& pairs) const {
   int seen = 0;
   for (const std::size_t i : pairs) {
     if (!seen_[i]) continue;
-    sum += (marker_position(i) - target_[i]).squaredNorm();
+    sum += (place_[i] - target_[i]).squaredNorm();
     ++seen;
   }
   return seen > 0 ? sum / seen : 0.0;
@@ -337,7 +339,7 @@ double PoseFit::work() const {
 
 void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
   linearize(state_.q);
-  const math::SymmetricEigen eigen = math::symmetric_eigen(gauss_);
+  const math::SymmetricEigen eigen = math::symmetric_eigen(Eigen::MatrixXd(gauss_.selfadjointView<Eigen::Lower>()));
   const double largest = eigen.values.size() > 0 ? eigen.values[eigen.values.size() - 1] : 0.0;
   for (Eigen::Index k = 0; k < gauss_.cols(); ++k) {
     // Eigenvalues are squared singular values of the Jacobian: the limit is 1e-7 of the largest singular value.
@@ -350,12 +352,12 @@ void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
 
 double PoseFit::error(std::size_t pair) const {
   if (!seen_[pair]) return std::numeric_limits<double>::quiet_NaN();
-  return (marker_position(pair) - target_[pair]).norm();
+  return (place_[pair] - target_[pair]).norm();
 }
 
 void PoseFit::locate(Eigen::MatrixXd& table, Eigen::Index row) const {
   for (std::size_t i = 0; i < pairs_.size(); ++i)
-    table.block<1, 3>(row, static_cast<Eigen::Index>(3 * i)) = marker_position(i).transpose();
+    table.block<1, 3>(row, static_cast<Eigen::Index>(3 * i)) = place_[i].transpose();
 }
 
 }  // namespace myoid::kinematics

@@ -37,6 +37,10 @@ class PoseFit {
   [[nodiscard]] double scale() const { return scale_; }
   /// Sets another scale until the next set_targets: that of a whole of which this model is a part.
   void set_scale(double scale) { scale_ = scale; }
+  /// Returns where a marker was seen in the frame; nothing if it was not.
+  [[nodiscard]] std::optional<Vec3> target(std::size_t pair) const {
+    return seen_[pair] ? std::optional(target_[pair]) : std::nullopt;
+  }
   [[nodiscard]] int seen_count() const { return seen_count_; }
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
   [[nodiscard]] const std::vector<Eigen::Index>& free() const { return free_; }
@@ -89,6 +93,11 @@ class PoseFit {
     std::vector<std::size_t> body_of;  ///< Child body of each one's joint.
   };
 
+  /// Per rate of a free coordinate: turn, and velocity of the point at the origin of ground.
+  struct Motion {
+    Vec3 w = Vec3::Zero(), v = Vec3::Zero();
+  };
+
   /// Sums over the markers of a body and of the bodies that it carries: weights times 1, p and p
   /// p', the pulls f = weight (p - target), and p f', about the origin of ground.
   struct Pull {
@@ -100,7 +109,7 @@ class PoseFit {
 
   void obey(Eigen::VectorXd& q) const;
   double cost_at(const Eigen::VectorXd& q);
-  [[nodiscard]] Vec3 origin_rate(const Chain& chain, std::size_t place) const;
+  void update_motions();
   void gather_pulls();
   void add_coordinate(const Chain& chain, std::size_t b, const Pull& pull);
   void linearize(const Eigen::VectorXd& q);
@@ -117,7 +126,6 @@ class PoseFit {
   [[nodiscard]] double farthest_turn(const Eigen::VectorXd& step) const;
   [[nodiscard]] Eigen::MatrixXd allowed_directions(const Eigen::VectorXd& q) const;
   [[nodiscard]] double target_of(std::size_t task) const;
-  [[nodiscard]] Vec3 marker_position(std::size_t pair) const;
 
   const model::BodyModel& model_;
   const IkOptions& options_;
@@ -138,10 +146,13 @@ class PoseFit {
   int seen_count_ = 0;
   bool posed_ = false;  ///< The bodies of state_ stand as its coordinates say.
   double evaluations_ = 0.0;
-  Eigen::VectorXd gradient_;  ///< Gradient of J by the free coordinates.
-  Eigen::MatrixXd gauss_;     ///< First-order part of the second derivatives of J.
-  Eigen::MatrixXd bend_;      ///< Remaining second derivatives, from the turning of the chains.
-  std::vector<Pull> pulls_;   ///< Per body.
+  std::vector<Vec3> place_;      ///< Per pair: the marker's place in the posture of state_.
+  std::vector<Motion> motions_;  ///< Per coordinate.
+  Eigen::MatrixXd hessian_;      ///< Of the latest step, then its factor.
+  Eigen::VectorXd gradient_;     ///< Gradient of J by the free coordinates.
+  Eigen::MatrixXd gauss_;        ///< First-order part of the second derivatives of J.
+  Eigen::MatrixXd bend_;         ///< Remaining second derivatives, from the turning of the chains.
+  std::vector<Pull> pulls_;      ///< Per body.
 };
 
 }  // namespace myoid::kinematics

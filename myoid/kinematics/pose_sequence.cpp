@@ -2,34 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
 #include "myoid/core/index.h"
 #include "myoid/kinematics/joint_angles.h"
+#include "myoid/kinematics/pose_comparison.h"
 
 namespace myoid::kinematics {
 namespace {
 
-constexpr std::size_t kWindow = 32;     // frames
-constexpr int kRounds = 4;              // searches of a limb in a window at most
 constexpr double kSearchShare = 0.25;   // of the work, for routine searches
-constexpr double kLastShare = 0.6;      // the same with the searches behind the last frame
-constexpr double kSuspicious = 1.15;    // a limb's cost over its median
 constexpr double kFilesOfFrame = 10.0;  // postures evaluated in the time in which a frame is read and written
 constexpr double kFarBetter = 0.5;      // share of the cost at which a fresh start replaces a converged posture
-constexpr double kAnyBetter = 1.0 - 1e-6;
-constexpr double kRoundOff_m2 = 1e-13;  // of 2 J
-constexpr double kAlike = 0.01;         // relative difference of the costs of postures that fit alike
-constexpr double kAlike_m2 = 2e-6;      // the same of 2 J
-constexpr double kJump = 0.05;          // sum of relative gains at which a jump pays
-constexpr double kNearlyAsGood = 1.15;  // own cost of a limb on a fixed base that may be the lower one on a free base
 constexpr double kJumped = 4.0;         // times the cost of the frame before
-constexpr double kJumped_m2 = 1e-8;     // more than that
 constexpr double kFarMoved_m = 0.1;     // rms distance of a limb's markers from their places in the frame before
 constexpr double kTurned_rad = 0.5;     // from frame to frame
-constexpr double kSame_rad = 1e-4;      // postures nearer to each other are one
 
 /// Returns postures to start from without a previous frame: the default posture, a posture near it,
 /// and the default posture turned about the vertical by the root joint.
@@ -59,27 +47,6 @@ std::vector<Eigen::VectorXd> fresh_starts(const model::BodyModel& model) {
   return starts;
 }
 
-bool replaces(const PoseFit::Pose& a, const PoseFit::Pose& b, double share) {
-  if (b.converged) return a.converged && a.cost < share * b.cost - kRoundOff_m2;
-  return (a.converged && a.cost <= b.cost * (1.0 + 1e-9)) || a.cost < b.cost * (1.0 - 1e-9);
-}
-
-/// Returns the difference of the costs in units of the lower one.
-double gain_of(const PoseFit::Pose& then, const PoseFit::Pose& now) {
-  const double difference = now.cost - then.cost;
-  if (std::abs(difference) <= kRoundOff_m2) return 0.0;
-  return difference / (std::min(now.cost, then.cost) + kRoundOff_m2);
-}
-
-/// Returns true if the first pose fits better by more than poses that fit alike.
-bool clearly_better(const PoseFit::Pose& then, const PoseFit::Pose& now) {
-  return gain_of(then, now) > kAlike || now.cost - then.cost > kAlike_m2;
-}
-
-bool same_posture(const PoseFit::Pose& a, const PoseFit::Pose& b) {
-  return (a.q - b.q).cwiseAbs().maxCoeff() < kSame_rad && std::abs(gain_of(a, b)) < 1e-6;
-}
-
 }  // namespace
 
 PoseSequence::PoseSequence(const model::BodyModel& model,
@@ -98,12 +65,18 @@ PoseSequence::PoseSequence(const model::BodyModel& model,
 }
 
 void PoseSequence::solve() {
+  rivals_.resize(limbs_.size());
+  searched_until_.assign(limbs_.size(), 0);
+  pause_.assign(limbs_.size(), kWindow);
   for (std::size_t first = 0; first < poses_.size(); first += kWindow) {
     options_.progress.check();
     options_.progress.tell(static_cast<double>(first) / static_cast<double>(poses_.size()), "inverse kinematics");
     const std::size_t last = std::min(poses_.size(), first + kWindow) - 1;
     for (std::size_t frame = first; frame <= last; ++frame) solve_frame(frame);
-    search_window(first, last);
+    if (limbs_.empty() || !seen_[last]) continue;
+    try_roots(last);
+    for (std::size_t limb = 0; limb < limbs_.size() && may_search(kSearchShare); ++limb)
+      if (last + 1 - searched_until_[limb] >= pause_[limb]) (void)search_limb(limb, last, false);
   }
   search_suspicious();
 }
@@ -130,15 +103,24 @@ PoseFit::Pose PoseSequence::first_pose() {
         std::any_of(found.begin(), found.end(), [&](const auto& other) { return same_posture(pose, other); });
     if (!known) found.push_back(std::move(pose));
   }
+  // Limbs in other postures improve a pose by the part of their markers, or by a little more.
+  std::ranges::sort(found, {}, &PoseFit::Pose::cost);
   PoseFit::Pose best = found.front();
   for (PoseFit::Pose& pose : found) {
+    const bool first = &pose == &found.front();
+    if (!first && cost_without_limbs(pose.q) > best.cost) continue;
     improve_limbs(frame, pose);
-    const bool other_is_better = replaces(pose, best, kAnyBetter) && !strays(model_, pose.q, best.q);
-    if (&pose == &found.front() || other_is_better) best = std::move(pose);
+    if (first || (replaces(pose, best, kAnyBetter) && !strays(model_, pose.q, best.q))) best = std::move(pose);
   }
   best.cost = fit_.place(best.q);
   fit_.unwind(best);
   return best;
+}
+
+double PoseSequence::cost_without_limbs(const Eigen::VectorXd& q) {
+  double cost = fit_.place(q);
+  for (const auto& limb : limbs_) cost -= fit_.part_of(limb->pairs());
+  return cost;
 }
 
 /// Improves the pose of the frame whose targets `fit_` has, limb by limb.
@@ -146,10 +128,10 @@ void PoseSequence::improve_limbs(std::size_t frame, PoseFit::Pose& pose) {
   for (const auto& limb : limbs_) {
     (void)fit_.place(pose.q);
     limb->stand(fit_, pose.q, markers_, static_cast<Eigen::Index>(frame));
-    const auto start = limb->other_posture(pose.q, kNearlyAsGood);
-    if (!start) continue;
-    PoseFit::Pose other = fit_.solve(*start);
-    if (replaces(other, pose, kAnyBetter) && !strays(model_, other.q, pose.q)) pose = std::move(other);
+    for (const Eigen::VectorXd& start : limb->other_postures(pose.q, kOwnShare, true)) {
+      PoseFit::Pose other = fit_.solve(start);
+      if (replaces(other, pose, kAnyBetter) && !strays(model_, other.q, pose.q)) pose = std::move(other);
+    }
   }
 }
 
@@ -179,8 +161,14 @@ void PoseSequence::solve_frame(std::size_t frame) {
   set_pose(frame, std::move(pose));
   const std::vector<bool> surprised = first ? std::vector<bool>(limbs_.size()) : surprised_limbs(frame, distances);
   distances_ = limb_distances();
-  for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
-    if (surprised[limb]) (void)try_limb(limb, frame);
+  // A limb in another minimum pulls the body, and so the other limbs.
+  double cost = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kRounds && poses_[frame].cost < kAnyBetter * cost - kJumped_m2; ++round) {
+    cost = poses_[frame].cost;
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
+      if (surprised[limb]) (void)search_limb(limb, frame, true);
+  }
+  for (std::size_t limb = 0; limb < limbs_.size(); ++limb) follow_rivals(limb, frame, false);
 }
 
 /// Returns the minimum near the posture before; after a jump of the cost, or where the search fails, a far better one
@@ -229,147 +217,6 @@ void PoseSequence::set_pose(std::size_t frame, PoseFit::Pose pose) {
   for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
     parts_(static_cast<Eigen::Index>(frame), static_cast<Eigen::Index>(limb)) = fit_.part_of(limbs_[limb]->pairs());
   poses_[frame] = std::move(pose);
-}
-
-std::size_t PoseSequence::worst_frame(std::size_t limb, std::size_t first, std::size_t last) const {
-  Eigen::Index worst = 0;
-  parts_.col(static_cast<Eigen::Index>(limb))
-      .segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(last - first + 1))
-      .maxCoeff(&worst);
-  return first + at(worst);
-}
-
-/// Tries each limb in the frame where its markers lie worst, again while that helps. The limbs take turns to be first.
-void PoseSequence::search_window(std::size_t first, std::size_t last) {
-  if (limbs_.empty()) return;
-  if (seen_[last]) try_roots(last);
-  ++window_;
-  for (std::size_t k = 0; k < limbs_.size() && may_search(kSearchShare); ++k) {
-    const std::size_t limb = (window_ + k) % limbs_.size();
-    for (int round = 0; round < kRounds; ++round) {
-      const std::size_t frame = worst_frame(limb, first, last);
-      if (!seen_[frame] || !try_limb(limb, frame)) break;
-    }
-  }
-}
-
-/// Tries each limb where a window's worst frame fits much worse than the limb usually does, the worst first: routine
-/// searches may have had no work left there.
-void PoseSequence::search_suspicious() {
-  if (poses_.empty()) return;
-  struct Place {
-    double ratio = 0.0;
-    std::size_t limb = 0, first = 0, last = 0;
-  };
-  std::vector<Place> places;
-  for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
-    const auto column = parts_.col(static_cast<Eigen::Index>(limb));
-    std::vector<double> parts(column.begin(), column.end());
-    const auto middle = parts.begin() + static_cast<std::ptrdiff_t>(parts.size() / 2);
-    std::nth_element(parts.begin(), middle, parts.end());
-    const double usual = *middle + kJumped_m2;
-    for (std::size_t first = 0; first < poses_.size(); first += kWindow) {
-      const std::size_t last = std::min(poses_.size(), first + kWindow) - 1;
-      const double ratio = column[static_cast<Eigen::Index>(worst_frame(limb, first, last))] / usual;
-      if (ratio > kSuspicious) places.push_back({ratio, limb, first, last});
-    }
-  }
-  std::ranges::sort(places, std::greater(), &Place::ratio);
-  for (const Place& place : places) {
-    for (int round = 0; round < kRounds && may_search(kLastShare); ++round) {
-      const std::size_t frame = worst_frame(place.limb, place.first, place.last);
-      if (!seen_[frame] || !try_limb(place.limb, frame)) break;
-    }
-  }
-}
-
-/// Tries another posture of a limb in a frame; returns true if the frame keeps it.
-bool PoseSequence::try_limb(std::size_t limb, std::size_t frame) {
-  const double before = fit_.work() + limbs_[limb]->work();
-  const Eigen::VectorXd& q = poses_[frame].q;
-  fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
-  (void)fit_.place(q);
-  limbs_[limb]->stand(fit_, q, markers_, static_cast<Eigen::Index>(frame));
-  const auto start = limbs_[limb]->other_posture(q, kNearlyAsGood);
-  const bool kept = start && try_start(frame, *start);
-  searched_ += fit_.work() + limbs_[limb]->work() - before;
-  return kept;
-}
-
-/// Tries the other angles of a floating joint that lies at an end of a range.
-void PoseSequence::try_roots(std::size_t frame) {
-  for (const model::Joint& joint : model_.joints) {
-    const Eigen::VectorXd q = poses_[frame].q;
-    const bool at_end = std::any_of(joint.coordinates.begin(), joint.coordinates.end(), [&](int c) {
-      return turns(joint, c) && lies_at_end(model_.coordinates[at(c)], q[c]);
-    });
-    if (joint.parent != 0 || !at_end) continue;
-    for (const Eigen::VectorXd& twin : twin_angles(model_, joint, q)) (void)try_start(frame, twin);
-  }
-}
-
-/// Adopts the minimum near a start if it is the better one.
-bool PoseSequence::try_start(std::size_t frame, const Eigen::VectorXd& start) {
-  fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
-  PoseFit::Pose pose = fit_.solve(start);
-  if (!replaces(pose, poses_[frame], kAnyBetter)) return false;
-  fit_.unwind(pose);
-  if (strays(model_, pose.q, poses_[frame].q)) return false;
-  fit_.unwind_towards(poses_[frame].q, pose);
-  return adopt(frame, std::move(pose));
-}
-
-/// Follows another minimum from frame to frame until it meets the postures at hand or is clearly the worse one.
-PoseSequence::Stretch PoseSequence::follow(std::size_t frame, const PoseFit::Pose& pose, bool forwards) {
-  Stretch all;
-  Stretch best;
-  std::size_t kept = 0;
-  best.jumps = true;
-  Eigen::VectorXd start = pose.q;
-  const std::size_t end = forwards ? solved_ - 1 : 0;
-  while (frame != end) {
-    frame = forwards ? frame + 1 : frame - 1;
-    if (!seen_[frame]) {
-      all.poses.push_back({start, 0.0, true});
-      continue;
-    }
-    fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
-    PoseFit::Pose other = fit_.solve(start);
-    const PoseFit::Pose& here = poses_[frame];
-    if (same_posture(other, here)) return all;
-    all.gain += gain_of(other, here);
-    all.clear = all.clear || clearly_better(other, here);
-    if (!other.converged || clearly_better(here, other) || all.gain < best.gain - kJump) {
-      all.poses.resize(kept);
-      best.poses = std::move(all.poses);
-      return best;
-    }
-    start = other.q;
-    all.poses.push_back(std::move(other));
-    if (all.gain < best.gain) continue;
-    best.gain = all.gain;
-    best.clear = all.clear;
-    kept = all.poses.size();
-  }
-  return all;
-}
-
-/// Takes a better minimum of a frame, and of the frames around it, if the gain is worth the jumps.
-bool PoseSequence::adopt(std::size_t frame, PoseFit::Pose pose) {
-  const double gain = gain_of(pose, poses_[frame]);
-  Stretch before = follow(frame, pose, false), after = follow(frame, pose, true);
-  const double jumps = (before.jumps ? kJump : 0.0) + (after.jumps ? kJump : 0.0);
-  const bool clear = clearly_better(pose, poses_[frame]) || before.clear || after.clear;
-  if (!clear && gain + before.gain + after.gain <= jumps) return false;
-  const auto keep = [&](std::size_t f, PoseFit::Pose p) {
-    fit_.set_targets(markers_, static_cast<Eigen::Index>(f));
-    set_pose(f, std::move(p));
-  };
-  for (std::size_t k = 0; k < before.poses.size(); ++k) keep(frame - 1 - k, std::move(before.poses[k]));
-  for (std::size_t k = 0; k < after.poses.size(); ++k) keep(frame + 1 + k, std::move(after.poses[k]));
-  keep(frame, std::move(pose));
-  cost_before_ = poses_[solved_ - 1].cost;
-  return true;
 }
 
 }  // namespace myoid::kinematics

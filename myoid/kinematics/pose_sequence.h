@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,6 +35,12 @@ class PoseSequence {
   [[nodiscard]] const PoseFit::Pose& pose(Eigen::Index frame) const { return poses_[static_cast<std::size_t>(frame)]; }
 
  private:
+  static constexpr std::size_t kWindow = 8;  ///< Frames between searches of a limb.
+  static constexpr int kRounds = 4;          ///< Searches in a frame, each after one that found a better minimum.
+  static constexpr double kOwnShare = 30.0;  ///< A rival's own cost on a fixed base over the limb's own cost.
+  static constexpr double kAnyBetter = 1.0 - 1e-6;  ///< Share of the cost at which another minimum is the better one.
+  static constexpr double kJumped_m2 = 1e-8;        ///< A smaller difference of costs says nothing.
+
   /// Frames that another minimum would take over on one side of the frame where it was found.
   struct Stretch {
     std::vector<PoseFit::Pose> poses;  ///< In the order of the walk.
@@ -42,21 +49,33 @@ class PoseSequence {
     bool jumps = false;                ///< The posture jumps behind the last frame.
   };
 
+  /// Another minimum of a limb, which is followed beside the postures at hand.
+  struct Rival {
+    std::size_t frame = 0;  ///< The latest in which it was found.
+    PoseFit::Pose pose;
+    std::size_t due = 0;  ///< The frame in which it is found again.
+  };
+
   void solve_frame(std::size_t frame);
   [[nodiscard]] PoseFit::Pose first_pose();
   [[nodiscard]] PoseFit::Pose next_pose(const Eigen::VectorXd& before);
   [[nodiscard]] PoseFit::Pose solve_from(const Eigen::VectorXd& start);
   [[nodiscard]] bool may_search(double share) const;
 
+  [[nodiscard]] double cost_without_limbs(const Eigen::VectorXd& q);
   void improve_limbs(std::size_t frame, PoseFit::Pose& pose);
   [[nodiscard]] std::vector<bool> surprised_limbs(std::size_t frame, const Eigen::VectorXd& distances) const;
   [[nodiscard]] Eigen::VectorXd limb_distances() const;
-  void search_window(std::size_t first, std::size_t last);
-  [[nodiscard]] std::size_t worst_frame(std::size_t limb, std::size_t first, std::size_t last) const;
+  bool search_limb(std::size_t limb, std::size_t frame, bool thorough);
   void search_suspicious();
-  bool try_limb(std::size_t limb, std::size_t frame);
   void try_roots(std::size_t frame);
-  bool try_start(std::size_t frame, const Eigen::VectorXd& start);
+
+  [[nodiscard]] std::optional<PoseFit::Pose> minimum_near(std::size_t frame, const Eigen::VectorXd& start);
+  [[nodiscard]] Eigen::VectorXd carried(const Rival& rival, std::size_t limb, std::size_t frame) const;
+  [[nodiscard]] double lag_of(const PoseFit::Pose& pose, std::size_t limb, std::size_t frame) const;
+  void follow_rivals(std::size_t limb, std::size_t frame, bool all);
+  void look_back(Rival rival, std::size_t limb, std::size_t since);
+  bool take(std::size_t frame, PoseFit::Pose& pose);
 
   [[nodiscard]] Stretch follow(std::size_t frame, const PoseFit::Pose& pose, bool forwards);
   bool adopt(std::size_t frame, PoseFit::Pose pose);
@@ -69,10 +88,12 @@ class PoseSequence {
   std::vector<std::unique_ptr<LimbFit>> limbs_;
   std::vector<PoseFit::Pose> poses_;
   std::vector<bool> seen_;
-  Eigen::MatrixXd parts_;      ///< Per frame and limb: the limb's own part of 2 J.
-  Eigen::VectorXd distances_;  ///< Mean square distance of each limb's markers in the latest frame.
-  std::size_t solved_ = 0;     ///< Frames.
-  std::size_t window_ = 0;
+  Eigen::MatrixXd parts_;                    ///< Per frame and limb: the limb's own part of 2 J.
+  Eigen::VectorXd distances_;                ///< Mean square distance of each limb's markers in the latest frame.
+  std::size_t solved_ = 0;                   ///< Frames.
+  std::vector<std::vector<Rival>> rivals_;   ///< Per limb.
+  std::vector<std::size_t> searched_until_;  ///< Per limb: frame behind the latest search.
+  std::vector<std::size_t> pause_;           ///< Per limb: frames until the next one.
   double cost_before_;
   double searched_ = 0.0;  ///< Work of searches.
 };
