@@ -36,7 +36,7 @@ set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs identifi
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
     identification intervals methods report phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim report)
-set(MYOID_LAYER_results core math files muscle tables model kinematics forces simulation
+set(MYOID_LAYER_results core math files muscle tables recording model kinematics forces simulation
     identification intervals methods report phases study design run scene)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model)

@@ -16,10 +16,10 @@
 #include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
 #include "myoid/cli/wrong_line.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/folder_lock.h"
+#include "myoid/files/output_file.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid::cli {
@@ -149,7 +149,7 @@ void Context::end_progress() const {
 }
 
 void Context::prepare_file(const std::filesystem::path& path, const std::vector<std::string>& inputs) const {
-  commands::check_output(path, inputs, overwrite);
+  recording::check_output(path, inputs, overwrite);
   remember_new_folder(path.parent_path());
 }
 

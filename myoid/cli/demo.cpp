@@ -12,9 +12,9 @@
 #include "myoid/cli/run.h"
 #include "myoid/cli/say.h"
 #include "myoid/commands/check.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/commands/twin.h"
 #include "myoid/core/counted.h"
+#include "myoid/files/output_file.h"
 
 namespace myoid::cli {
 namespace {
@@ -40,7 +40,7 @@ bool open_page(const fs::path& page) {
 void make_recording(Context& context, const std::string& folder) {
   context.prepare_folder(folder);
   commands::TwinOptions options{.call = context.call(), .protocol = std::string(twin::kDemoProtocol)};
-  commands::protect_files(folder, commands::kTwinFiles, {});
+  recording::protect_files(folder, commands::kTwinFiles, {});
   const commands::TwinResult result = commands::twin(options);
   commands::write_twin(result, folder);
   context.log(fmt::format("a virtual person, {} with markers and raw EMG: {}",

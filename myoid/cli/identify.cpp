@@ -9,7 +9,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
-#include "myoid/commands/output_file.h"
+#include "myoid/files/output_file.h"
 #include "myoid/intervals/score.h"
 #include "myoid/methods/plain_fit.h"
 #include "myoid/report/report.h"
@@ -206,7 +206,7 @@ void add_identify(CLI::App& app, Context& context) {
     visit(o, reader);
     mat.prepare(context, {o.muscles.string()});
     context.prepare_folder(*out);
-    commands::protect_files(*out, commands::kIdentifyFiles, {o.muscles.string()});
+    recording::protect_files(*out, commands::kIdentifyFiles, {o.muscles.string()});
     o.call = context.call();
     const commands::IdentifyResult result = commands::identify(o);
     context.end_progress();

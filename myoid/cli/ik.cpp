@@ -5,7 +5,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/option_checks.h"
-#include "myoid/commands/output_file.h"
+#include "myoid/files/output_file.h"
 
 namespace myoid::cli {
 namespace {
@@ -51,8 +51,8 @@ void add_ik(CLI::App& app, Context& context) {
   add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o, out] {
     context.prepare_file(*out, {o->model, o->markers});
-    commands::check_companion(commands::marker_errors_path(*out), {o->model, o->markers}, context.overwrite,
-                              commands::kMarkerErrorsBegin);
+    recording::check_companion(commands::marker_errors_path(*out), {o->model, o->markers}, context.overwrite,
+                               commands::kMarkerErrorsBegin);
     o->call = context.call();
     o->compat = context.compat;
     const commands::IkResult result = commands::ik(*o);

@@ -5,8 +5,8 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/option_checks.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/commands/sweep.h"
+#include "myoid/files/output_file.h"
 
 namespace myoid::cli {
 namespace {
@@ -26,7 +26,7 @@ nlohmann::ordered_json paths_json(const commands::PathsResult& result, const std
 
 void run_sweep(const commands::SweepOptions& options, const std::string& out, const Context& context) {
   context.prepare_folder(out);
-  commands::protect_files(out, commands::kSweepFiles, {options.model});
+  recording::protect_files(out, commands::kSweepFiles, {options.model});
   const commands::SweepResult result = commands::sweep(options);
   const std::vector<std::filesystem::path> files = commands::write_sweep(result, out);
   nlohmann::ordered_json json{
@@ -85,7 +85,7 @@ void add_paths(CLI::App& app, Context& context) {
     }
     if (o->motion.empty()) throw CLI::RequiredError("--motion or --sweep");
     context.prepare_folder(*out);
-    commands::protect_files(*out, commands::kPathsFiles, {o->model, o->motion, o->surrogates});
+    recording::protect_files(*out, commands::kPathsFiles, {o->model, o->motion, o->surrogates});
     o->call = context.call();
     o->compat = context.compat;
     o->compare_with_opensim = !context.quiet;

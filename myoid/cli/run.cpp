@@ -12,7 +12,7 @@
 #include "myoid/cli/option_checks.h"
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
-#include "myoid/commands/output_file.h"
+#include "myoid/files/output_file.h"
 #include "myoid/report/report.h"
 #include "myoid/results/answer.h"
 #include "myoid/results/paper_tables.h"
@@ -163,7 +163,7 @@ void tell_gates(const std::vector<report::Gate>& gates, const Context& context) 
 commands::RunResult compute_run(Context& context, commands::RunOptions options, const std::string& out) {
   const auto begin = std::chrono::steady_clock::now();
   context.prepare_folder(out, commands::kStageFolder);
-  commands::protect_files(out, commands::kRunFiles, {options.study});
+  recording::protect_files(out, commands::kRunFiles, {options.study});
   options.call = context.call();
   options.store = std::filesystem::path(out) / commands::kStageFolder;
   commands::RunResult result = commands::run(options);

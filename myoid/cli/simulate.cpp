@@ -5,7 +5,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/option_checks.h"
 #include "myoid/cli/say.h"
-#include "myoid/commands/output_file.h"
+#include "myoid/files/output_file.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/simulation_files.h"
 
@@ -84,7 +84,7 @@ void add_simulate(CLI::App& app, Context& context) {
   command.callback([&context, o, out, paper_figures_only] {
     if (*paper_figures_only) return draw_paper_figures(*out, context);
     context.prepare_folder(*out);
-    commands::protect_files(*out, commands::kSimulateFiles, {o->model, o->excitations});
+    recording::protect_files(*out, commands::kSimulateFiles, {o->model, o->excitations});
     o->call = context.call();
     const commands::SimulateResult result = commands::simulate(*o);
     context.end_progress();

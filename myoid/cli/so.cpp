@@ -5,7 +5,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/option_checks.h"
-#include "myoid/commands/output_file.h"
+#include "myoid/files/output_file.h"
 
 namespace myoid::cli {
 namespace {
@@ -56,7 +56,7 @@ void add_so(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o, out] {
     context.prepare_folder(*out);
-    commands::protect_files(*out, commands::kSoFiles, {o->model, o->motion, o->emg, o->loads});
+    recording::protect_files(*out, commands::kSoFiles, {o->model, o->motion, o->emg, o->loads});
     o->call = context.call();
     o->compat = context.compat;
     o->compare_with_opensim = !context.quiet;

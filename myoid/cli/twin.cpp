@@ -8,8 +8,8 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/option_checks.h"
 #include "myoid/cli/options.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
+#include "myoid/files/output_file.h"
 
 namespace myoid::cli {
 namespace {
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 void make_many(commands::TwinPersonsOptions options, const std::string& out, Context& context) {
   context.prepare_folder(out);
-  commands::protect_files(out, commands::kTwinFiles, {options.twin.protocol});
+  recording::protect_files(out, commands::kTwinFiles, {options.twin.protocol});
   options.twin.call = context.call();
   const commands::TwinPersonsResult result = commands::write_twin_persons(options, out);
   context.end_progress();
@@ -32,7 +32,7 @@ void make_many(commands::TwinPersonsOptions options, const std::string& out, Con
 
 void make_one(commands::TwinOptions options, const std::string& out, Context& context) {
   context.prepare_folder(out);
-  commands::protect_files(out, commands::kTwinFiles, {options.protocol});
+  recording::protect_files(out, commands::kTwinFiles, {options.protocol});
   options.call = context.call();
   const commands::TwinResult result = commands::twin(options);
   commands::write_twin(result, out);

@@ -11,7 +11,7 @@
 #include "myoid/files/record_list.h"
 #include "myoid/files/text_file.h"
 #include "myoid/math/statistics.h"
-#include "myoid/results/read_gates.h"
+#include "myoid/report/read_gates.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::cohort {
@@ -64,7 +64,7 @@ json read_json(const fs::path& file) {
 }
 
 /// Questions that the recording or the fit did not pass.
-void add_questions(const UnpassedGates& gates, std::vector<Quality>& quality) {
+void add_questions(const report::UnpassedGates& gates, std::vector<Quality>& quality) {
   quality.push_back({.name = "questions not passed",
                      .unit = {},
                      .value = static_cast<double>(gates.failed.size() + gates.warned.size()),
@@ -180,7 +180,7 @@ std::vector<Quality> run_quality(const fs::path& folder) {
   std::vector<Quality> quality;
   const fs::path report = folder / "report.json", parameters = folder / "parameters.json";
   try {
-    if (fs::exists(report)) add_questions(read_gates(folder), quality);
+    if (fs::exists(report)) add_questions(report::read_gates(folder), quality);
     if (fs::exists(parameters)) add_fit(read_json(parameters), quality);
   } catch (const json::exception& error) {
     throw ReadError(

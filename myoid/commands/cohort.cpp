@@ -7,13 +7,13 @@
 #include <fmt/ranges.h>
 
 #include "myoid/cohort/person_study.h"
-#include "myoid/commands/in_jobs.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/commands/run.h"
 #include "myoid/core/build_identity.h"
 #include "myoid/core/error.h"
+#include "myoid/core/in_jobs.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/folder_lock.h"
+#include "myoid/files/output_file.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/files/result_folder.h"
 
@@ -77,7 +77,7 @@ cohort::PersonOutcome job_in(const CohortOptions& o, const Person& person, const
   Outcome outcome;
   try {
     const fs::path study = cohort::person_study(person, folder);
-    const std::optional<Outcome> earlier = cohort::recorded_outcome(folder);
+    const auto earlier = cohort::recorded_outcome(folder);
     if (earlier && cohort::is_current(*earlier, study))
       return {.person = person.name, .outcome = earlier, .reused = true};
     cohort::remove_outcome(folder);
@@ -201,7 +201,7 @@ void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder) {
       throw InvalidInput(
           fmt::format("the folder {} holds other files than a cohort's; give an empty folder, or add --overwrite",
                       folder.string()));
-    protect_files(folder, kGroupFiles, {o.manifest});
+    recording::protect_files(folder, kGroupFiles, {o.manifest});
     fs::create_directories(folder / cohort::kPersonsFolder, error);
     if (!error) record.sign();
   }

@@ -1,6 +1,5 @@
 #include "myoid/commands/convert.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,11 +8,11 @@
 #include "myoid/c3d/c3d_writer.h"
 #include "myoid/c3d/make_c3d.h"
 #include "myoid/commands/convert_parts.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/output_file.h"
 #include "myoid/files/result_record.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/channel_choice.h"
@@ -72,7 +71,7 @@ class Converter {
   }
 
  private:
-  void claim(const fs::path& path) const { check_output(path, {o_.in, o_.analog}, o_.overwrite); }
+  void claim(const fs::path& path) const { recording::check_output(path, {o_.in, o_.analog}, o_.overwrite); }
 
   void report(const std::vector<recording::Repair>& repairs) const { report(o_.in, repairs); }
   void report(const std::string& path, const std::vector<recording::Repair>& repairs) const {
@@ -241,7 +240,8 @@ class Converter {
       return;
     }
     const fs::path xml = fs::path(out).replace_extension(".xml");
-    check_companion(xml, {o_.in, o_.analog}, o_.overwrite, "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSim");
+    recording::check_companion(xml, {o_.in, o_.analog}, o_.overwrite,
+                               "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSim");
     recording::write_file(
         xml, recording::format_external_loads(out.stem().string(), numbers, o_.bodies, out.filename().string()));
     wrote(xml);

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/output_file.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -53,12 +53,12 @@ TEST(ConvertParts, EveryPlateNeedsABodyOrAnEmptyOne) {
 TEST(OutputFile, NeitherAnInputNorWithoutOverwriteAnExistingFileIsReplaced) {
   const test::TemporaryFolder folder;
   recording::write_file(folder / "a.sto", "text");
-  EXPECT_NO_THROW(check_output(folder / "b.sto", {folder / "a.sto"}, false));
-  EXPECT_THROW(check_output(folder / "a.sto", {}, false), InvalidInput);
-  EXPECT_NO_THROW(check_output(folder / "a.sto", {}, true));
-  EXPECT_THROW(check_output(folder / "a.sto", {folder / "a.sto"}, true), InvalidInput);
-  EXPECT_THROW(check_output(folder.path() / "x/../a.sto", {folder / "a.sto"}, true), InvalidInput);
-  EXPECT_THROW(check_output("", {}, true), InvalidInput);
+  EXPECT_NO_THROW(recording::check_output(folder / "b.sto", {folder / "a.sto"}, false));
+  EXPECT_THROW(recording::check_output(folder / "a.sto", {}, false), InvalidInput);
+  EXPECT_NO_THROW(recording::check_output(folder / "a.sto", {}, true));
+  EXPECT_THROW(recording::check_output(folder / "a.sto", {folder / "a.sto"}, true), InvalidInput);
+  EXPECT_THROW(recording::check_output(folder.path() / "x/../a.sto", {folder / "a.sto"}, true), InvalidInput);
+  EXPECT_THROW(recording::check_output("", {}, true), InvalidInput);
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "myoid/commands/emg_input.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/output_file.h"
 #include "myoid/files/quoted_text.h"
 #include "myoid/files/result_record.h"
 #include "myoid/files/text_file.h"
@@ -180,7 +180,7 @@ void check_emg_files(const EmgOptions& options,
   for (const auto* files : {&activations, &envelopes}) {
     const auto held = held_folder(*files);
     for (const std::string& file : *files) {
-      check_output(file, inputs, overwrite);
+      recording::check_output(file, inputs, overwrite);
       recording::require_replaceable(file);
     }
   }

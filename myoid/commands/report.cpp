@@ -1,7 +1,7 @@
 #include "myoid/commands/report.h"
 
-#include "myoid/commands/study_days.h"
 #include "myoid/report/write_report.h"
+#include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_workbench.h"
 #include "myoid/run/run_study.h"

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/recording_findings.h"
-#include "myoid/commands/study_days.h"
 #include "myoid/files/result_record.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/result_files.h"
+#include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_workbench.h"
 #include "myoid/run/quality_gates.h"

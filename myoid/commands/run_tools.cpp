@@ -1,8 +1,10 @@
 #include "myoid/commands/run_tools.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -12,9 +14,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/commands/in_jobs.h"
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/in_jobs.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/result_record.h"
 #include "myoid/opensim_tools/setup_list.h"
@@ -29,8 +31,7 @@ namespace fs = std::filesystem;
 class SetupRuns {
  public:
   explicit SetupRuns(const RunToolsOptions& options) : options_(options), remarks_(options.call) {
-    std::vector<fs::path> given(options.setups.begin(), options.setups.end());
-    setups_ = list_setups(given);
+    setups_ = list_setups({options.setups.begin(), options.setups.end()});
     for (const NamedSetup& setup : setups_) outcomes_.push_back({.setup = setup.name.string()});
     ended_.resize(setups_.size());
     for (std::size_t i = 0; i < setups_.size(); ++i) places_.push_back(place_of(i));
@@ -68,8 +69,7 @@ class SetupRuns {
     for (std::size_t i = 0; i < setups_.size(); ++i) {
       if (!ended_[i]) continue;
       if (outcomes_[i].status >= SetupStatus::failed) all.failed.push_back(outcomes_[i].setup);
-      const std::vector<fs::path>& files = outcomes_[i].result.tool.files;
-      all.files.insert(all.files.end(), files.begin(), files.end());
+      std::ranges::copy(outcomes_[i].result.tool.files, std::back_inserter(all.files));
     }
     return all;
   }
@@ -117,10 +117,8 @@ class SetupRuns {
   }
 
   RunToolOptions call_of(std::size_t i) {
-    RunToolOptions one{.call = options_.call, .setup = setups_[i].file.string(), .files = files_of(i)};
-    one.anywhere = options_.anywhere;
-    one.compat = options_.compat;
-    one.folders = &folders_;
+    RunToolOptions one{options_.call,     setups_[i].file.string(), files_of(i),
+                       options_.anywhere, options_.compat,          &folders_};
     one.call.progress.report = nullptr;
     one.call.listener = [this, name = outcomes_[i].setup](const Remark& remark) {
       Remark named = remark;
@@ -135,8 +133,8 @@ class SetupRuns {
     const std::scoped_lock lock(mutex_);
     ended_[i] = true;
     outcomes_[i] = std::move(outcome);
-    const auto done = static_cast<std::size_t>(std::ranges::count(ended_, true));
-    options_.call.progress.tell(static_cast<double>(done) / static_cast<double>(setups_.size()),
+    const auto done = static_cast<double>(std::ranges::count(ended_, true));
+    options_.call.progress.tell(done / static_cast<double>(setups_.size()),
                                 fmt::format("{} of {} set-ups", done, setups_.size()));
     if (options_.heard) options_.heard(outcomes_[i]);
   }
@@ -154,17 +152,8 @@ class SetupRuns {
 }  // namespace
 
 std::string_view status_word(SetupStatus status) {
-  switch (status) {
-    case SetupStatus::done:
-      return "done";
-    case SetupStatus::gate_failed:
-      return "not all frames";
-    case SetupStatus::failed:
-      return "failed";
-    case SetupStatus::not_run:
-      return "not run";
-  }
-  return "";
+  static constexpr std::array<std::string_view, 4> kWords{"done", "not all frames", "failed", "not run"};
+  return kWords[static_cast<std::size_t>(status)];
 }
 
 std::vector<SetupOutcome> run_tools(const RunToolsOptions& options) {

@@ -7,9 +7,8 @@
 #include <memory>
 #include <string>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "myoid/core/provenance.h"
 
@@ -29,8 +28,7 @@ TEST(BuildIdentity, IsThatOfTheProgramAndNotOfTheLoaderThatWasToldToStartIt) {
   std::ifstream stream("/proc/self/exe", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  const std::string command = std::string(loader) + " " + program +
-                              " --gtest_filter=BuildIdentity.PrintsItself";
+  const std::string command = std::string(loader) + " " + program + " --gtest_filter=BuildIdentity.PrintsItself";
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> child(popen(command.c_str(), "r"), &pclose);
   ASSERT_NE(child, nullptr);
   std::string told;

@@ -17,6 +17,9 @@
 namespace myoid::identification {
 namespace {
 
+/// Speed below which a muscle is at rest: the sign of a computed speed there is that of rounding. Both laws agree at 0.
+constexpr double kStill_mps = 1e-9;
+
 void add_samples(const StudyData& data, std::size_t muscle, PaperCase& result) {
   const auto column = static_cast<Eigen::Index>(muscle);
   for (const TrialData& trial : data.trials) {
@@ -29,7 +32,7 @@ void add_samples(const StudyData& data, std::size_t muscle, PaperCase& result) {
     Eigen::Index run = 0;
     for (const Eigen::Index i : included_rows(trial)) {
       const double v = trial.velocity_mps(i, column);
-      const bool here = (v <= 0.0) == result.shortening;
+      const bool here = (v <= kStill_mps) == result.shortening;
       const bool informative = activation(i, column) > 0.0 && v > -result.start.max_shortening_speed_mps;
       if (here && !informative) ++result.dropped;
       if (here && informative) {

@@ -20,7 +20,7 @@ struct MuscleSample {
   double force_n = 0.0;             ///< From force sharing.
 };
 
-/// One fit of the source paper's method: one muscle in shortening (v <= 0) or lengthening.
+/// One fit of the source paper's method: one muscle in shortening or at rest (v <= 1e-9 m/s), or in lengthening.
 struct PaperCase {
   std::string muscle;
   bool shortening = true;

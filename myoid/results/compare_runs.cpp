@@ -21,9 +21,9 @@
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/intervals/estimate_columns.h"
+#include "myoid/report/read_gates.h"
 #include "myoid/report/tables.h"
 #include "myoid/results/change_sentences.h"
-#include "myoid/results/read_gates.h"
 #include "myoid/study/run_identity.h"
 
 namespace myoid {
@@ -252,7 +252,7 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   comparison.unlike = std::move(unlike.grave);
   std::ranges::move(unlike.other, std::back_inserter(comparison.unlike));
   const auto add_failed = [&](std::string_view which, const std::filesystem::path& folder) {
-    if (const UnpassedGates gates = read_gates(folder); !gates.failed.empty())
+    if (const report::UnpassedGates gates = report::read_gates(folder); !gates.failed.empty())
       comparison.failed.push_back(fmt::format("the {} session failed: {}", which, fmt::join(gates.failed, "; ")));
   };
   add_failed("first", first);

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "myoid/commands/muscle.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/commands/simulate.h"
+#include "myoid/files/output_file.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -117,7 +117,7 @@ py::dict muscle_command(py::dict given) {
       std::vector<std::string> inputs{o.muscle};
       for (const auto* files : {&o.lengths, &o.activation, &o.excitation, &o.measured})
         inputs.insert(inputs.end(), files->begin(), files->end());
-      commands::check_output(out, inputs, overwrite);
+      recording::check_output(out, inputs, overwrite);
     }
     commands::MuscleResult r = commands::muscle(o);
     if (!out.empty()) commands::write_muscle(r, out);
@@ -180,7 +180,7 @@ py::dict simulate(py::dict given) {
   o.call = work.call();
   commands::SimulateResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) commands::protect_files(out, commands::kSimulateFiles, {o.model, o.excitations});
+    if (!out.empty()) recording::protect_files(out, commands::kSimulateFiles, {o.model, o.excitations});
     commands::SimulateResult r = commands::simulate(o);
     if (!out.empty()) commands::write_simulate(r, out);
     folder.finish();

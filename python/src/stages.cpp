@@ -5,11 +5,11 @@
 #include "myoid/commands/emg.h"
 #include "myoid/commands/id.h"
 #include "myoid/commands/ik.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/commands/paths.h"
 #include "myoid/commands/run_tool.h"
 #include "myoid/commands/so.h"
 #include "myoid/commands/sweep.h"
+#include "myoid/files/output_file.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -112,9 +112,9 @@ py::dict ik(py::dict given) {
   o.call = work.call();
   commands::IkResult result = work.run([&] {
     if (!out.empty()) {
-      commands::check_output(out, {o.model, o.markers}, overwrite);
-      commands::check_companion(commands::marker_errors_path(out), {o.model, o.markers}, overwrite,
-                                commands::kMarkerErrorsBegin);
+      recording::check_output(out, {o.model, o.markers}, overwrite);
+      recording::check_companion(commands::marker_errors_path(out), {o.model, o.markers}, overwrite,
+                                 commands::kMarkerErrorsBegin);
     }
     commands::IkResult r = commands::ik(o);
     if (!out.empty()) commands::write_ik(r, out);
@@ -154,7 +154,7 @@ py::dict id(py::dict given) {
   k.refuse_others();
   o.call = work.call();
   commands::IdResult result = work.run([&] {
-    if (!out.empty()) commands::check_output(out, {o.model, o.motion, o.speeds, o.accelerations, o.loads}, overwrite);
+    if (!out.empty()) recording::check_output(out, {o.model, o.motion, o.speeds, o.accelerations, o.loads}, overwrite);
     commands::IdResult r = commands::id(o);
     if (!out.empty()) commands::write_id(r, out);
     return r;
@@ -184,7 +184,7 @@ py::dict paths(py::dict given) {
   o.call = work.call();
   commands::PathsResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) commands::protect_files(out, commands::kPathsFiles, {o.model, o.motion, o.surrogates});
+    if (!out.empty()) recording::protect_files(out, commands::kPathsFiles, {o.model, o.motion, o.surrogates});
     commands::PathsResult r = commands::paths(o);
     if (!out.empty()) commands::write_paths(r, out);
     folder.finish();
@@ -216,7 +216,7 @@ py::dict sweep(py::dict given) {
   o.call = work.call();
   commands::SweepResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) commands::protect_files(out, commands::kSweepFiles, {o.model});
+    if (!out.empty()) recording::protect_files(out, commands::kSweepFiles, {o.model});
     commands::SweepResult r = commands::sweep(o);
     if (!out.empty()) (void)commands::write_sweep(r, out);
     folder.finish();
@@ -266,7 +266,7 @@ py::dict so(py::dict given) {
   o.call = work.call();
   commands::SoResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) commands::protect_files(out, commands::kSoFiles, {o.model, o.motion, o.emg, o.loads});
+    if (!out.empty()) recording::protect_files(out, commands::kSoFiles, {o.model, o.motion, o.emg, o.loads});
     commands::SoResult r = commands::so(o);
     if (!out.empty()) commands::write_so(r, out);
     folder.finish();

@@ -8,11 +8,11 @@
 #include "myoid/commands/compare.h"
 #include "myoid/commands/design.h"
 #include "myoid/commands/identify.h"
-#include "myoid/commands/output_file.h"
 #include "myoid/commands/predict.h"
 #include "myoid/commands/run.h"
 #include "myoid/core/choice.h"
 #include "myoid/core/error.h"
+#include "myoid/files/output_file.h"
 #include "myoid/mat/results_mat.h"
 
 #include "bindings.h"
@@ -75,7 +75,7 @@ py::dict check(py::dict given) {
 void prepare_mat(const std::string& file, const std::string& input, bool overwrite) {
   if (file.empty()) return;
   check_mat_file(file);
-  commands::check_output(file, {input}, overwrite);
+  recording::check_output(file, {input}, overwrite);
 }
 
 py::dict run(py::dict given) {
@@ -169,7 +169,7 @@ py::dict identify(py::dict given) {
   const Done done = work.run([&] {
     prepare_mat(mat, o.muscles.string(), overwrite);
     ResultOut folder(out, o.call, overwrite);
-    commands::protect_files(out, commands::kIdentifyFiles, {o.muscles.string()});
+    recording::protect_files(out, commands::kIdentifyFiles, {o.muscles.string()});
     const commands::IdentifyResult r = commands::identify(o);
     commands::write_identify(r, out);
     if (!mat.empty()) write_results_mat(out, mat);

@@ -1,4 +1,4 @@
-#include "myoid/commands/output_file.h"
+#include "myoid/files/output_file.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 #include "myoid/files/input_log.h"
 #include "myoid/files/result_record.h"
 
-namespace myoid::commands {
+namespace myoid::recording {
 
 void check_output(const std::filesystem::path& path, const std::vector<std::string>& inputs, bool overwrite) {
   namespace fs = std::filesystem;
@@ -22,8 +22,7 @@ void check_output(const std::filesystem::path& path, const std::vector<std::stri
           "{} is an input of this command and would be replaced by its result; give another --out", path.string()));
     }
   }
-  if (!overwrite && fs::is_regular_file(path, ignored) &&
-      recording::standing_of(path) != recording::Standing::unfinished) {
+  if (!overwrite && fs::is_regular_file(path, ignored) && standing_of(path) != Standing::unfinished) {
     throw InvalidInput(
         fmt::format("{} exists already; give --overwrite to replace it, or another --out", path.string()));
   }
@@ -36,7 +35,7 @@ void check_companion(const std::filesystem::path& path,
   check_output(path, inputs, overwrite);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return;
-  if (!recording::begins_with(path, begins))
+  if (!begins_with(path, begins))
     throw InvalidInput(fmt::format(
         "{} stands in the way of a second file of this command and does not begin with '{}', as its results do; move "
         "it elsewhere, or give another --out",
@@ -59,8 +58,7 @@ void protect_files(const std::filesystem::path& folder,
           fmt::format("{} is an input of this command and would be replaced by a result; give another --out", input));
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (!entry.is_directory(ignored) && is_result(entry.path().filename().string()))
-      recording::require_replaceable(entry.path());
+    if (!entry.is_directory(ignored) && is_result(entry.path().filename().string())) require_replaceable(entry.path());
 }
 
-}  // namespace myoid::commands
+}  // namespace myoid::recording

@@ -1,4 +1,4 @@
-#include "myoid/commands/study_days.h"
+#include "myoid/results/study_days.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid::commands {
+namespace myoid {
 namespace {
 
 TEST(StudyDays, AreThoseThatTheFilesStateEachOnceInOrder) {
@@ -27,4 +27,4 @@ TEST(StudyDays, AreThoseThatTheFilesStateEachOnceInOrder) {
 }
 
 }  // namespace
-}  // namespace myoid::commands
+}  // namespace myoid

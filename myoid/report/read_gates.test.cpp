@@ -1,15 +1,15 @@
-#include "myoid/results/read_gates.h"
+#include "myoid/report/read_gates.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/text_file.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/report/write_report.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::report {
 namespace {
 
 using report::GateStatus;
@@ -38,4 +38,4 @@ TEST(ReadGates, RefuseADamagedReport) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::report

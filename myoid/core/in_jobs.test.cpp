@@ -1,11 +1,11 @@
-#include "myoid/commands/in_jobs.h"
+#include "myoid/core/in_jobs.h"
 
 #include <array>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
-namespace myoid::commands {
+namespace myoid {
 namespace {
 
 TEST(InJobs, EveryNumberIsMetOnceByAnyNumberOfJobs) {
@@ -29,4 +29,4 @@ TEST(InJobs, AnExceptionEndsTheJobsAndReachesTheCaller) {
 }
 
 }  // namespace
-}  // namespace myoid::commands
+}  // namespace myoid

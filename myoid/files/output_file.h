@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace myoid::commands {
+namespace myoid::recording {
 
 /// Checks the file of a result. Throws InvalidInput with the remedy if `path` is empty, is one of
 /// the `inputs` (with `overwrite` too), or exists and `overwrite` is not given. A file that the same command left in an
@@ -25,4 +25,4 @@ void protect_files(const std::filesystem::path& folder,
                    const std::vector<std::string_view>& results,
                    const std::vector<std::string>& inputs);
 
-}  // namespace myoid::commands
+}  // namespace myoid::recording

@@ -1,4 +1,4 @@
-#include "myoid/results/read_gates.h"
+#include "myoid/report/read_gates.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 #include "myoid/files/text_file.h"
 #include "myoid/report/tables.h"
 
-namespace myoid {
+namespace myoid::report {
 
 UnpassedGates read_gates(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "report.json";
@@ -27,4 +27,4 @@ UnpassedGates read_gates(const std::filesystem::path& folder) {
   return gates;
 }
 
-}  // namespace myoid
+}  // namespace myoid::report

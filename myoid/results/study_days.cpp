@@ -1,4 +1,4 @@
-#include "myoid/commands/study_days.h"
+#include "myoid/results/study_days.h"
 
 #include <chrono>
 #include <set>
@@ -7,7 +7,7 @@
 #include "myoid/core/day_text.h"
 #include "myoid/recording/recorded_day.h"
 
-namespace myoid::commands {
+namespace myoid {
 
 void add_days(StudyResult& result) {
   using namespace std::chrono;
@@ -21,4 +21,4 @@ void add_days(StudyResult& result) {
   result.recorded.assign(recorded.begin(), recorded.end());
 }
 
-}  // namespace myoid::commands
+}  // namespace myoid

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace myoid {
+namespace myoid::report {
 
 /// The questions that a finished run did not pass.
 struct UnpassedGates {
@@ -14,4 +14,4 @@ struct UnpassedGates {
 /// Reads the gates of a folder's report.json; none without that file. Throws ReadError for a damaged one.
 [[nodiscard]] UnpassedGates read_gates(const std::filesystem::path& folder);
 
-}  // namespace myoid
+}  // namespace myoid::report

@@ -11,7 +11,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-namespace myoid::commands {
+namespace myoid {
 
 /// Calls `body(i)` for 0 .. count - 1 on `jobs` threads, each with its share of the program's
 /// threads; after the first exception no further number begins, and the exception is rethrown.
@@ -41,4 +41,4 @@ void in_jobs(std::size_t count, std::size_t jobs, const Body& body) {
   if (error) std::rethrow_exception(error);
 }
 
-}  // namespace myoid::commands
+}  // namespace myoid
