@@ -8,6 +8,9 @@
 
 namespace myoid::recording {
 
+/// A coordinate beyond is no measurement [m]: 1000 km.
+inline constexpr double kFarthest_m = 1e6;
+
 /// Markers of a file, in meters.
 struct MarkerFile {
   MarkerSeries markers;

@@ -44,21 +44,27 @@ void require_unique(const std::vector<std::string>& names, std::size_t line, con
   }
 }
 
-/// Makes a gap of a marker that lacks a coordinate, and of 0 0 0 in formats where that means "not seen".
+/// Makes a gap of a marker that lacks a coordinate or is beyond kFarthest_m, and of 0 0 0 in formats where that means
+/// "not seen".
 void make_gaps(const TableNumbers& numbers, bool zero_is_missing, MarkerFile& file) {
   Eigen::MatrixXd& positions = file.markers.positions_m;
-  Eigen::Index zeros = 0, partial = 0;
-  std::size_t partial_line = 0;
+  Eigen::Index zeros = 0, partial = 0, distant = 0;
+  std::size_t partial_line = 0, distant_line = 0;
   for (Eigen::Index m = 0; 3 * m < positions.cols(); ++m) {
     for (Eigen::Index row = 0; row < positions.rows(); ++row) {
       auto p = positions.block<1, 3>(row, 3 * m);
       const bool zero = zero_is_missing && p.isZero(0.0);
       if (zero) ++zeros;
       if (!p.allFinite() && !p.array().isNaN().all() && ++partial == 1) partial_line = numbers.lines[at(row)];
-      if (zero || !p.allFinite()) p.setConstant(kNan);
+      const bool far = (p.array().abs() > kFarthest_m).any();
+      if (far && ++distant == 1) distant_line = numbers.lines[at(row)];
+      if (zero || far || !p.allFinite()) p.setConstant(kNan);
     }
   }
   if (zeros > 0) file.repairs.push_back({0, fmt::format("{} positions are 0 0 0, which is a gap here", zeros)});
+  if (distant > 0)
+    file.repairs.push_back(
+        {distant_line, fmt::format("{} positions are more than 1000 km away; taken as missing", distant)});
   if (partial > 0)
     file.repairs.push_back(
         {partial_line, fmt::format("only some coordinates of a position, {} times; taken as missing", partial)});

@@ -46,6 +46,15 @@ TEST(MarkerTable, TrajectoriesOfNexusAreRead) {
   EXPECT_TRUE(m.missing(1, 1));
 }
 
+TEST(MarkerTable, APositionBeyondTheEarthIsMissingAndNamed) {
+  std::string text = kVicon;
+  text.replace(text.find("4,5,6"), 5, "4,1e300,6");
+  const MarkerFile file = parse_marker_table(text, "n.csv");
+  EXPECT_TRUE(file.markers.missing(2, 1));
+  EXPECT_FALSE(file.markers.missing(2, 0));
+  EXPECT_THAT(file.repairs.back().message, HasSubstr("1000 km"));
+}
+
 TEST(MarkerTable, QualisysRowsAreReadWithAndWithoutFrameAndTime) {
   for (const bool with_time : {false, true}) {
     std::string text = kQualisys;

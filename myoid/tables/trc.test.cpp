@@ -48,6 +48,16 @@ TEST(Trc, BecomesMetersWhateverTheUnit) {
   EXPECT_DOUBLE_EQ(parse_trc(text, "f.trc").markers.positions_m(0, 0), 100.0);
 }
 
+TEST(Trc, AMarkerBeyondTheEarthIsMissingAndNamed) {
+  MarkerSeries markers = two_markers();
+  for (const double far_m : {1e5, 1e7, 1e297}) {
+    markers.positions_m(1, 3) = far_m;
+    const MarkerFile file = parse_trc(format_trc(markers, "f.trc"), "f.trc");
+    EXPECT_EQ(file.markers.missing(1, 1), far_m > 1e6);
+    EXPECT_EQ(file.repairs.size(), far_m > 1e6 ? 1U : 0U);
+  }
+}
+
 TEST(Trc, UnitsAreReadInAnyCase) {
   for (const auto& [word, factor] : {std::pair("M", 1000.0), std::pair("MM", 1.0), std::pair("Cm", 10.0)}) {
     std::string text = format_trc(two_markers(), "f.trc");

@@ -307,20 +307,23 @@ class TrcFrames {
     }
   }
 
-  /// Makes a gap of a marker at 0 0 0 or without one of its coordinates.
+  /// Makes a gap of a marker at 0 0 0, beyond kFarthest_m or without one of its coordinates.
   void mark_missing(std::size_t line) {
     const auto row = static_cast<Eigen::Index>(time_.size());
     for (std::size_t m = 0; m < header_.names.size(); ++m) {
       auto position = values_.block<1, 3>(row, static_cast<Eigen::Index>(3 * m));
       const bool zero = (position.array() == 0.0).all();
+      const bool far = (position.array().abs() > kFarthest_m).any();
       if (zero) mark(zero_line_, line);
+      if (far) mark(far_line_, line);
       if (position.hasNaN() && !position.array().isNaN().all()) mark(partial_line_, line);
-      if (zero || !position.allFinite()) position.setConstant(kNan);
+      if (zero || far || !position.allFinite()) position.setConstant(kNan);
     }
   }
 
   void state_what_was_mended() {
     note(zero_line_, "a marker at exactly 0 0 0 is taken as missing");
+    note(far_line_, "a marker is more than 1000 km away; taken as missing");
     note(comma_line_, "comma decimals read as decimal points");
     note(short_line_, "a row ends early; the markers behind its end are taken as missing");
     note(partial_line_, "a marker has only some of its coordinates; taken as missing");
@@ -356,7 +359,7 @@ class TrcFrames {
   std::vector<double> time_;
   Eigen::MatrixXd values_;
   std::vector<Repair> repairs_;
-  std::size_t zero_line_ = 0, repeated_line_ = 0, short_line_ = 0;
+  std::size_t zero_line_ = 0, far_line_ = 0, repeated_line_ = 0, short_line_ = 0;
   std::size_t surplus_line_ = 0, comma_line_ = 0, partial_line_ = 0;
 };
 
