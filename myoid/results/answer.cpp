@@ -10,6 +10,7 @@
 #include "myoid/core/wrapped_text.h"
 #include "myoid/design/design_study.h"
 #include "myoid/files/quoted_text.h"
+#include "myoid/math/statistics.h"
 #include "myoid/report/light.h"
 #include "myoid/report/muscle_names.h"
 #include "myoid/report/plain_unit.h"
@@ -102,14 +103,27 @@ std::string count_sentences(const IdentificationResult& fit, std::size_t muscle_
 }
 
 /// Returns how well the fit predicts what it left out, with a blank before it; empty without folds.
+/// Returns true if R2 tells something of the torque: its standard deviation is 5 % of its root mean square or more.
+bool varies(const identification::Score& score) {
+  constexpr double kShare = 0.05;
+  const double variance = score.sst / score.n;
+  return score.n > 0.0 && variance > kShare * kShare * (variance + score.mean_nm * score.mean_nm);
+}
+
 std::string fold_sentence(const std::vector<identification::Fold>& folds, std::string_view left_out) {
-  if (folds.empty()) return "";
-  // Of all together: the torque of a single trial may hardly vary, and its R2 then says nothing.
+  std::vector<double> ours, theirs;
+  for (const identification::Fold& f : folds) {
+    if (!varies(f.identified)) continue;
+    ours.push_back(f.identified.r2());
+    theirs.push_back(f.literature.r2());
+  }
+  if (ours.empty()) return "";
+  const std::string of =
+      ours.size() == folds.size() ? "median" : fmt::format("median of {} whose torque varies", ours.size());
   return fmt::format(
-      " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (all together; 1 is perfect, the "
-      "literature's muscles with a best gain reach {:.2f}).",
-      left_out, explained(folds, &identification::Fold::identified).r2(),
-      explained(folds, &identification::Fold::literature).r2());
+      " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} ({}; 1 is perfect, the literature's "
+      "muscles with a best gain reach {:.2f}).",
+      left_out, math::median(std::move(ours)), of, math::median(std::move(theirs)));
 }
 
 /// Returns how many intervals of a virtual person hold the truth; empty: no truth is known.

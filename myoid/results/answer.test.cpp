@@ -138,5 +138,22 @@ TEST(AnswerText, AsksForAMovementOnlyIfItTellsMore) {
   EXPECT_THAT(text_after(0.0198, Verdict::identified), HasSubstr("and 1 more would be identified"));
 }
 
+TEST(FitSentences, TakeTheR2OfTrialsWhoseTorqueVaries) {
+  StudyResult result;
+  result.fit.methods = {triceps()};
+  const auto fold = [](double spread_nm, double error_nm) {
+    identification::Fold f;
+    f.identified = f.literature = {
+        .n = 100.0, .sse = 100.0 * error_nm * error_nm, .sst = 100.0 * spread_nm * spread_nm, .mean_nm = 2.0};
+    return f;
+  };
+  result.folds = {fold(1.0, 0.5), fold(0.0, 0.7), fold(0.01, 0.7)};
+  EXPECT_THAT(fit_sentences(result, false), HasSubstr("R2 of 0.75 (median of 1 whose torque varies"));
+  result.folds.resize(1);
+  EXPECT_THAT(fit_sentences(result, false), HasSubstr("R2 of 0.75 (median;"));
+  result.folds = {fold(0.01, 0.7)};
+  EXPECT_THAT(fit_sentences(result, false), ::testing::Not(HasSubstr("R2 of")));
+}
+
 }  // namespace
 }  // namespace myoid

@@ -128,9 +128,9 @@ Explained explained(const IdentificationResult& fit, bool calibration) {
   return pool.result();
 }
 
-Explained explained(const std::vector<Fold>& folds, identification::Score Fold::*score) {
+Explained explained(const std::vector<Fold>& folds) {
   Pool pool;
-  for (const Fold& f : folds) pool.add(f.joint, f.*score);
+  for (const Fold& f : folds) pool.add(f.joint, f.band);
   return pool.result();
 }
 

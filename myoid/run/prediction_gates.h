@@ -32,9 +32,8 @@ struct Explained {
 
 /// Returns the explained share of the fitted trials (`calibration`), or of the held-back trials.
 [[nodiscard]] Explained explained(const identification::IdentificationResult& fit, bool calibration);
-/// Returns the explained share of the trials that are left out in turn, by default of the torque below 1.5 Hz.
-[[nodiscard]] Explained explained(const std::vector<identification::Fold>& folds,
-                                  identification::Score identification::Fold::*score = &identification::Fold::band);
+/// Returns the explained share of the trials that are left out in turn.
+[[nodiscard]] Explained explained(const std::vector<identification::Fold>& folds);
 
 /// A left-out trial with a prediction error that chance does not explain.
 struct OutlyingFold {
