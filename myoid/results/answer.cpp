@@ -1,7 +1,6 @@
 #include "myoid/results/answer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -118,8 +117,7 @@ std::string fold_sentence(const std::vector<identification::Fold>& folds, std::s
     theirs.push_back(f.literature.r2());
   }
   if (ours.empty()) return "";
-  const std::string of =
-      ours.size() == folds.size() ? "median" : fmt::format("median of {} whose torque varies", ours.size());
+  const std::string of = ours.size() == folds.size() ? "median" : fmt::format("median of {} that vary", ours.size());
   return fmt::format(
       " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} ({}; 1 is perfect, the literature's "
       "muscles with a best gain reach {:.2f}).",
@@ -152,9 +150,8 @@ std::string reason_lines(const report::Gate& gate, std::size_t width) {
 std::string light_lines(const std::vector<report::Gate>& gates, std::size_t width) {
   const report::Light light = report::light_of(gates);
   std::string text = wrapped(fmt::format("{}. {}{}", light.head, light.answered, light.leads_to), width);
-  for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i) {
+  for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i)
     text += reason_lines(light.reasons[i], width);
-  }
   if (light.reasons.size() > kMostReasons) text += fmt::format("- and {} more\n", light.reasons.size() - kMostReasons);
   return text;
 }

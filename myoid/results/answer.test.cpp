@@ -148,7 +148,7 @@ TEST(FitSentences, TakeTheR2OfTrialsWhoseTorqueVaries) {
     return f;
   };
   result.folds = {fold(1.0, 0.5), fold(0.0, 0.7), fold(0.01, 0.7)};
-  EXPECT_THAT(fit_sentences(result, false), HasSubstr("R2 of 0.75 (median of 1 whose torque varies"));
+  EXPECT_THAT(fit_sentences(result, false), HasSubstr("R2 of 0.75 (median of 1 that vary"));
   result.folds.resize(1);
   EXPECT_THAT(fit_sentences(result, false), HasSubstr("R2 of 0.75 (median;"));
   result.folds = {fold(0.01, 0.7)};

@@ -1,11 +1,9 @@
 #include "myoid/results/comparison_report.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,6 @@
 #include "myoid/results/methods_text.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "myoid/results/norm_bands.h"
 
 #include <algorithm>
-#include <string>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "myoid/results/references.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 

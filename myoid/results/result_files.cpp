@@ -1,6 +1,5 @@
 #include "myoid/results/result_files.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "myoid/results/simulation_files.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

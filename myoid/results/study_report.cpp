@@ -1,7 +1,6 @@
 #include "myoid/results/study_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

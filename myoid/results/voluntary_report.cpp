@@ -1,7 +1,6 @@
 #include "myoid/results/voluntary_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
