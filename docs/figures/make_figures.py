@@ -143,6 +143,8 @@ class Browser:
     def picture(self, p, address):
         """The bytes of a picture."""
         self.open(address, p.width, p.height)
+        # A picture reaches beyond the view, where a browser leaves sections out.
+        self.value("document.querySelectorAll('main > section').forEach(s => s.style.contentVisibility = 'visible')")
         if p.script:
             self.value(f"(async () => {{{p.script}}})()")
         time.sleep(1.0)  # the body is drawn in the next frames
