@@ -50,7 +50,7 @@ struct Computed {
 std::string given_study(const std::string& model, bool angles) {
   const StudyResult& run = Computed::get().result;
   std::string text = model +
-                     "[motion]\nsmoothing = \"none\"\n[phases]\nsearch = false\n[emg]\nkind = \"activation\"\n"
+                     "[motion]\nsmoothing = \"none\"\n[emg]\nkind = \"activation\"\n"
                      "[identify]\nmethod = [\"torque\"]\ncross_validate = false\nnext_movements = 0\n";
   if (!run.source.study.identify.elastic_tendon) text += "tendon = \"rigid\"\n";
   for (const identification::MuscleSetup& muscle : muscle_setups(run.source.study, *run.source.model)) {

@@ -39,6 +39,9 @@ TimeSeries frequency_of(const EmgScale& scale, const TrialResult& trial, double 
   return signals::median_frequency(raw, options);
 }
 
+/// Returns false for a trial that gives its stages without the joint's angle.
+bool has_speed(const identification::TrialData& trial) { return trial.velocity_radps.size() == trial.time_s.size(); }
+
 const TrialResult* result_of(const std::vector<TrialResult>& trials, const std::string& name) {
   const auto found = std::ranges::find_if(trials, [&](const TrialResult& t) { return t.spec.name == name; });
   return found == trials.end() ? nullptr : &*found;
@@ -94,8 +97,9 @@ identification::StudyData plain_data(const FitSource& source, identification::St
 std::vector<TrialPhases> study_phases(const FitSource& source,
                                       const identification::StudyData& of_study,
                                       identification::EstimatorOptions options) {
-  const bool worth_a_fit =
-      std::ranges::any_of(of_study.trials, [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
+  if (std::ranges::none_of(of_study.trials, has_speed)) return {};
+  const bool worth_a_fit = std::ranges::any_of(
+      of_study.trials, [](const auto& t) { return t.calibration && has_speed(t) && duration_s(t) >= kShortest_s; });
   const identification::StudyData data = worth_a_fit ? plain_data(source, of_study) : of_study;
   identification::IdentificationResult fit;
   if (worth_a_fit) {
@@ -108,6 +112,10 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
   }
   std::vector<TrialPhases> all;
   for (const identification::TrialData& trial : data.trials) {
+    if (!has_speed(trial)) {
+      all.push_back({trial.name, {}});
+      continue;
+    }
     PhaseSignals signals{.time_s = trial.time_s, .velocity_radps = trial.velocity_radps, .torque_nm = trial.torque_nm};
     if (worth_a_fit) {
       identification::Prediction prediction = identification::predict(data, trial, fit.values, options.lag);
