@@ -1,6 +1,7 @@
 #include "myoid/study/run_record.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,12 @@ std::optional<double> number_of(const json& run, const char* key) {
   const auto found = run.find(key);
   if (found == run.end() || !found->is_number()) return std::nullopt;
   return found->get<double>();
+}
+
+/// Returns how many of the last parts of two paths are the same: 2 of "a/1/l.sto" and "b/1/l.sto".
+std::ptrdiff_t common_end(const fs::path& a, const fs::path& b) {
+  const std::vector<fs::path> x(a.begin(), a.end()), y(b.begin(), b.end());
+  return std::mismatch(x.rbegin(), x.rend(), y.rbegin(), y.rend()).first - x.rbegin();
 }
 
 }  // namespace
@@ -46,11 +53,13 @@ RunRecord read_run_record(const fs::path& folder) {
 void refuse_changed(const std::vector<InputFile>& inputs, const RunRecord& run, const fs::path& but) {
   for (const InputFile& now : inputs) {
     const fs::path name = fs::path(now.path).filename();
-    // The trials of a study may have files of one name in folders of their own.
-    const auto of_name = [&](const InputFile& recorded) { return name == fs::path(recorded.path).filename(); };
-    const auto same = [&](const InputFile& recorded) { return of_name(recorded) && recorded.sha256 == now.sha256; };
-    if (name == but.filename() || std::ranges::none_of(run.inputs, of_name) || std::ranges::any_of(run.inputs, same))
-      continue;
+    if (name == but.filename()) continue;
+    // The trials of a study may have files of one name in folders of their own: the nearest path counts.
+    std::ptrdiff_t nearest = 1;  // the name
+    for (const InputFile& recorded : run.inputs) nearest = std::max(nearest, common_end(recorded.path, now.path));
+    const auto is_nearest = [&](const InputFile& recorded) { return common_end(recorded.path, now.path) == nearest; };
+    const auto same = [&](const InputFile& recorded) { return is_nearest(recorded) && recorded.sha256 == now.sha256; };
+    if (std::ranges::none_of(run.inputs, is_nearest) || std::ranges::any_of(run.inputs, same)) continue;
     throw ReadError(
         now.path, 0,
         fmt::format("has changed since the run in {}; run the study again (myoid run)", run.folder.string()));

@@ -23,7 +23,8 @@ struct RunRecord {
 /// Reads run.json of a run's folder. Throws ReadError for another file or one that does not name its study.
 [[nodiscard]] RunRecord read_run_record(const std::filesystem::path& folder);
 
-/// Throws ReadError for a recording that differs from the run's. Files of the name `but` may differ.
+/// Throws ReadError for a recording that differs from the run's: of files of one name, the one whose folders agree
+/// most. Files of the name `but` may differ.
 void refuse_changed(const std::vector<InputFile>& inputs, const RunRecord& run, const std::filesystem::path& but = {});
 
 }  // namespace myoid

@@ -33,6 +33,9 @@ TEST(RunRecord, HoldsWhatARunIsComputedAgainBy) {
   twins.inputs = {{"1/l.sto", "ab"}, {"2/l.sto", "cd"}};
   EXPECT_NO_THROW(refuse_changed({{"/there/1/l.sto", "ab"}, {"/there/2/l.sto", "cd"}}, twins));
   EXPECT_THROW(refuse_changed({{"/there/1/l.sto", "ab"}, {"/there/2/l.sto", "ce"}}, twins), ReadError);
+  EXPECT_THROW(refuse_changed({{"/there/1/l.sto", "cd"}, {"/there/2/l.sto", "ab"}}, twins), ReadError) << "exchanged";
+  EXPECT_NO_THROW(refuse_changed({{"/there/3/l.sto", "cd"}}, twins));
+  EXPECT_THROW(refuse_changed({{"/there/3/l.sto", "ce"}}, twins), ReadError);
 }
 
 TEST(RunRecord, AFileThatIsNoneIsRefused) {
