@@ -128,6 +128,7 @@ report::Table table_of(const SweepResult& result) {
 }  // namespace
 
 SweepResult sweep(const SweepOptions& o) {
+  if (o.call.start_s || o.call.end_s) throw InvalidInput("--sweep has no times: leave out --start and --end");
   Remarks remarks(o.call);
   const model::BodyModel model = load_model(o.model, o.compat, remarks);
   const Asked asked = parse(model, o.coordinate);

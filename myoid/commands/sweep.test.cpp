@@ -92,6 +92,11 @@ TEST(Sweep, NamesTheCoordinatesAndMusclesThatAreThere) {
   for (const char* wrong : {"elbow_flexion=", "elbow_flexion=90", "elbow_flexion=a:b", "elbow_flexion=90:10"})
     EXPECT_FALSE(message(wrong).empty()) << wrong;
   EXPECT_EQ(message("elbow_flexion", {"BIC"}), "");
+  SweepOptions timed;
+  timed.model = "arm4";
+  timed.coordinate = "elbow_flexion";
+  timed.call.end_s = 2.0;
+  EXPECT_THROW((void)sweep(timed), InvalidInput);
 }
 
 }  // namespace

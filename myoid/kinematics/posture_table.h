@@ -13,7 +13,7 @@ namespace myoid::kinematics {
 /// targets of a frame says of all postures how well they fit: a search begins near each of the minima.
 class PostureTable {
  public:
-  /// Where a marker was seen from the base.
+  /// The place of a marker in the frame of the limb's base, as a frame shows it.
   struct Target {
     Vec3 place_m = Vec3::Zero();
     double weight = 0.0;  ///< 0: the marker was not seen.
