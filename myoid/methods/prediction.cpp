@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_muscle.h"
@@ -118,6 +119,9 @@ struct TrialPredictions::ByPosterior {
         likelihood(data, options, Columns::at_reference) {
     if (likelihood.parameters().size() != fit.solution.size())
       throw std::logic_error("a fit predicts by other unknowns than its own");
+    if (fit.noise.size() < kNoiseFieldCount)
+      throw InvalidInput("the fit has {} sizes of its errors, at least {} belong to it; run the study again",
+                         fit.noise.size(), static_cast<int>(kNoiseFieldCount));
     likelihood.refer_to(fit.solution);  // nothing to do where the search of the options begins there
     unseen = likelihood.unseen_given(fit.solution, fit.noise);
   }

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,11 +24,35 @@ double number(const json& cell) {
   return cell.is_number() ? cell.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-Eigen::VectorXd vector_of(const json& list) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = number(list.at(at(i)));
-  return values;
-}
+/// The lists of numbers of one method in a file. Throws ReadError for a cell that is no number and for another shape.
+struct Numbers {
+  const std::filesystem::path& path;
+  const json& of;
+
+  [[nodiscard]] Eigen::VectorXd vector(std::string_view name) const { return finite(name, of.at(name)); }
+
+  [[nodiscard]] Eigen::MatrixXd square(std::string_view name, Eigen::Index n) const {
+    const json& rows = of.at(name);
+    Eigen::MatrixXd values(n, n);
+    bool is_square = static_cast<Eigen::Index>(rows.size()) == n;
+    for (Eigen::Index i = 0; is_square && i < n; ++i) {
+      const Eigen::VectorXd row = finite(name, rows.at(at(i)));
+      is_square = row.size() == n;
+      if (is_square) values.row(i) = row;
+    }
+    if (!is_square)
+      throw ReadError(path, 0, "\"{}\" is no matrix of {} rows and columns; run the study again", name, n);
+    return values;
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd finite(std::string_view name, const json& list) const {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = number(list.at(at(i)));
+    if (!values.allFinite()) throw ReadError(path, 0, "\"{}\" has a cell that is no number; run the study again", name);
+    return values;
+  }
+};
 
 EmgLag lag_of(const json& method) {
   const json& word = method.at("emg_lag");
@@ -37,22 +62,23 @@ EmgLag lag_of(const json& method) {
   return EmgLag::delay;
 }
 
-identification::IdentificationResult fit_of(const json& method) {
+identification::IdentificationResult fit_of(const std::filesystem::path& path, const json& method) {
+  const Numbers numbers{path, method};
   identification::IdentificationResult fit;
   fit.method = "torque";
   fit.lag = lag_of(method);
   fit.exact = method.at("exact_data").get<bool>();
   fit.torque_sd_nm = number(method.at("torque_sd_nm"));
-  fit.envelope_variance = vector_of(method.at("envelope_variance"));
-  fit.noise = vector_of(method.at("noise"));
+  fit.envelope_variance = numbers.vector("envelope_variance");
+  fit.noise = numbers.vector("noise");
   if (!fit.exact && fit.noise.size() == 0)
     throw InvalidInput("its fit is that of an earlier version, by an estimator that is gone; run the study again");
   const json& covariance = method.at("covariance");
+  const Numbers of_covariance{path, covariance};
   fit.free_parameters = covariance.at("parameters").get<std::vector<std::string>>();
-  fit.solution = vector_of(covariance.at("mean"));
+  fit.solution = of_covariance.vector("mean");
   const auto n = static_cast<Eigen::Index>(fit.free_parameters.size());
-  fit.covariance.resize(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) fit.covariance.row(i) = vector_of(covariance.at("matrix").at(at(i)));
+  fit.covariance = of_covariance.square("matrix", n);
   return fit;
 }
 
@@ -66,7 +92,7 @@ identification::IdentificationResult read_fit(const std::filesystem::path& folde
     const json content = parse_json(recording::read_text_file(path));
     for (const json& method : content.at("methods")) {
       if (method.at("method") != "torque") continue;
-      identification::IdentificationResult fit = fit_of(method);
+      identification::IdentificationResult fit = fit_of(path, method);
       identification::EstimatorOptions as_fitted = options;
       as_fitted.lag = fit.lag;
       const identification::ParameterMap map(data, as_fitted);

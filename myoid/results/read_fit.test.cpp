@@ -1,6 +1,7 @@
 #include "myoid/results/read_fit.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
@@ -45,6 +46,24 @@ TEST(ReadFit, GivesBackTheNumbersThatWereWritten) {
   ASSERT_EQ(read.values.muscles.size(), made.values.muscles.size());
   for (std::size_t k = 0; k < read.values.muscles.size(); ++k)
     EXPECT_EQ(read.values.muscles[k], made.values.muscles[k]);
+}
+
+TEST(ReadFit, RefusesListsOfAnotherLengthAndCellsThatAreNoNumbers) {
+  const test::TemporaryFolder folder;
+  const test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 4.0});
+  const nlohmann::json good = nlohmann::json::parse(parameters_json({made_fit(study, {})}, {}, {}));
+  const auto refuses = [&](const auto& damage) {
+    nlohmann::json content = good;
+    damage(content.at("methods").at(0));
+    recording::write_file(folder / "parameters.json", content.dump());
+    EXPECT_THROW((void)read_fit(folder.path(), study.data, {}), ReadError);
+  };
+  refuses([](auto& method) { method.at("covariance").at("matrix").at(1).push_back(1.0); });
+  refuses([](auto& method) { method.at("covariance").at("matrix").at(1).erase(0); });
+  refuses([](auto& method) { method.at("covariance").at("matrix").erase(0); });
+  refuses([](auto& method) { method.at("covariance").at("matrix").at(0).at(0) = "1"; });
+  refuses([](auto& method) { method.at("covariance").at("mean").at(0) = nullptr; });
+  refuses([](auto& method) { method.at("noise").at(0) = nullptr; });
 }
 
 TEST(ReadFit, RefusesOtherUnknownsAndOtherFiles) {
