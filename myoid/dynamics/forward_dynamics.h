@@ -37,9 +37,9 @@ class ForwardDynamics {
   model::BodyState state_;
   model::AccelerationConstraints constraints_;
   Eigen::MatrixXd mass_;
-  Eigen::MatrixXd allowed_;     ///< Basis of the rates with A qdot = 0.
-  Eigen::VectorXd particular_;  ///< The shortest qddot with A qddot = b.
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd allowed_;                                              ///< Basis of the rates with A qdot = 0.
+  Eigen::VectorXd particular_;                                           ///< The shortest qddot with A qddot = b.
+  Eigen::LLT<Eigen::MatrixXd> factor_{Eigen::MatrixXd::Identity(1, 1)};  ///< Factored: a copy reads its state.
 };
 
 }  // namespace myoid::dynamics

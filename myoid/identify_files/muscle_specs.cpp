@@ -31,10 +31,11 @@ ParameterRule rule_of(const MuscleSetup& setup, const identification::ParameterF
     rule.prior_mean = setup.priors.at(name).mean;
     rule.prior_sd = setup.priors.at(name).sd;
   }
-  const auto at = static_cast<std::size_t>(field.field);
-  const double value = identification::muscle_values(setup.start, setup.extras)[at];
-  const bool beyond = !is_hill(name) && field.field != identification::kSlopeRatio;
-  if (beyond && value != identification::muscle_values(setup.start, {})[at]) rule.value = value;
+  if (!is_hill(name) && field.field < identification::kMuscleFieldCount) {
+    const auto at = static_cast<std::size_t>(field.field);
+    const double value = identification::muscle_values(setup.start, setup.extras)[at];
+    if (value != identification::muscle_values(setup.start, {})[at]) rule.value = value;
+  }
   if (name == "length_activation" && identification::contains(setup.fixed, name)) rule.free = false;
   return rule;
 }

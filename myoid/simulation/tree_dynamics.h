@@ -62,7 +62,7 @@ class TreeDynamics {
   std::vector<Mat3> inertia_;
   std::vector<Vec3> v_origin_;
   std::vector<int> free_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::LLT<Eigen::MatrixXd> factor_{Eigen::MatrixXd::Identity(1, 1)};  ///< Factored: a copy reads its state.
   double kinetic_ = 0.0, potential_ = 0.0;
 };
 
