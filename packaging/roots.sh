@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # usage: packaging/roots.sh build SUITE...          builds the committed tree in an empty root of each suite, and runs it
-#        packaging/roots.sh wheel FOLDER SUITE...   the same, and puts the wheel of the suite's Python into FOLDER
-#        packaging/roots.sh run FOLDER SUITE...     runs the tarball and the wheels of FOLDER (release.sh) in such roots
+#        packaging/roots.sh run FOLDER SUITE...     runs README's lines for the tarball and the wheel of FOLDER (release.sh)
+#                                                   as printed in such roots, pipx and the module of Python, too
+#        packaging/roots.sh deb FOLDER SUITE...     builds Debian's packages there twice (deb.sh), and puts them into FOLDER
 # Suites are those of the archive: bookworm (Debian 12), trixie (13), bullseye (11). It must be root and needs
 # debootstrap. The roots stay in MYOID_ROOTS (build/roots), so that a second call is quicker; DEBIAN_MIRROR names another
 # archive. The last line of each suite says what was done there; the exit code is 1 if one failed.
@@ -9,13 +10,13 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 roots=${MYOID_ROOTS:-$root/build/roots}
 mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
-usage() { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
+usage() { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 [ "$#" -ge 2 ] || usage
 order=$1
 shift
 case $order in
   build) ;;
-  wheel | run) [ "$#" -ge 2 ] || usage; artefacts=$(realpath "$1"); shift ;;
+  run | deb) [ "$#" -ge 2 ] || usage; artefacts=$(realpath "$1"); shift ;;
   *) usage ;;
 esac
 [ "$(id -u)" -eq 0 ] && command -v debootstrap >/dev/null ||
@@ -33,11 +34,12 @@ make_root() {  # make_root SUITE
 
 inside() {  # inside SUITE SCRIPT: the script of standard shell in the root, with /proc
   mountpoint -q "$roots/$1/proc" || mount --bind /proc "$roots/$1/proc"
+  mountpoint -q "$roots/$1/dev" || mount --bind /dev "$roots/$1/dev"
   local status=0
   env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
     SOURCE_DATE_EPOCH="$(git -C "$root" log -1 --format=%ct)" \
     chroot "$roots/$1" sh -euc "$2" >>"$roots/$1.log" 2>&1 || status=$?
-  umount "$roots/$1/proc"
+  umount "$roots/$1/proc" "$roots/$1/dev"
   return "$status"
 }
 
@@ -61,40 +63,53 @@ build_in() {
   echo "built by ./run-demo and by the preset user; the demo ran, in Python too: myoid $(cat "$roots/$1/tmp/version")"
 }
 
-wheel_in() {
-  build_in "$1" >/dev/null || return 1
-  inside "$1" 'cd /src/myoid && rm -rf /tmp/wheels && mkdir /tmp/wheels
-    python3 -c "import sys; sys.path.insert(0, \"python\"); import build_backend
-build_backend.build_wheel(\"/tmp/wheels\", {\"build-dir\": \"build/user\"})"' || return 1
-  cp "$roots/$1"/tmp/wheels/*.whl "$artefacts"
-  echo "wheel: $(basename "$roots/$1"/tmp/wheels/*.whl)"
-}
-
-# The tarball's program, then each wheel that this Python takes.
+# The lines of README that install a file of the release, in an empty folder each. The wheel needs no other package for
+# the program; the module takes NumPy, which need not be within reach in an empty root, from Debian.
 run_in() {
-  rm -rf "$roots/$1/tmp/artefacts" && mkdir -p "$roots/$1/tmp/artefacts"
-  cp "$artefacts"/*.tar.gz "$artefacts"/*.whl "$roots/$1/tmp/artefacts"
-  inside "$1" 'cd /tmp/artefacts
-    tar -xzf myoid-*-$(uname -m).tar.gz
-    ./myoid-*-$(uname -m)/bin/myoid demo --no-open --overwrite --out /tmp/demo_of_tarball
-    [ -s /tmp/demo_of_tarball/result/report.html ]
+  rm -rf "$roots/$1/tmp/release" && mkdir -p "$roots/$1/tmp/release/tarball" "$roots/$1/tmp/release/wheel"
+  cp "$artefacts"/myoid-*-"$(uname -m)".tar.gz "$roots/$1/tmp/release/tarball"
+  cp "$artefacts"/myoid-*.whl "$roots/$1/tmp/release/wheel"
+  readme_line '^tar ' >"$roots/$1/tmp/release/tarball/line"
+  readme_line '^python3 ' >"$roots/$1/tmp/release/wheel/line"
+  inside "$1" 'cd /tmp/release/tarball
+    sh -eux ./line >../said
+    tail -n 1 ../said >../lines
     apt-get update -qq
     apt-get install -y -qq --no-install-recommends python3-venv python3-numpy
-    rm -rf /tmp/env && python3 -m venv --system-site-packages /tmp/env
-    python3 -c "import sys; print(\"cp%d%d\" % sys.version_info[:2])" >/tmp/python
-    rm -f /tmp/wheel && for wheel in myoid-*-$(cat /tmp/python)-*.whl; do
-      [ -e "$wheel" ] || continue
-      /tmp/env/bin/pip install --no-deps --no-index "$wheel"
-      /tmp/env/bin/myoid demo --no-open --overwrite --out /tmp/demo_of_wheel
-      /tmp/env/bin/python -c "import myoid; myoid.run(\"/tmp/demo_of_wheel/recording/study.toml\")"
-      echo "$wheel" >/tmp/wheel
-    done' || return 1
-  local wheel
-  if wheel=$(cat "$roots/$1/tmp/wheel" 2>/dev/null); then
-    echo "the demo ran from the tarball and from $wheel, in Python too"
-  else
-    echo "the demo ran from the tarball; no wheel for its Python ($(cat "$roots/$1/tmp/python"))"
-  fi
+    cd ../wheel
+    PIP_NO_DEPS=1 sh -eux ./line >../said
+    tail -n 1 ../said >>../lines
+    PYTHONPATH=/usr/lib/python3/dist-packages env/bin/python - >../said 2>&1 <<END || tail -n 1 ../said | cut -d "(" -f 1 >>../lines
+import glob, sys, warnings, myoid
+warnings.simplefilter("ignore")
+r = myoid.run(glob.glob("myoid-demo/recording/study.toml")[0])
+print(len(r.parameters), "numbers in Python %d.%d" % sys.version_info[:2], file=open("../lines", "a"))
+END
+    if apt-get install -y -qq --no-install-recommends pipx; then
+      export PIP_NO_INDEX=1 PIP_NO_DEPS=1 PIP_FIND_LINKS=/usr/share/python-wheels USE_EMOJI=0
+      pipx install --force ./myoid-*.whl
+      rm -rf myoid-demo && /root/.local/bin/myoid demo >../said
+      tail -n 1 ../said >>../lines
+    else
+      echo "this suite has none" >>../lines
+    fi' || return 1
+  printf '\n'
+  paste -d ' ' <(printf '    %s\n' tarball: wheel: module: pipx:) "$roots/$1/tmp/release/lines"
+}
+
+readme_line() { sed -n '/^## Get it/,/^## /s/^    //p' "$root/README.md" | grep -e "$1" | head -n 1; }
+
+deb_in() {
+  rm -rf "$roots/$1/src/deb" "$roots/$1/tmp/deb" && mkdir -p "$roots/$1/src"
+  git clone -q --no-hardlinks "$root" "$roots/$1/src/deb" || return 1
+  inside "$1" 'cd /src/deb
+    apt-get update -qq
+    apt-get install -y -qq --no-install-recommends git ca-certificates ccache debhelper dh-python dpkg-dev fakeroot lintian
+    apt-get build-dep -y -qq --no-install-recommends ./
+    git config --global --replace-all safe.directory /src/deb
+    packaging/deb.sh /tmp/deb --twice' || return 1
+  cp "$roots/$1"/tmp/deb/*.deb "$artefacts"
+  echo "built twice, the same bytes: $(cd "$roots/$1/tmp/deb" && ls ./*.deb | tr '\n' ' ')"
 }
 
 # (`set -e` does not hold in a function whose result is tested: each step that may fail returns by itself.)
