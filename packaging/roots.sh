@@ -63,41 +63,64 @@ build_in() {
   echo "built by ./run-demo and by the preset user; the demo ran, in Python too: myoid $(cat "$roots/$1/tmp/version")"
 }
 
-# The lines of README that install a file of the release, in an empty folder each. The wheel needs no other package for
-# the program; the module takes NumPy, which need not be within reach in an empty root, from Debian.
+# The lines of README that install a file of the release, in an empty folder each. An empty root need not reach Python's
+# archive: NumPy is Debian's, packed as a wheel; Debian 11's is too old, and is left out.
 run_in() {
-  rm -rf "$roots/$1/tmp/release" && mkdir -p "$roots/$1/tmp/release/tarball" "$roots/$1/tmp/release/wheel"
-  cp "$artefacts"/myoid-*-"$(uname -m)".tar.gz "$roots/$1/tmp/release/tarball"
-  cp "$artefacts"/myoid-*.whl "$roots/$1/tmp/release/wheel"
-  readme_line '^tar ' >"$roots/$1/tmp/release/tarball/line"
-  readme_line '^python3 ' >"$roots/$1/tmp/release/wheel/line"
+  local place=$roots/$1/tmp/release
+  rm -rf "$place" && mkdir -p "$place/tarball" "$place/wheel" "$place/links"
+  cp "$artefacts"/myoid-*-"$(uname -m)".tar.gz "$place/tarball"
+  cp "$artefacts"/myoid-*.whl "$place/wheel"
+  readme_line '^tar ' >"$place/tarball/line"
+  readme_line '^python3 ' >"$place/wheel/line"
+  readme_line 'pipx install' | sed 's/^`\([^`]*\)`.*/\1/' >"$place/wheel/pipx-line"
+  cat >"$place/pack_numpy.py" <<'END'
+import pathlib, sys, zipfile, numpy
+if tuple(map(int, numpy.__version__.split(".")[:2])) < (1, 24): sys.exit()
+info, place = f"numpy-{numpy.__version__}.dist-info", pathlib.Path(numpy.__file__).parent
+files = {f"{info}/METADATA": f"Metadata-Version: 2.1\nName: numpy\nVersion: {numpy.__version__}\n",
+         f"{info}/WHEEL": "Wheel-Version: 1.0\nGenerator: roots.sh\nRoot-Is-Purelib: true\nTag: py3-none-any\n"}
+with zipfile.ZipFile(f"links/numpy-{numpy.__version__}-py3-none-any.whl", "w") as wheel:
+    names = [f for f in place.rglob("*") if f.is_file() and "tests" not in f.parts and f.suffix != ".pyc"]
+    for file in names: wheel.write(file, file.relative_to(place.parent))
+    for name, text in files.items(): wheel.writestr(name, text)
+    listed = [str(f.relative_to(place.parent)) for f in names] + list(files) + [f"{info}/RECORD"]
+    wheel.writestr(f"{info}/RECORD", "".join(f"{name},,\n" for name in listed))
+END
+  cat >"$place/module.py" <<'END'
+import sys, warnings
+try:
+    import myoid
+    warnings.simplefilter("ignore")
+    r = myoid.run("myoid-demo/recording/study.toml")
+    print(len(r.parameters), "numbers in Python %d.%d" % sys.version_info[:2])
+except ImportError as error:
+    print("ImportError:", str(error).split("(")[0] + "..." + str(error).split(")")[-1])
+END
   inside "$1" 'cd /tmp/release/tarball
     sh -eux ./line >../said
     tail -n 1 ../said >../lines
     apt-get update -qq
     apt-get install -y -qq --no-install-recommends python3-venv python3-numpy
-    cd ../wheel
-    PIP_NO_DEPS=1 sh -eux ./line >../said
+    cd .. && python3 pack_numpy.py && cd wheel
+    export PIP_NO_INDEX=1 PIP_FIND_LINKS="/tmp/release/links /usr/share/python-wheels" USE_EMOJI=0
+    ls ../links/*.whl || export PIP_NO_DEPS=1
+    sh -eux ./line >../said
     tail -n 1 ../said >>../lines
-    PYTHONPATH=/usr/lib/python3/dist-packages env/bin/python - >../said 2>&1 <<END || tail -n 1 ../said | cut -d "(" -f 1 >>../lines
-import glob, sys, warnings, myoid
-warnings.simplefilter("ignore")
-r = myoid.run(glob.glob("myoid-demo/recording/study.toml")[0])
-print(len(r.parameters), "numbers in Python %d.%d" % sys.version_info[:2], file=open("../lines", "a"))
-END
+    env/bin/python ../module.py >>../lines
     if apt-get install -y -qq --no-install-recommends pipx; then
-      export PIP_NO_INDEX=1 PIP_NO_DEPS=1 PIP_FIND_LINKS=/usr/share/python-wheels USE_EMOJI=0
-      pipx install --force ./myoid-*.whl
-      rm -rf myoid-demo && /root/.local/bin/myoid demo >../said
+      rm -rf /root/.local myoid-demo
+      sh -eux ./pipx-line
+      /root/.local/bin/myoid demo >../said
       tail -n 1 ../said >>../lines
     else
-      echo "this suite has none" >>../lines
+      echo "not in this suite" >>../lines
     fi' || return 1
   printf '\n'
-  paste -d ' ' <(printf '    %s\n' tarball: wheel: module: pipx:) "$roots/$1/tmp/release/lines"
+  paste -d ' ' <(printf '    %s\n' tarball: wheel: module: pipx:) "$place/lines"
 }
 
-readme_line() { sed -n '/^## Get it/,/^## /s/^    //p' "$root/README.md" | grep -e "$1" | head -n 1; }
+readme_line() { sed -n '/^## Get it/,/^## /s/^ *//p' "$root/README.md" | grep -e "$1" | head -n 1; }
+
 
 deb_in() {
   rm -rf "$roots/$1/src/deb" "$roots/$1/tmp/deb" && mkdir -p "$roots/$1/src"
