@@ -2,6 +2,7 @@
 # usage: packaging/roots.sh build SUITE...          builds the committed tree in an empty root of each suite, and runs it
 #        packaging/roots.sh run FOLDER SUITE...     runs README's lines for the tarball and the wheel of FOLDER (release.sh)
 #                                                   as printed in such roots, pipx and the module of Python, too
+#        packaging/roots.sh make SUITE...           makes the roots
 #        packaging/roots.sh deb FOLDER SUITE...     builds Debian's packages there twice (deb.sh), and puts them into FOLDER
 # Suites are those of the archive: bookworm (Debian 12), trixie (13), bullseye (11). It must be root and needs
 # debootstrap. The roots stay in MYOID_ROOTS (build/roots), so that a second call is quicker; DEBIAN_MIRROR names another
@@ -10,12 +11,12 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 roots=${MYOID_ROOTS:-$root/build/roots}
 mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
-usage() { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
+usage() { sed -n '2,6s/^# //p' "$0" >&2; exit 2; }
 [ "$#" -ge 2 ] || usage
 order=$1
 shift
 case $order in
-  build) ;;
+  build | make) ;;
   run | deb) [ "$#" -ge 2 ] || usage; artefacts=$(realpath "$1"); shift ;;
   *) usage ;;
 esac
@@ -29,18 +30,18 @@ make_root() {  # make_root SUITE
   rm -rf "$place"
   debootstrap --variant=minbase "$1" "$place" "$mirror" >"$roots/$1.log" 2>&1 || return 1
   cp /etc/resolv.conf "$place/etc" 2>/dev/null || true
+  # What a system with Python has: the wheel's line begins with a virtual environment.
+  inside "$1" 'apt-get update -qq
+    apt-get install -y -qq --no-install-recommends python3-venv python3-numpy' || return 1
   touch "$place/made"
 }
 
+# The mount goes with the process, however that ends: nothing of this system lies in a root that somebody removes.
 inside() {  # inside SUITE SCRIPT: the script of standard shell in the root, with /proc
-  mountpoint -q "$roots/$1/proc" || mount --bind /proc "$roots/$1/proc"
-  mountpoint -q "$roots/$1/dev" || mount --bind /dev "$roots/$1/dev"
-  local status=0
   env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
     SOURCE_DATE_EPOCH="$(git -C "$root" log -1 --format=%ct)" \
-    chroot "$roots/$1" sh -euc "$2" >>"$roots/$1.log" 2>&1 || status=$?
-  umount "$roots/$1/proc" "$roots/$1/dev"
-  return "$status"
+    unshare --mount sh -euc 'mount --bind /proc "$0/proc" && exec chroot "$0" sh -euc "$1"' "$roots/$1" "$2" \
+    >>"$roots/$1.log" 2>&1
 }
 
 # The commands of README: ./run-demo, then the preset for users, whose objects the compiler cache has by then.
@@ -99,8 +100,6 @@ END
   inside "$1" 'cd /tmp/release/tarball
     sh -eux ./line >../said
     tail -n 1 ../said >../lines
-    apt-get update -qq
-    apt-get install -y -qq --no-install-recommends python3-venv python3-numpy
     cd .. && python3 pack_numpy.py && cd wheel
     export PIP_NO_INDEX=1 PIP_FIND_LINKS="/tmp/release/links /usr/share/python-wheels" USE_EMOJI=0
     ls ../links/*.whl || export PIP_NO_DEPS=1
@@ -110,14 +109,15 @@ END
     if apt-get install -y -qq --no-install-recommends pipx; then
       rm -rf /root/.local myoid-demo
       sh -eux ./pipx-line
-      /root/.local/bin/myoid demo >../said
-      tail -n 1 ../said >>../lines
+      /root/.local/bin/myoid --version >>../lines
     else
       echo "not in this suite" >>../lines
     fi' || return 1
   printf '\n'
   paste -d ' ' <(printf '    %s\n' tarball: wheel: module: pipx:) "$place/lines"
 }
+
+make_in() { echo "an empty root is there"; }
 
 readme_line() { sed -n '/^## Get it/,/^## /s/^ *//p' "$root/README.md" | grep -e "$1" | head -n 1; }
 
