@@ -1,6 +1,6 @@
-# Sourced by run-tests --ci: README's lines for tarball and wheel in an empty root of the oldest Debian that they serve, in
-# at most MYOID_ROOTS_TIME seconds. A line that fails there fails the run; no root (no root user, no archive, a file system
-# that may not be mounted) and no time left are said and do not. By hand: packaging/roots.sh run OUT bullseye bookworm trixie
+# Sourced by run-tests --ci: README's lines for tarball and wheel in an empty root of the oldest Debian that they serve,
+# in at most MYOID_ROOTS_TIME seconds. A line that fails there fails the run; no root (not the user root, no archive, no
+# mounts) and no time left are said and do not. By hand: packaging/roots.sh run OUT bullseye bookworm trixie
 (
   cd "$MYOID_ROOT"
   suite=bullseye

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # usage: packaging/python-headers.sh FOLDER
-# Fetches the headers of the Pythons of Debian 11, 12 and 13, and pybind11's that knows them all, by apt, and unpacks them
-# in FOLDER. Nothing is installed. With them one wheel serves all these Pythons:
+# Fetches the headers of the Pythons of Debian 11, 12 and 13, and those of a pybind11 for all of them, by apt, and unpacks
+# them in FOLDER. Nothing is installed. With them one wheel serves all these Pythons:
 #   pip wheel . --no-build-isolation --no-deps --config-settings python-headers=FOLDER
 # DEBIAN_MIRROR names another archive.
 set -euo pipefail
@@ -11,8 +11,9 @@ out=$(realpath "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/lists/partial" "$work/archives/partial"
+archive="[signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] ${DEBIAN_MIRROR:-http://deb.debian.org/debian}"
 for suite in bullseye bookworm trixie; do
-  echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] ${DEBIAN_MIRROR:-http://deb.debian.org/debian} $suite main"
+  echo "deb $archive $suite main"
 done >"$work/sources.list"
 fetch() {  # apt of these sources alone
   apt-get -qq -o Dir::Etc::SourceList="$work/sources.list" -o Dir::Etc::SourceParts=/dev/null \

@@ -60,7 +60,8 @@ cmake --build "$tree" --target myoid
 packaging/tarball.sh "$tree" "$out"
 
 say "wheel"
-wheel="import sys; sys.path.insert(0, 'python'); import build_backend; build_backend.build_wheel(sys.argv[1], {'build-dir': sys.argv[2], 'python-headers': sys.argv[3]})"
+wheel="import sys; sys.path.insert(0, 'python'); import build_backend
+build_backend.build_wheel(sys.argv[1], {'build-dir': sys.argv[2], 'python-headers': sys.argv[3]})"
 headers=build/python-headers
 packaging/python-headers.sh "$headers" || { missing+=("the wheel's modules of other Pythons"); headers=""; }
 python=$(sed -n 's/^MYOID_PYTHON:[A-Z]*=//p' "$tree/CMakeCache.txt")

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # usage: packaging/roots.sh build SUITE...          builds the committed tree in an empty root of each suite, and runs it
-#        packaging/roots.sh run FOLDER SUITE...     runs README's lines for the tarball and the wheel of FOLDER (release.sh)
-#                                                   as printed in such roots, pipx and the module of Python, too
+#        packaging/roots.sh run FOLDER SUITE...     runs README's lines for tarball and wheel of FOLDER (release.sh) as
+#                                                   printed in such roots, pipx and the module of Python, too
 #        packaging/roots.sh make SUITE...           makes the roots
-#        packaging/roots.sh deb FOLDER SUITE...     builds Debian's packages there twice (deb.sh), and puts them into FOLDER
+#        packaging/roots.sh deb FOLDER SUITE...     builds Debian's packages there twice (deb.sh), into FOLDER
 # Suites are those of the archive: bookworm (Debian 12), trixie (13), bullseye (11). It must be root and needs
 # debootstrap. The roots stay in MYOID_ROOTS (build/roots), so that a second call is quicker; DEBIAN_MIRROR names another
 # archive. The last line of each suite says what was done there; the exit code is 1 if one failed.
@@ -127,7 +127,8 @@ deb_in() {
   git clone -q --no-hardlinks "$root" "$roots/$1/src/deb" || return 1
   inside "$1" 'cd /src/deb
     apt-get update -qq
-    apt-get install -y -qq --no-install-recommends git ca-certificates ccache debhelper dh-python dpkg-dev fakeroot lintian
+    apt-get install -y -qq --no-install-recommends ca-certificates ccache debhelper dh-python dpkg-dev fakeroot git \
+      lintian
     apt-get build-dep -y -qq --no-install-recommends ./
     git config --global --replace-all safe.directory /src/deb
     packaging/deb.sh /tmp/deb --twice' || return 1

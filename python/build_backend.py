@@ -92,7 +92,7 @@ def oldest_system(binaries: list[bytes]) -> int:
 
 
 def tag() -> str:
-    """Any Python 3 of any Linux with glibc: the program brings its own C library, and `import myoid` says what it needs."""
+    """Any Python 3 of any Linux with glibc: the program brings its C library, and `import myoid` says what it needs."""
     system = "manylinux_2_17" if platform.libc_ver()[0] == "glibc" else "linux"
     return f"py3-none-{system}_{platform.machine()}"
 
