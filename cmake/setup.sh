@@ -5,7 +5,9 @@
 MYOID_ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 MYOID_BUILD="$MYOID_ROOT/build/release"
 
-# package: why it is needed
+# package: why it is needed. Ubuntu 24.04 has the same names. Fedora's, by reading, not tried: gcc-c++ cmake ninja-build
+# ccache eigen3-devel fmt-devel pugixml-devel tomlplusplus-devel json-devel cli11-devel tbb-devel openssl-devel
+# ceres-solver-devel boost-devel sundials-devel matio-devel pybind11-devel python3-devel.
 MYOID_PACKAGES=(
   "g++:compiler" "cmake:build system" "ninja-build:build system" "ccache:quick rebuilds"
   "libeigen3-dev:linear algebra" "libfmt-dev:text formatting" "libpugixml-dev:.osim files"
@@ -96,11 +98,11 @@ myoid_install_python() {
 }
 
 # Programs that some tests run with: engines of a cohort (Snakemake, which takes longer to install, is left out), Octave
-# for matlab/+myoid, man for the manual pages, Sphinx for the site. Without them these tests are skipped, and say so. CI only: on a
-# workstation Slurm's package would start services.
+# for matlab/+myoid, man for the manual pages, Sphinx for the site, debootstrap for empty roots. Without them these tests
+# are skipped, and say so. CI only: on a workstation Slurm's package would start services.
 myoid_install_test_programs() {
-  local wanted=(parallel slurm-wlm munge octave man-db python3-sphinx python3-myst-parser python3-sphinx-rtd-theme
-                libjs-katex)
+  local wanted=(debootstrap parallel slurm-wlm munge octave man-db python3-sphinx python3-myst-parser
+                python3-sphinx-rtd-theme libjs-katex)
   if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then return 0; fi
   myoid_log "Installing: ${wanted[*]}"
   { myoid_as_root apt-get update -qq && myoid_as_root env DEBIAN_FRONTEND=noninteractive \

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# usage: packaging/release.sh OUT [--build-dir TREE] [--without deb,site,recordings] [--roots "trixie ..."]
+# usage: packaging/release.sh OUT [--build-dir TREE] [--without deb,site,recordings]
 # Makes everything of a release of the committed tree, whose version CMakeLists.txt states:
 #
 #   myoid-VERSION.tar.gz                  sources
 #   myoid-VERSION-ARCH.tar.gz             the program with all its libraries (tarball.sh)
-#   myoid-VERSION-cpNNN-...whl            the wheel of this Python; with --roots also that of each suite's (roots.sh)
+#   myoid-VERSION-py3-none-...whl         the wheel of all Pythons whose headers can be fetched (python-headers.sh)
 #   *.deb                                 Debian's packages, built twice (deb.sh)
 #   myoid-recordings-VERSION.tar.gz       the public recordings of tutorial and examples, where they are at hand
 #   myoid-site-VERSION.tar.gz             the documentation as pages (docs/site/make.sh)
@@ -21,11 +21,10 @@ usage() { sed -n '2s/^# //p' "$0" >&2; exit 2; }
 mkdir -p "$1"
 out=$(realpath "$1")
 shift
-without="" suites="" tree=""
+without="" tree=""
 while [ "$#" -gt 0 ]; do
   case $1 in
     --without) without=,${2:-},; shift 2 ;;
-    --roots) suites=${2:-}; shift 2 ;;
     --build-dir) tree=${2:-}; shift 2 ;;
     *) usage ;;
   esac
@@ -61,10 +60,12 @@ cmake --build "$tree" --target myoid
 packaging/tarball.sh "$tree" "$out"
 
 say "wheel"
-wheel="import sys; sys.path.insert(0, 'python'); import build_backend; build_backend.build_wheel(sys.argv[1], {'build-dir': sys.argv[2]})"
+wheel="import sys; sys.path.insert(0, 'python'); import build_backend
+build_backend.build_wheel(sys.argv[1], {'build-dir': sys.argv[2], 'python-headers': sys.argv[3]})"
+headers=build/python-headers
+packaging/python-headers.sh "$headers" || { missing+=("the wheel's modules of other Pythons"); headers=""; }
 python=$(sed -n 's/^MYOID_PYTHON:[A-Z]*=//p' "$tree/CMakeCache.txt")
-"$python" -c "$wheel" "$out" "$tree" >/dev/null || missing+=("wheel: needs python3-dev, pybind11-dev")
-[ -z "$suites" ] || packaging/roots.sh wheel "$out" $suites
+"$python" -c "$wheel" "$out" "$tree" "$headers" >/dev/null || missing+=("wheel: needs python3-dev, pybind11-dev")
 
 if wanted deb; then
   say "Debian's packages, twice"
@@ -87,9 +88,12 @@ if wanted site; then
 fi
 
 say "notes and checksums"
+modules_of() {  # modules_of WHEEL: the Pythons that it has a module for
+  python3 -m zipfile -l "$out/$1" | sed -n 's/.*_native\.cpython-3\([0-9]*\)-.*/3.\1/p' | sort -V | tr '\n' ' '
+}
 needs() {  # needs FILE: one line on what a user needs for it
   case $1 in
-    *.whl) echo "Python $(sed 's/.*-cp\([0-9]\)\([0-9]*\)-cp.*/\1.\2/' <<<"$1"), glibc $(sed 's/.*manylinux_\([0-9]*\)_\([0-9]*\)_.*/\1.\2/' <<<"$1") or newer" ;;
+    *.whl) echo "Python 3.9 or newer; its module also one of: $(modules_of "$1")" ;;
     *.deb) echo "Debian $(. /etc/os-release && echo "$VERSION_ID")" ;;
     *-"$(uname -m)".tar.gz) echo "Linux, $(uname -m)" ;;
     *-recordings-*) echo "examples/get_data --from" ;;

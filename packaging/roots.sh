@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # usage: packaging/roots.sh build SUITE...          builds the committed tree in an empty root of each suite, and runs it
-#        packaging/roots.sh wheel FOLDER SUITE...   the same, and puts the wheel of the suite's Python into FOLDER
-#        packaging/roots.sh run FOLDER SUITE...     runs the tarball and the wheels of FOLDER (release.sh) in such roots
+#        packaging/roots.sh run FOLDER SUITE...     runs README's lines for tarball and wheel of FOLDER (release.sh) as
+#                                                   printed in such roots, pipx and the module of Python, too
+#        packaging/roots.sh make SUITE...           makes the roots
+#        packaging/roots.sh deb FOLDER SUITE...     builds Debian's packages there twice (deb.sh), into FOLDER
 # Suites are those of the archive: bookworm (Debian 12), trixie (13), bullseye (11). It must be root and needs
 # debootstrap. The roots stay in MYOID_ROOTS (build/roots), so that a second call is quicker; DEBIAN_MIRROR names another
 # archive. The last line of each suite says what was done there; the exit code is 1 if one failed.
@@ -9,13 +11,13 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 roots=${MYOID_ROOTS:-$root/build/roots}
 mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
-usage() { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
+usage() { sed -n '2,6s/^# //p' "$0" >&2; exit 2; }
 [ "$#" -ge 2 ] || usage
 order=$1
 shift
 case $order in
-  build) ;;
-  wheel | run) [ "$#" -ge 2 ] || usage; artefacts=$(realpath "$1"); shift ;;
+  build | make) ;;
+  run | deb) [ "$#" -ge 2 ] || usage; artefacts=$(realpath "$1"); shift ;;
   *) usage ;;
 esac
 [ "$(id -u)" -eq 0 ] && command -v debootstrap >/dev/null ||
@@ -28,17 +30,18 @@ make_root() {  # make_root SUITE
   rm -rf "$place"
   debootstrap --variant=minbase "$1" "$place" "$mirror" >"$roots/$1.log" 2>&1 || return 1
   cp /etc/resolv.conf "$place/etc" 2>/dev/null || true
+  # What a system with Python has: the wheel's line begins with a virtual environment.
+  inside "$1" 'apt-get update -qq
+    apt-get install -y -qq --no-install-recommends python3-venv python3-numpy' || return 1
   touch "$place/made"
 }
 
+# The mount goes with the process, however that ends: nothing of this system lies in a root that somebody removes.
 inside() {  # inside SUITE SCRIPT: the script of standard shell in the root, with /proc
-  mountpoint -q "$roots/$1/proc" || mount --bind /proc "$roots/$1/proc"
-  local status=0
   env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
     SOURCE_DATE_EPOCH="$(git -C "$root" log -1 --format=%ct)" \
-    chroot "$roots/$1" sh -euc "$2" >>"$roots/$1.log" 2>&1 || status=$?
-  umount "$roots/$1/proc"
-  return "$status"
+    unshare --mount sh -euc 'mount --bind /proc "$0/proc" && exec chroot "$0" sh -euc "$1"' "$roots/$1" "$2" \
+    >>"$roots/$1.log" 2>&1
 }
 
 # The commands of README: ./run-demo, then the preset for users, whose objects the compiler cache has by then.
@@ -61,40 +64,76 @@ build_in() {
   echo "built by ./run-demo and by the preset user; the demo ran, in Python too: myoid $(cat "$roots/$1/tmp/version")"
 }
 
-wheel_in() {
-  build_in "$1" >/dev/null || return 1
-  inside "$1" 'cd /src/myoid && rm -rf /tmp/wheels && mkdir /tmp/wheels
-    python3 -c "import sys; sys.path.insert(0, \"python\"); import build_backend
-build_backend.build_wheel(\"/tmp/wheels\", {\"build-dir\": \"build/user\"})"' || return 1
-  cp "$roots/$1"/tmp/wheels/*.whl "$artefacts"
-  echo "wheel: $(basename "$roots/$1"/tmp/wheels/*.whl)"
+# The lines of README that install a file of the release, in an empty folder each. An empty root need not reach Python's
+# archive: NumPy is Debian's, packed as a wheel; Debian 11's is too old, and is left out.
+run_in() {
+  local place=$roots/$1/tmp/release
+  rm -rf "$place" && mkdir -p "$place/tarball" "$place/wheel" "$place/links"
+  cp "$artefacts"/myoid-*-"$(uname -m)".tar.gz "$place/tarball"
+  cp "$artefacts"/myoid-*.whl "$place/wheel"
+  readme_line '^tar ' >"$place/tarball/line"
+  readme_line '^python3 ' >"$place/wheel/line"
+  readme_line 'pipx install' | sed 's/^`\([^`]*\)`.*/\1/' >"$place/wheel/pipx-line"
+  cat >"$place/pack_numpy.py" <<'END'
+import pathlib, sys, zipfile, numpy
+if tuple(map(int, numpy.__version__.split(".")[:2])) < (1, 24): sys.exit()
+info, place = f"numpy-{numpy.__version__}.dist-info", pathlib.Path(numpy.__file__).parent
+files = {f"{info}/METADATA": f"Metadata-Version: 2.1\nName: numpy\nVersion: {numpy.__version__}\n",
+         f"{info}/WHEEL": "Wheel-Version: 1.0\nGenerator: roots.sh\nRoot-Is-Purelib: true\nTag: py3-none-any\n"}
+with zipfile.ZipFile(f"links/numpy-{numpy.__version__}-py3-none-any.whl", "w") as wheel:
+    names = [f for f in place.rglob("*") if f.is_file() and "tests" not in f.parts and f.suffix != ".pyc"]
+    for file in names: wheel.write(file, file.relative_to(place.parent))
+    for name, text in files.items(): wheel.writestr(name, text)
+    listed = [str(f.relative_to(place.parent)) for f in names] + list(files) + [f"{info}/RECORD"]
+    wheel.writestr(f"{info}/RECORD", "".join(f"{name},,\n" for name in listed))
+END
+  cat >"$place/module.py" <<'END'
+import sys, warnings
+try:
+    import myoid
+    warnings.simplefilter("ignore")
+    r = myoid.run("myoid-demo/recording/study.toml")
+    print(len(r.parameters), "numbers in Python %d.%d" % sys.version_info[:2])
+except ImportError as error:
+    print("ImportError:", str(error).split("(")[0] + "..." + str(error).split(")")[-1])
+END
+  inside "$1" 'cd /tmp/release/tarball
+    sh -eux ./line >../said
+    tail -n 1 ../said >../lines
+    cd .. && python3 pack_numpy.py && cd wheel
+    export PIP_NO_INDEX=1 PIP_FIND_LINKS="/tmp/release/links /usr/share/python-wheels" USE_EMOJI=0
+    ls ../links/*.whl || export PIP_NO_DEPS=1
+    sh -eux ./line >../said
+    tail -n 1 ../said >>../lines
+    env/bin/python ../module.py >>../lines
+    if apt-get install -y -qq --no-install-recommends pipx; then
+      rm -rf /root/.local myoid-demo
+      sh -eux ./pipx-line
+      /root/.local/bin/myoid --version >>../lines
+    else
+      echo "not in this suite" >>../lines
+    fi' || return 1
+  printf '\n'
+  paste -d ' ' <(printf '    %s\n' tarball: wheel: module: pipx:) "$place/lines"
 }
 
-# The tarball's program, then each wheel that this Python takes.
-run_in() {
-  rm -rf "$roots/$1/tmp/artefacts" && mkdir -p "$roots/$1/tmp/artefacts"
-  cp "$artefacts"/*.tar.gz "$artefacts"/*.whl "$roots/$1/tmp/artefacts"
-  inside "$1" 'cd /tmp/artefacts
-    tar -xzf myoid-*-$(uname -m).tar.gz
-    ./myoid-*-$(uname -m)/bin/myoid demo --no-open --overwrite --out /tmp/demo_of_tarball
-    [ -s /tmp/demo_of_tarball/result/report.html ]
+make_in() { echo "an empty root is there"; }
+
+readme_line() { sed -n '/^## Get it/,/^## /s/^ *//p' "$root/README.md" | grep -e "$1" | head -n 1; }
+
+
+deb_in() {
+  rm -rf "$roots/$1/src/deb" "$roots/$1/tmp/deb" && mkdir -p "$roots/$1/src"
+  git clone -q --no-hardlinks "$root" "$roots/$1/src/deb" || return 1
+  inside "$1" 'cd /src/deb
     apt-get update -qq
-    apt-get install -y -qq --no-install-recommends python3-venv python3-numpy
-    rm -rf /tmp/env && python3 -m venv --system-site-packages /tmp/env
-    python3 -c "import sys; print(\"cp%d%d\" % sys.version_info[:2])" >/tmp/python
-    rm -f /tmp/wheel && for wheel in myoid-*-$(cat /tmp/python)-*.whl; do
-      [ -e "$wheel" ] || continue
-      /tmp/env/bin/pip install --no-deps --no-index "$wheel"
-      /tmp/env/bin/myoid demo --no-open --overwrite --out /tmp/demo_of_wheel
-      /tmp/env/bin/python -c "import myoid; myoid.run(\"/tmp/demo_of_wheel/recording/study.toml\")"
-      echo "$wheel" >/tmp/wheel
-    done' || return 1
-  local wheel
-  if wheel=$(cat "$roots/$1/tmp/wheel" 2>/dev/null); then
-    echo "the demo ran from the tarball and from $wheel, in Python too"
-  else
-    echo "the demo ran from the tarball; no wheel for its Python ($(cat "$roots/$1/tmp/python"))"
-  fi
+    apt-get install -y -qq --no-install-recommends ca-certificates ccache debhelper dh-python dpkg-dev fakeroot git \
+      lintian
+    apt-get build-dep -y -qq --no-install-recommends ./
+    git config --global --replace-all safe.directory /src/deb
+    packaging/deb.sh /tmp/deb --twice' || return 1
+  cp "$roots/$1"/tmp/deb/*.deb "$artefacts"
+  echo "built twice, the same bytes: $(cd "$roots/$1/tmp/deb" && ls ./*.deb | tr '\n' ' ')"
 }
 
 # (`set -e` does not hold in a function whose result is tested: each step that may fail returns by itself.)

@@ -2,9 +2,12 @@
 
     pip wheel . --no-build-isolation --no-deps
     pip wheel . --no-build-isolation --no-deps --config-settings build-dir=build/release
+    pip wheel . --no-build-isolation --no-deps --config-settings python-headers=FOLDER
 
-The first builds in build/wheel, the second links what that tree has compiled. The wheel holds the program and every
-shared library that the two need, but for the C and C++ libraries of the system. The same tree gives the same bytes.
+The first builds in build/wheel, the second links what that tree has compiled, the third adds a module for each Python
+whose headers are in the folder (packaging/python-headers.sh). The wheel holds the program, the modules and every shared
+library that they need. The C and C++ libraries in it serve the program alone, where the system's C library is older than
+its own: any Linux runs the program, while a module asks its process for them. The same tree gives the same bytes.
 """
 
 from __future__ import annotations
@@ -16,6 +19,7 @@ import io
 import os
 import platform
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -27,15 +31,23 @@ from collections.abc import Mapping
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-# Libraries that every Linux system with the wheel's C library has.
+# The system's libraries, of which a module uses those of its process.
 SYSTEM = re.compile(r"(libc|libm|libpthread|libdl|librt|libstdc\+\+|libgcc_s|linux-vdso|ld-linux[-\w]*)\.so")
+# Starts the program; where the C library is too old for it, with the one in the wheel.
 STARTER = """#!python
 import importlib.util
 import os
+import platform
 import sys
 
-program = os.path.join(os.path.dirname(importlib.util.find_spec("myoid").origin), "bin", "myoid")
-os.execv(program, [program, *sys.argv[1:]])
+package = os.path.dirname(importlib.util.find_spec("myoid").origin)
+program = os.path.join(package, "bin", "myoid")
+libraries = package + ".libs"
+command = [program]
+name, number = platform.libc_ver()
+if name != "glibc" or tuple(map(int, number.split(".")[:2])) < (2, NEEDED):
+    command = [libraries + "/system/LOADER", "--library-path", libraries + "/system:" + libraries, program]
+os.execv(command[0], [*command, *sys.argv[1:]])
 """
 
 Settings = Mapping[str, str] | None
@@ -79,17 +91,10 @@ def oldest_system(binaries: list[bytes]) -> int:
     return max(needed)
 
 
-def tag(system: str = "linux") -> str:
-    python = f"cp{sys.version_info[0]}{sys.version_info[1]}"
-    return f"{python}-{python}-{system}_{platform.machine()}"
-
-
-def tag_of(files: Mapping[str, tuple[bytes, bool]]) -> str:
-    """The interpreter, and the oldest C library that has what the files need."""
-    binaries = [data for data, _ in files.values() if data.startswith(b"\x7fELF")]
-    if platform.libc_ver()[0] != "glibc":
-        return tag()
-    return tag(f"manylinux_2_{oldest_system(binaries)}")
+def tag() -> str:
+    """Any Python 3 of any Linux with glibc: the program brings its C library, and `import myoid` says what it needs."""
+    system = "manylinux_2_17" if platform.libc_ver()[0] == "glibc" else "linux"
+    return f"py3-none-{system}_{platform.machine()}"
 
 
 def build_time() -> int:
@@ -100,56 +105,86 @@ def build_time() -> int:
     return int(git.stdout) if git.returncode == 0 else int((ROOT / "pyproject.toml").stat().st_mtime)
 
 
-def linked(settings: Settings) -> Path:
-    """Builds the program and the module; returns the folder of the package."""
+def linked(settings: Settings) -> list[Path]:
+    """Builds the program and the modules; returns their files, the program first, this Python's module second."""
     given = (settings or {}).get("build-dir")
     tree = ROOT / given if given else ROOT / "build" / "wheel"
+    headers = (settings or {}).get("python-headers")
     if not given:
         options = ["MYOID_TESTS=OFF", "MYOID_BENCHMARKS=OFF", "MYOID_UNITY=ON", "CMAKE_BUILD_TYPE=Release",
                    "CMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", f"MYOID_PYTHON={sys.executable}"]  # fmt: skip
         subprocess.run(["cmake", "-S", ROOT, "-B", tree, "-G", "Ninja", *(f"-D{o}" for o in options)], check=True)
+    if headers:
+        subprocess.run(["cmake", f"-DMYOID_PYTHON_HEADERS={Path(headers).resolve()}", tree], check=True)
     subprocess.run(["cmake", "--build", tree, "--target", "myoid_wheel"], check=True)
     package = tree / "wheel" / "myoid"
     suffix = sysconfig.get_config_var("EXT_SUFFIX")
     if not (package / f"_native{suffix}").is_file():
         raise RuntimeError(f"{tree} is built for another Python than {sys.executable} ({suffix})")
-    return package
+    minors = [int(p.name[8:]) for p in Path(headers or os.devnull).glob("usr/include/python3.*")]
+    modules = [f"_native{re.sub('cpython-3[0-9]+', f'cpython-3{minor}', suffix)}" for minor in sorted(minors)]
+    return [package / "bin" / "myoid", *(package / name for name in dict.fromkeys([f"_native{suffix}", *modules]))]
 
 
 def libraries(binary: Path) -> dict[str, Path]:
-    """The shared libraries that a binary needs and that are not the system's, by name."""
+    """The shared libraries that a binary needs and its loader, by name."""
     told = subprocess.run(["ldd", binary], capture_output=True, text=True, check=True).stdout
-    found = dict(re.findall(r"^\s*(\S+) => (/\S+)", told, re.M))
     if "not found" in told:
         raise RuntimeError(f"{binary} needs libraries that are not there:\n{told}")
-    return {name: Path(path) for name, path in found.items() if not SYSTEM.match(name)}
+    return {Path(path).name: Path(path) for path in re.findall(r"^\s*(?:\S+ => )?(/\S+)", told, re.M)}
 
 
-def contents(package: Path) -> dict[str, tuple[bytes, bool]]:
+def package_of(library: Path) -> str:
+    """Debian's package of a library, if it has one. /lib is /usr/lib, and either may be listed."""
+    for name in (os.path.realpath(library), os.path.realpath(library).removeprefix("/usr")):
+        told = subprocess.run(["dpkg-query", "-S", name], capture_output=True, text=True, check=False)
+        if told.returncode == 0:
+            return told.stdout.split(":")[0]
+    return ""
+
+
+def source_of(package: str) -> str:
+    form = "package ${Package} ${Version}, source ${source:Package} ${source:Version}"
+    return subprocess.run(["dpkg-query", "-W", "-f", form, package], capture_output=True, text=True, check=True).stdout
+
+
+def contents(binaries: list[Path]) -> dict[str, tuple[bytes, bool]]:
     """The files of the wheel but for its record: bytes, and whether a file is a program."""
     files = {}
     for file in sorted((ROOT / "python" / "myoid").iterdir()):
         if file.is_file():
             files[f"myoid/{file.name}"] = (file.read_bytes(), False)
-    binaries = [next(package.glob("_native*")), package / "bin" / "myoid"]
-    files[f"myoid/{binaries[0].name}"] = (binaries[0].read_bytes(), True)
-    files["myoid/bin/myoid"] = (binaries[1].read_bytes(), True)
-    for name, path in sorted({**libraries(binaries[0]), **libraries(binaries[1])}.items()):
-        files[f"myoid.libs/{name}"] = (path.read_bytes(), True)
-        notice = Path(f"/usr/share/doc/lib{re.sub(r'^lib|[.]so[.]?', '', name)}/copyright")
-        if notice.is_file():
-            files[f"myoid.libs/{name}.copyright"] = (notice.read_bytes(), False)
-    files[f"myoid-{version()}.data/scripts/myoid"] = (STARTER.encode(), True)
+    program, *modules = binaries
+    for file in modules:
+        files[f"myoid/{file.name}"] = (file.read_bytes(), True)
+    files["myoid/bin/myoid"] = (program.read_bytes(), True)
+    needed = oldest_system([file.read_bytes() for file in binaries])
+    found, sources = {**libraries(modules[0]), **libraries(program)}, []
+    for name, path in sorted(found.items()):
+        place = "myoid.libs/system" if SYSTEM.match(name) else "myoid.libs"
+        files[f"{place}/{name}"] = (path.read_bytes(), True)
+        package = package_of(path) if shutil.which("dpkg-query") else ""
+        if package:
+            files[f"{place}/{name}.copyright"] = (Path(f"/usr/share/doc/{package}/copyright").read_bytes(), False)
+            sources.append(f"{name}: {source_of(package)}\n")
+    files["myoid.libs/packages.txt"] = ("".join(sources).encode(), False)
+    for licence in ("GPL-2", "GPL-3", "LGPL-2.1"):  # which the notices name
+        text = Path("/usr/share/common-licenses", licence)
+        if text.is_file():
+            files[f"myoid.libs/system/{licence}"] = (text.read_bytes(), False)
+    loader = next((name for name in found if name.startswith("ld-linux")), "")
+    starter = STARTER.replace("NEEDED", str(needed)).replace("LOADER", loader)
+    files[f"myoid-{version()}.data/scripts/myoid"] = (starter.encode(), True)
     info = f"myoid-{version()}.dist-info"
     for name in ("LICENSE", "NOTICE", "licenses.txt"):
         files[f"{info}/{name}"] = ((ROOT / name).read_bytes(), False)
     files[f"{info}/METADATA"] = (metadata().encode(), False)
-    files[f"{info}/WHEEL"] = (wheel_file(tag_of(files)).encode(), False)
+    files[f"{info}/WHEEL"] = (wheel_file().encode(), False)
     return files
 
 
-def wheel_file(system: str) -> str:
-    return f"Wheel-Version: 1.0\nGenerator: myoid\nRoot-Is-Purelib: false\nTag: {system}\n"
+def wheel_file() -> str:
+    return f"Wheel-Version: 1.0\nGenerator: myoid\nRoot-Is-Purelib: false\nTag: {tag()}\n"
 
 
 def record(files: Mapping[str, tuple[bytes, bool]], name: str) -> str:
@@ -172,7 +207,7 @@ def prepare_metadata_for_build_wheel(metadata_directory: str, config_settings: S
     folder = Path(metadata_directory) / f"myoid-{version()}.dist-info"
     folder.mkdir()
     (folder / "METADATA").write_text(metadata(), encoding="utf-8")
-    (folder / "WHEEL").write_text(wheel_file(tag()), encoding="utf-8")
+    (folder / "WHEEL").write_text(wheel_file(), encoding="utf-8")
     return folder.name
 
 
@@ -180,7 +215,7 @@ def build_wheel(wheel_directory: str, config_settings: Settings = None, metadata
     files = contents(linked(config_settings))
     listed = f"myoid-{version()}.dist-info/RECORD"
     files[listed] = (record(files, listed).encode(), False)
-    name = f"myoid-{version()}-{tag_of(files)}.whl"
+    name = f"myoid-{version()}-{tag()}.whl"
     date = time.gmtime(max(build_time(), 315532800))[:6]  # a .zip begins at 1980
     with zipfile.ZipFile(Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as archive:
         for path, (data, program) in files.items():

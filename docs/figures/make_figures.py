@@ -3,7 +3,9 @@
 
 Makes the pictures of README, tutorial and gallery with headless Chromium, from the results that PROGRAM finds in WORK or
 makes there. Pictures whose recordings are not at hand (folder of $MYOID_DATA, else ../shared/data beside the checkout)
-stay as they are, and the script says so. With names only these pictures are made. Python's own library is enough.
+stay as they are, and the script says so. With names only these pictures are made. Python's own library is enough; a film
+needs ffmpeg, too.
+The page of the demo is docs/sample.html, too.
 """
 
 import base64
@@ -20,7 +22,7 @@ from pathlib import Path
 FIGURES = Path(__file__).resolve().parent
 SOURCE = FIGURES.parents[1]
 DATA = Path(os.environ.get("MYOID_DATA", SOURCE / ".." / "shared" / "data")).resolve()
-MOST_BYTES = 200_000
+MOST_BYTES, MOST_BYTES_OF_FILM = 200_000, 1_000_000
 QUALITY = 82
 
 
@@ -36,6 +38,7 @@ class Picture:
     width: int = 1280
     height: int = 900
     script: str = ""  # a step before the picture
+    film: tuple = ()  # from, to [s] and frames a second: the workbench at each time, as it plays
 
 
 # Moves the first slider of the workbench, the optimal fiber length, to the low end of its interval [m].
@@ -49,6 +52,8 @@ UNFOLD = "document.querySelector('{}').closest('.folds').classList.remove('folde
 
 PICTURES = [
     Picture("report_top.webp", "demo", height=1010),
+    Picture("film.webp", "demo", "trial=lowering_4kg", begin="#workbench .bench",
+            end="#workbench .plots > :nth-child(6)", script="myoid.replay.fit()", film=(4.6, 9.6, 8)),
     Picture("workbench.webp", "demo", "trial=lowering_4kg&t=6.2", begin="#workbench", height=920),
     Picture("group.webp", "group", height=1560),
     Picture("gait.webp", "gait", "trial=walk&t=0.55&view=oblique&hide=activation,force", begin="#workbench", height=900),
@@ -153,9 +158,26 @@ class Browser:
         if p.end:
             height = self.value(f"scrollY + document.querySelector('{p.end}').getBoundingClientRect().bottom") - top
         clip = {"x": 0, "y": top, "width": p.width, "height": height, "scale": 1}
-        kind = p.name.rsplit(".", 1)[1]
-        found = self.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=True, format=kind, quality=QUALITY)
+        if p.film:
+            return self.film(p, clip)
+        return self.shot(clip, format=p.name.rsplit(".", 1)[1], quality=QUALITY)
+
+    def shot(self, clip, **how):
+        found = self.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=True, **how)
         return base64.b64decode(found["data"])
+
+    def film(self, p, clip):
+        """The bytes of a moving picture: each frame when the page has drawn it, however slow the machine is."""
+        begin, end, rate = p.film
+        drawn = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+        with tempfile.TemporaryDirectory(prefix="myoid.") as work:
+            for i in range(round((end - begin) * rate)):
+                self.value(f"(async () => {{ myoid.seek({begin + i / rate}); await {drawn}; }})()")
+                Path(work, f"{i:04}.png").write_bytes(self.shot(clip, format="png"))
+            subprocess.run(["ffmpeg", "-v", "error", "-framerate", str(rate), "-i", f"{work}/%04d.png", "-vf",
+                            "scale=960:-1:flags=area", "-c:v", "libwebp_anim", "-quality", "60", "-compression_level",
+                            "6", "-loop", "0", f"{work}/film.webp"], check=True)  # fmt: skip
+            return Path(work, "film.webp").read_bytes()
 
 
 def myoid(program, *arguments, may_fail=False):
@@ -240,12 +262,15 @@ def main(program, work, *names):
         if names and p.name not in names:
             continue
         page = page_of(p.page, program, work)
+        if p.page == "demo":
+            shutil.copy(page, FIGURES.parent / "sample.html")
         if page is None:
             print(f"{p.name} stays as it is: there is no {DATA / PAGES[p.page][2]}")
             continue
         bytes_ = browser.picture(p, f"{page.as_uri()}#{p.wishes}")
-        if len(bytes_) > MOST_BYTES:
-            sys.exit(f"{p.name} has {len(bytes_)} bytes, at most {MOST_BYTES} are allowed")
+        most = MOST_BYTES_OF_FILM if p.film else MOST_BYTES
+        if len(bytes_) > most:
+            sys.exit(f"{p.name} has {len(bytes_)} bytes, at most {most} are allowed")
         (FIGURES / p.name).write_bytes(bytes_)
         print(f"{p.name}: {len(bytes_) / 1000:.0f} kB")
     browser.close()

@@ -30,7 +30,7 @@ exclude_patterns = [".doctrees"]
 # The site's parts by what a reader asks for; a page belongs to the first part that names it.
 PARTS = [
     ("First minutes", ["What it is <README>", "docs/quickstart", "docs/tutorial", "docs/gallery", "examples/README"]),
-    ("How to", ["docs/guide/troubleshooting", "docs/guide/recording-well", "docs/guide/study", "docs/guide/report",
+    ("How to", ["docs/guide/how-to", "docs/guide/troubleshooting", "docs/guide/recording-well", "docs/guide/study", "docs/guide/report",
                 "docs/guide/verdicts", "docs/guide/packages", "docs/guide/commands", "docs/guide/*"]),
     ("Is it right?", ["docs/theory/evidence", "docs/opensim-tools", "docs/performance", "docs/remarks",
                       "docs/damaged-files", "examples/*"]),

@@ -1,5 +1,9 @@
 #include "myoid/commands/init.h"
 
+#include <sstream>
+#include <string>
+#include <string_view>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +13,20 @@
 #include "myoid/files/quoted_text.h"
 
 namespace myoid::cli {
+namespace {
+
+/// Prints the questions of a draft with their lines, by which an editor finds them.
+void print_questions(const std::string& toml) {
+  static constexpr std::string_view kMark = "# TODO: ";
+  std::istringstream lines(toml);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.starts_with(kMark)) say("TODO line {}: {}\n", number, line.substr(kMark.size()));
+  }
+}
+
+}  // namespace
 
 void add_init(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand("init",
@@ -34,7 +52,7 @@ void add_init(CLI::App& app, Context& context) {
       return;
     }
     say("{}\n", file.string());
-    for (const std::string& todo : todos) say("TODO {}\n", todo);
+    print_questions(result.draft.toml);
     say("next: myoid check {}\n", recording::shell_word(file.string()));
   });
 }

@@ -138,8 +138,8 @@ class TrialWriter {
     if (table == around_.torques.end()) return false;
     if (!asked_for_torque_)
       out_.todo(
-          "a table of joint torques has the trial's name: did a dynamometer measure them? Take the # away. Computed by "
-          "inverse dynamics: leave it, and say what was held with held_mass_kg");
+          "tables of joint torques have the names of trials (each # external_torque): did a dynamometer measure them? "
+          "Take each # away. Computed by inverse dynamics: leave them, and say what was held with held_mass_kg");
     asked_for_torque_ = true;
     out_.line("# external_torque = " + toml_text(around_.relative(*table)));
     return true;

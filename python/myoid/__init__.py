@@ -9,7 +9,12 @@ Quantities are in SI units in memory (angles in radians); `read_series` gives a 
 
 from __future__ import annotations
 
-from ._native import __version__
+try:
+    from ._native import __version__
+except ImportError as error:
+    from ._needs import why_not
+
+    raise ImportError(why_not(error)) from error
 from .commands import *  # noqa: F403
 from .commands import __all__ as _commands
 from .draws import Draws

@@ -42,19 +42,45 @@ def test_the_wheel_needs_nothing_but_the_libraries_of_the_system(wheel, tmp_path
         archive.extractall(tmp_path)
         assert archive.testzip() is None
     included = {file.name for file in (tmp_path / "myoid.libs").glob("*.so*") if file.suffix != ".copyright"}
-    binaries = [f for f in tmp_path.rglob("*") if f.is_file() and f.read_bytes()[:4] == b"\x7fELF"]
-    assert {tmp_path / "myoid/bin/myoid", *(tmp_path / "myoid").glob("_native*.so")} <= set(binaries)
-    allowed = int(re.search(r"manylinux_2_(\d+)_", wheel.name)[1])
-    for file in binaries:
+    binaries = [tmp_path / "myoid/bin/myoid", *(tmp_path / "myoid").glob("_native*.so")]
+    assert len(binaries) >= 2
+    (starter,) = tmp_path.glob("myoid-*.data/scripts/myoid")
+    allowed = int(re.search(r"< \(2, (\d+)\)", starter.read_text())[1])
+    for file in [*binaries, *(tmp_path / "myoid.libs" / name for name in included)]:
         told = subprocess.run(["objdump", "-p", file], capture_output=True, text=True, check=True).stdout
         needed = set(re.findall(r"NEEDED +(\S+)", told))
         assert needed and needed <= SYSTEM | included, file.name
-        # The name of the wheel states the oldest C library.
+        # An older C library than the starter's limit is replaced by the one in the wheel.
         assert all(int(v) <= allowed for v in re.findall(r"GLIBC_2\.(\d+)", told))
         if needed & included:
             assert re.search(r"RUNPATH +\$ORIGIN/(?:\.\./)+myoid\.libs\n", told), file.name
+    packages = (tmp_path / "myoid.libs/packages.txt").read_text()
     for name in included:
         assert (tmp_path / f"myoid.libs/{name}.copyright").is_file()
+        assert f"{name}: package " in packages
+
+
+def test_the_program_runs_with_the_c_library_in_the_wheel(wheel, tmp_path):
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(tmp_path)
+    system = tmp_path / "myoid.libs/system"
+    (loader,) = (file for file in system.glob("ld-linux*") if file.suffix != ".copyright")
+    (tmp_path / "myoid/bin/myoid").chmod(0o755)
+    loader.chmod(0o755)
+    command = [loader, "--library-path", f"{system}:{tmp_path / 'myoid.libs'}", "--list", tmp_path / "myoid/bin/myoid"]
+    told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert all(place.startswith(str(tmp_path)) for place in re.findall(r"=> (/\S+)", told)), told
+    done = subprocess.run([*command[:3], command[4], "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout == program("--version")
+
+
+def test_a_module_that_cannot_be_loaded_says_why(tmp_path):
+    shutil.copytree(SOURCE / "python/myoid", tmp_path / "myoid")
+    (tmp_path / "myoid/_native.cpython-38-x86_64-linux-gnu.so").write_bytes(b"")
+    code = "try:\n    import myoid\nexcept ImportError as error:\n    print(error)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert "Python 3.8" in done.stdout
+    assert f"Python 3.{sys.version_info[1]}" in done.stdout
 
 
 def test_the_tag_is_the_oldest_system_that_has_every_symbol():
@@ -80,7 +106,7 @@ def test_the_wheel_holds_the_licences_of_the_works_in_it(wheel):
         texts = archive.read(f"myoid-{number}.dist-info/licenses.txt").decode()
     works = "three.js fmt pugixml toml++ JSON CLI11 Ceres SUNDIALS pybind11 Eigen Boost oneTBB OpenSSL GCC".split()
     assert [work for work in works if f"\n{work}" not in texts] == []
-    for licence in ("MIT", "BSD-3-Clause", "BSL-1.0", "MPL-2.0"):
+    for licence in ("MIT", "BSD-3-Clause", "BSL-1.0", "MPL-2.0", "GCC Runtime Library Exception"):
         assert f"\n{licence}\n====" in texts
 
 
