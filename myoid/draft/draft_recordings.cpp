@@ -180,7 +180,7 @@ std::string guessed_use(const std::string& stem) {
   for (const std::string& word : words_of(stem)) {
     if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return "mvc";
     if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical") return "static";
-    if (word == "passive") return "passive";
+    if (word == "passive" || word == "relaxed") return "passive";
   }
   return "calibration";
 }

@@ -26,6 +26,7 @@ TEST(TrialStem, IsTheNameWithoutWhatAFileSaysOfItsOwnKind) {
 TEST(GuessedUse, IsWhatAWordOfTheNameSays) {
   EXPECT_EQ(guessed_use("mvc_biceps"), "mvc");
   EXPECT_EQ(guessed_use("static_1"), "static");
+  EXPECT_EQ(guessed_use("relaxed_elbow"), "passive");
   EXPECT_EQ(guessed_use("subject_1_mvt_random"), "calibration");
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,22 @@ TEST(CommandLine, PrintedSettingsAreAStudyOfTheSameSettings) {
   write_text(folder / "again.toml", first.out);
   EXPECT_EQ(myoid({"settings", folder / "again.toml"}).out, first.out);
   EXPECT_THAT(myoid({"settings"}).out, HasSubstr("  rate_hz: 10 to 2000 Hz; default 100\n"));
+}
+
+TEST(CommandLine, InitPrintsEachQuestionWithItsLine) {
+  const TemporaryFolder folder;
+  const Finished init = myoid({"init", folder / "study", "--from", recording_in(folder)});
+  EXPECT_EQ(init.exit_code, 0) << init.err;
+  constexpr std::string_view kMark = "# TODO: ";
+  std::istringstream file(read_text(folder / "study" / "study.toml"));
+  int number = 0, asked = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (!line.starts_with(kMark)) continue;
+    ++asked;
+    EXPECT_THAT(init.out, HasSubstr("TODO line " + std::to_string(number) + ": " + line.substr(kMark.size()) + "\n"));
+  }
+  EXPECT_GT(asked, 0);
 }
 
 TEST(CommandLine, HelpOfEveryCommandSucceedsAndShowsAnExample) {
