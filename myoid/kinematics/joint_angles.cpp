@@ -1,7 +1,6 @@
 #include "myoid/kinematics/joint_angles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,12 +12,22 @@ namespace {
 
 constexpr double kAtEnd = 1e-6;  ///< Of the range: nearer to an end lies at it.
 
-/// Returns the value moved by whole turns to the middle of its range.
-double turned_to_range(const model::Coordinate& c, double value) {
-  return value + 2.0 * kPi * std::round((0.5 * (c.lower + c.upper) - value) / (2.0 * kPi));
+}  // namespace
+
+double turned_to_range(const model::Coordinate& coordinate, double value) {
+  const double middle = 0.5 * (coordinate.lower + coordinate.upper);
+  return value + 2.0 * kPi * std::round((middle - value) / (2.0 * kPi));
 }
 
-}  // namespace
+std::optional<std::array<int, 3>> free_angles(const model::BodyModel& model, const model::Joint& joint) {
+  std::array<int, 3> c{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    c[i] = joint.rotation[i].coordinate;
+    if (c[i] < 0 || model.is_constrained(c[i])) return std::nullopt;
+  }
+  if (c[0] == c[1] || c[1] == c[2] || c[0] == c[2]) return std::nullopt;
+  return c;
+}
 
 bool lies_at_end(const model::Coordinate& coordinate, double value) {
   const double width = coordinate.upper - coordinate.lower;
@@ -57,21 +66,21 @@ std::vector<Eigen::VectorXd> twin_angles(const model::BodyModel& model,
     if ((model::joint_posture(joint, twin).X_FM.R - here).cwiseAbs().maxCoeff() < 1e-6)
       twins.push_back(std::move(twin));
   };
-  std::array<int, 3> c{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    c[i] = joint.rotation[i].coordinate;
-    if (c[i] < 0 || model.is_constrained(c[i])) continue;
+  for (const model::TransformAxis& axis : joint.rotation) {
+    const int c = axis.coordinate;
+    if (c < 0 || model.is_constrained(c)) continue;
     // From one end of a range to beyond the other, where the range is a turn.
     for (const double turn : {-2.0 * kPi, 2.0 * kPi}) {
-      const model::Coordinate& of = model.coordinates[at(c[i])];
-      if (!lies_at_end(of, q[c[i]])) continue;
+      const model::Coordinate& of = model.coordinates[at(c)];
+      if (!lies_at_end(of, q[c])) continue;
       Eigen::VectorXd twin = q;
-      twin[c[i]] = std::clamp(q[c[i]] + turn, of.lower, of.upper);
+      twin[c] = std::clamp(q[c] + turn, of.lower, of.upper);
       add(std::move(twin));
     }
   }
-  if (c[0] < 0 || c[1] < 0 || c[2] < 0 || c[0] == c[1] || c[1] == c[2] || c[0] == c[2]) return twins;
-  if (model.is_constrained(c[0]) || model.is_constrained(c[1]) || model.is_constrained(c[2])) return twins;
+  const auto angles = free_angles(model, joint);
+  if (!angles) return twins;
+  const std::array<int, 3>& c = *angles;
   for (const double middle : {kPi - q[c[1]], -q[c[1]]}) {
     Eigen::VectorXd twin = q;
     twin[c[0]] = turned_to_range(model.coordinates[at(c[0])], q[c[0]] + kPi);

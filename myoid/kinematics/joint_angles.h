@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,6 +16,12 @@ namespace myoid::kinematics {
 [[nodiscard]] std::vector<Eigen::VectorXd> twin_angles(const model::BodyModel& model,
                                                        const model::Joint& joint,
                                                        const Eigen::VectorXd& q);
+
+/// Returns the coordinates of a joint that has three free angles of its own; nothing for another joint.
+[[nodiscard]] std::optional<std::array<int, 3>> free_angles(const model::BodyModel& model, const model::Joint& joint);
+
+/// Returns the value moved by whole turns to the middle of its range.
+[[nodiscard]] double turned_to_range(const model::Coordinate& coordinate, double value);
 
 /// Returns true where a clamped coordinate lies at an end of its range, within a millionth of the range.
 [[nodiscard]] bool lies_at_end(const model::Coordinate& coordinate, double value);

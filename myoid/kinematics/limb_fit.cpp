@@ -11,13 +11,12 @@
 namespace myoid::kinematics {
 namespace {
 
-constexpr Eigen::Index kMostPostures = 512;  ///< Of a table.
+constexpr Eigen::Index kMostPostures = 256;  ///< Of a table.
 constexpr Eigen::Index kMostAssembled = 64;  ///< The same where constraints must be met.
 constexpr std::size_t kStarts = 16;          ///< Postures of the table from which a limb is searched,
-constexpr std::size_t kThoroughStarts = 32;  ///< the same where it fits worse than usual,
-constexpr int kFirstSteps = 2;               ///< so far,
-constexpr int kThoroughSteps = 4;            ///< more in a thorough search,
-constexpr std::size_t kFinalists = 5;        ///< and so many to the end.
+constexpr int kFirstSteps = 4;               ///< so far,
+constexpr std::size_t kSemifinalists = 10;   ///< so many on,
+constexpr std::size_t kFinalists = 5;        ///< and so many of these by the whole model.
 constexpr int kLastSteps = 30;
 constexpr double kMet_rad = 0.05;  ///< Searches that are nearer to each other go to one minimum.
 constexpr double kElsewhere_rad = 0.02;
@@ -182,6 +181,12 @@ void LimbFit::choose_varied(const model::BodyModel& whole, std::size_t first_joi
   }
 }
 
+std::vector<Eigen::Index> LimbFit::turning() const {
+  std::vector<Eigen::Index> turning;
+  for (const std::size_t v : varied_) turning.push_back(whole_coordinate_[v]);
+  return turning;
+}
+
 void LimbFit::stand(const PoseFit& whole,
                     const Eigen::VectorXd& q,
                     const recording::MarkerSeries& markers,
@@ -247,14 +252,14 @@ void LimbFit::keep_best(std::vector<PoseFit::Search>& searches, std::size_t coun
 
 /// Returns searches on their way from postures of the table and from the other angles of joints that lie at an end of a
 /// range.
-std::vector<PoseFit::Search> LimbFit::set_out(const Eigen::VectorXd& q, bool thorough) {
+std::vector<PoseFit::Search> LimbFit::set_out(const Eigen::VectorXd& q) {
   if (!table_) make_table();
   std::vector<PoseFit::Search> searches;
   const auto add = [&](Eigen::VectorXd start) {
     searches.push_back(fit_->begin(std::move(start)));
-    fit_->advance(searches.back(), thorough ? kThoroughSteps : kFirstSteps);
+    fit_->advance(searches.back(), kFirstSteps);
   };
-  for (const Eigen::Index row : table_->minima(targets(), thorough ? kThoroughStarts : kStarts)) {
+  for (const Eigen::Index row : table_->minima(targets(), kStarts)) {
     Eigen::VectorXd start = q;
     const Eigen::VectorXd posture = table_->posture(row);
     for (const std::size_t v : varied_) start[static_cast<Eigen::Index>(v)] = posture[static_cast<Eigen::Index>(v)];
@@ -285,12 +290,12 @@ bool LimbFit::bring_into_ranges(PoseFit::Pose& pose, const Eigen::VectorXd& here
   return false;
 }
 
-std::vector<Eigen::VectorXd> LimbFit::other_postures(const Eigen::VectorXd& q, double share, bool thorough) {
+std::vector<Eigen::VectorXd> LimbFit::other_postures(const Eigen::VectorXd& q, double share) {
   const Eigen::VectorXd here = q(whole_coordinate_);
   const double cost = fit_->place(here);
   if (cost < kPerfect_m2) return {};
-  std::vector<PoseFit::Search> searches = set_out(here, thorough);
-  keep_best(searches, thorough ? 2 * kFinalists : kFinalists);
+  std::vector<PoseFit::Search> searches = set_out(here);
+  keep_best(searches, kSemifinalists);
   for (PoseFit::Search& search : searches) fit_->advance(search, kLastSteps);
   keep_best(searches, kFinalists);
   std::vector<Eigen::VectorXd> others;

@@ -30,6 +30,8 @@ class LimbFit {
   [[nodiscard]] const std::vector<std::size_t>& pairs() const { return pairs_of_whole_; }
   /// Returns the coordinates of the whole that are the limb's, in the order of the limb.
   [[nodiscard]] const std::vector<Eigen::Index>& coordinates() const { return whole_coordinate_; }
+  /// Returns the free rotations of the whole from the base to the next branch.
+  [[nodiscard]] std::vector<Eigen::Index> turning() const;
 
   /// Puts the limb on its base in posture q of the whole, which `whole` has as its posture, against the markers of a
   /// frame.
@@ -40,9 +42,8 @@ class LimbFit {
 
   /// Searches the limb for other minima: from the postures of a table (posture_table.h) that fit best among their
   /// neighbors, and from the other angles of joints at an end of a range. Returns q with the limb in each of them, the
-  /// best first, if its own cost is less than `share` of the cost at q. A thorough search has more starts. stand() must
-  /// have been called with q.
-  [[nodiscard]] std::vector<Eigen::VectorXd> other_postures(const Eigen::VectorXd& q, double share, bool thorough);
+  /// best first, if its own cost is less than `share` of the cost at q. stand() must have been called with q.
+  [[nodiscard]] std::vector<Eigen::VectorXd> other_postures(const Eigen::VectorXd& q, double share);
 
   /// Returns the work of all searches so far: evaluations of a posture times bodies and coordinates.
   [[nodiscard]] double work() const { return fit_->work(); }
@@ -54,7 +55,7 @@ class LimbFit {
   void choose_varied(const model::BodyModel& whole, std::size_t first_joint, const std::vector<bool>& carries);
   void make_table();
   [[nodiscard]] std::vector<PostureTable::Target> targets() const;
-  [[nodiscard]] std::vector<PoseFit::Search> set_out(const Eigen::VectorXd& q, bool thorough);
+  [[nodiscard]] std::vector<PoseFit::Search> set_out(const Eigen::VectorXd& q);
   [[nodiscard]] bool bring_into_ranges(PoseFit::Pose& pose, const Eigen::VectorXd& here);
   static void keep_best(std::vector<PoseFit::Search>& searches, std::size_t count);
   [[nodiscard]] myoid::Pose base() const { return base_ != 0 ? model_.joints[0].X_PF : myoid::Pose{}; }

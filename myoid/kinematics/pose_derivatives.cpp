@@ -85,6 +85,7 @@ void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull
 /// Computes the derivatives of J at the posture of the last cost_at(q); of second ones the lower triangle.
 void PoseFit::linearize(const Eigen::VectorXd& q) {
   const auto n = static_cast<Eigen::Index>(free_.size());
+  stepped_ = q;
   update_gains(q);
   gradient_.setZero(n);
   gauss_.setZero(n, n);

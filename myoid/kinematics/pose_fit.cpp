@@ -20,6 +20,7 @@ constexpr double kLongestTurn_rad = 0.5;  ///< Largest change of a coordinate in
 constexpr double kFirstBarrier = 0.1;
 constexpr double kTurn = 2.0 * kPi;
 constexpr double kSame = 1e-9;        ///< A smaller step [rad or m] changes nothing.
+constexpr double kNear = 1e-3;        ///< A smaller step [rad or m] leaves the curvature.
 constexpr double kLastNewton = 1e-6;  ///< After a smaller step [rad or m] the next is none.
 
 }  // namespace
@@ -67,6 +68,7 @@ PoseFit::PoseFit(const model::BodyModel& model, const IkOptions& options, std::v
 }
 
 void PoseFit::set_targets(const recording::MarkerSeries& markers, Eigen::Index frame) {
+  stepped_.resize(0);
   frame_ = frame;
   time_s_ = markers.time_s[frame];
   double sum = 0.0;
@@ -348,6 +350,26 @@ void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
       if (std::abs(eigen.vectors(j, k)) > 1e-3) undetermined[at(j)] = true;
     }
   }
+}
+
+Eigen::MatrixXd PoseFit::curvature(const Eigen::VectorXd& q, const std::vector<Eigen::Index>& coordinates) {
+  if (stepped_.size() == 0 || (q - stepped_).cwiseAbs().maxCoeff() > kNear) {
+    (void)cost_at(q);
+    linearize(q);
+  }
+  const auto n = static_cast<Eigen::Index>(coordinates.size());
+  const auto free_index = [&](Eigen::Index i) {
+    const int k = reduced_[at(coordinates[at(i)])];
+    return k >= 0 && free_[at(k)] == coordinates[at(i)] ? k : -1;
+  };
+  Eigen::MatrixXd block = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const int a = free_index(i), b = free_index(j);
+      if (a >= 0 && b >= 0) block(i, j) = gauss_(std::max(a, b), std::min(a, b));
+    }
+  }
+  return block;
 }
 
 double PoseFit::error(std::size_t pair) const {

@@ -81,6 +81,9 @@ class PoseFit {
   [[nodiscard]] double work() const;
   /// Marks the free coordinates with a part in directions that markers and tasks leave open.
   void collect_undetermined(std::vector<bool>& undetermined);
+  /// Returns the first-order second derivatives of J by some coordinates, at the posture of the latest step if q lies
+  /// near it, else at q. Coordinates that are not free have the unit matrix.
+  [[nodiscard]] Eigen::MatrixXd curvature(const Eigen::VectorXd& q, const std::vector<Eigen::Index>& coordinates);
   /// Returns the distance of a marker from its target; NaN for a marker that was not seen.
   [[nodiscard]] double error(std::size_t pair) const;
   /// Writes the places of the model's markers into a row of a table, x y z of each.
@@ -148,6 +151,7 @@ class PoseFit {
   double evaluations_ = 0.0;
   std::vector<Vec3> place_;      ///< Per pair: the marker's place in the posture of state_.
   std::vector<Motion> motions_;  ///< Per coordinate.
+  Eigen::VectorXd stepped_;      ///< Posture of the latest step in this frame; empty before the first.
   Eigen::MatrixXd hessian_;      ///< Of the latest step, then its factor.
   Eigen::VectorXd gradient_;     ///< Gradient of J by the free coordinates.
   Eigen::MatrixXd gauss_;        ///< First-order part of the second derivatives of J.

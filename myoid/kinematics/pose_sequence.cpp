@@ -12,12 +12,10 @@
 namespace myoid::kinematics {
 namespace {
 
-constexpr double kSearchShare = 0.25;   // of the work, for routine searches
-constexpr double kFilesOfFrame = 10.0;  // postures evaluated in the time in which a frame is read and written
-constexpr double kFarBetter = 0.5;      // share of the cost at which a fresh start replaces a converged posture
-constexpr double kJumped = 4.0;         // times the cost of the frame before
-constexpr double kFarMoved_m = 0.1;     // rms distance of a limb's markers from their places in the frame before
-constexpr double kTurned_rad = 0.5;     // from frame to frame
+constexpr double kFarBetter = 0.5;   // share of the cost at which a fresh start replaces a converged posture
+constexpr double kJumped = 4.0;      // times the cost of the frame before
+constexpr double kFarMoved_m = 0.1;  // rms distance of a limb's markers from their places in the frame before
+constexpr double kTurned_rad = 0.5;  // from frame to frame
 
 /// Returns postures to start from without a previous frame: the default posture, a posture near it,
 /// and the default posture turned about the vertical by the root joint.
@@ -65,32 +63,18 @@ PoseSequence::PoseSequence(const model::BodyModel& model,
 }
 
 void PoseSequence::solve() {
-  rivals_.resize(limbs_.size());
-  searched_until_.assign(limbs_.size(), 0);
-  pause_.assign(limbs_.size(), kWindow);
   for (std::size_t first = 0; first < poses_.size(); first += kWindow) {
     options_.progress.check();
     options_.progress.tell(static_cast<double>(first) / static_cast<double>(poses_.size()), "inverse kinematics");
     const std::size_t last = std::min(poses_.size(), first + kWindow) - 1;
     for (std::size_t frame = first; frame <= last; ++frame) solve_frame(frame);
-    if (limbs_.empty() || !seen_[last]) continue;
-    try_roots(last);
-    for (std::size_t limb = 0; limb < limbs_.size() && may_search(kSearchShare); ++limb)
-      if (last + 1 - searched_until_[limb] >= pause_[limb]) (void)search_limb(limb, last, false);
+    if (!limbs_.empty() && seen_[last]) try_roots(last);
   }
   search_suspicious();
 }
 
 PoseFit::Pose PoseSequence::solve_from(const Eigen::VectorXd& start) {
   return options_.range_barrier > 0.0 ? fit_.solve_inside(start, options_.range_barrier) : fit_.solve(start);
-}
-
-/// Returns true while searches have taken no more than this share of the work, to which reading and writing a frame
-/// adds.
-bool PoseSequence::may_search(double share) const {
-  const double files =
-      kFilesOfFrame * static_cast<double>(solved_ * (model_.bodies.size() + model_.coordinates.size()));
-  return searched_ < share * (fit_.work() + files);
 }
 
 /// Returns the pose of a frame that has none before it: the best from all fresh starts, each with its limbs improved.
@@ -128,7 +112,7 @@ void PoseSequence::improve_limbs(std::size_t frame, PoseFit::Pose& pose) {
   for (const auto& limb : limbs_) {
     (void)fit_.place(pose.q);
     limb->stand(fit_, pose.q, markers_, static_cast<Eigen::Index>(frame));
-    for (const Eigen::VectorXd& start : limb->other_postures(pose.q, kOwnShare, true)) {
+    for (const Eigen::VectorXd& start : limb->other_postures(pose.q, kOwnShare)) {
       PoseFit::Pose other = fit_.solve(start);
       if (replaces(other, pose, kAnyBetter) && !strays(model_, other.q, pose.q)) pose = std::move(other);
     }
@@ -166,9 +150,9 @@ void PoseSequence::solve_frame(std::size_t frame) {
   for (int round = 0; round < kRounds && poses_[frame].cost < kAnyBetter * cost - kJumped_m2; ++round) {
     cost = poses_[frame].cost;
     for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
-      if (surprised[limb]) (void)search_limb(limb, frame, true);
+      if (surprised[limb]) (void)search_limb(limb, frame);
   }
-  for (std::size_t limb = 0; limb < limbs_.size(); ++limb) follow_rivals(limb, frame, false);
+  for (std::size_t limb = 0; limb < limbs_.size(); ++limb) search_valley(limb, frame);
 }
 
 /// Returns the minimum near the posture before; after a jump of the cost, or where the search fails, a far better one
@@ -187,7 +171,7 @@ PoseFit::Pose PoseSequence::next_pose(const Eigen::VectorXd& before) {
 }
 
 /// Returns the limbs whose search may have ended in another minimum: their markers moved far or fit much worse than
-/// before, their angles jumped or, while routine searches may be made, met the end of a range.
+/// before, or their angles jumped.
 std::vector<bool> PoseSequence::surprised_limbs(std::size_t frame, const Eigen::VectorXd& distances) const {
   std::vector<bool> surprised(limbs_.size(), false);
   if (frame == 0 || !seen_[frame - 1]) {
@@ -201,12 +185,8 @@ std::vector<bool> PoseSequence::surprised_limbs(std::size_t frame, const Eigen::
     const auto f = static_cast<Eigen::Index>(frame);
     surprised[limb] = distances[l] > distances_[l] + kFarMoved_m * kFarMoved_m ||
                       parts_(f, l) > kJumped * parts_(f - 1, l) + kJumped_m2;
-    for (const Eigen::Index c : limbs_[limb]->coordinates()) {
-      const model::Coordinate& coordinate = model_.coordinates[at(c)];
-      surprised[limb] =
-          surprised[limb] || std::abs(now[c] - then[c]) > kTurned_rad ||
-          (may_search(kSearchShare) && lies_at_end(coordinate, now[c]) && !lies_at_end(coordinate, then[c]));
-    }
+    for (const Eigen::Index c : limbs_[limb]->coordinates())
+      surprised[limb] = surprised[limb] || std::abs(now[c] - then[c]) > kTurned_rad;
   }
   return surprised;
 }

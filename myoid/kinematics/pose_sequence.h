@@ -15,10 +15,11 @@ namespace myoid::kinematics {
 ///
 /// A frame may have several minima, such as those of an arm turned about its length with the elbow bent the other way.
 /// The search therefore tries each limb in other postures (limb_fit.h), judged by the limb's own markers: in the first
-/// frame, where its markers moved far or fit much worse than before, where a coordinate meets the end of its range, and
-/// in the frame of every window where its markers lie worst. A better minimum is followed backwards and forwards. It
-/// replaces the postures at hand as far as that lowers J. A jump between minima must lower the sum of J over the frames
-/// by 5 % of a frame's J, so that the posture stays in one minimum where both fit alike, within 1 % of J and 1e-6 m^2.
+/// frame, where its markers moved far or fit much worse than before, and last where they fit worse than they usually
+/// do. Where the posture lies in a valley, its other minima are tried in every frame (valley_starts.h), for they last
+/// for a few frames only. A better minimum is followed backwards and forwards. It replaces the postures at hand as far
+/// as that lowers J. A jump between minima must lower the sum of J over the frames by 5 % of a frame's J, so that the
+/// posture stays in one minimum where both fit alike, within 1 % of J and 1e-6 m^2.
 class PoseSequence {
  public:
   /// Prepares the search. All arguments must outlive the object.
@@ -35,9 +36,9 @@ class PoseSequence {
   [[nodiscard]] const PoseFit::Pose& pose(Eigen::Index frame) const { return poses_[static_cast<std::size_t>(frame)]; }
 
  private:
-  static constexpr std::size_t kWindow = 8;  ///< Frames between searches of a limb.
+  static constexpr std::size_t kWindow = 8;  ///< Frames between tries of a floating joint's other angles.
   static constexpr int kRounds = 4;          ///< Searches in a frame, each after one that found a better minimum.
-  static constexpr double kOwnShare = 30.0;  ///< A rival's own cost on a fixed base over the limb's own cost.
+  static constexpr double kOwnShare = 30.0;  ///< Another posture's own cost on a fixed base over the limb's own cost.
   static constexpr double kAnyBetter = 1.0 - 1e-6;  ///< Share of the cost at which another minimum is the better one.
   static constexpr double kJumped_m2 = 1e-8;        ///< A smaller difference of costs says nothing.
 
@@ -49,32 +50,22 @@ class PoseSequence {
     bool jumps = false;                ///< The posture jumps behind the last frame.
   };
 
-  /// Another minimum of a limb, which is followed beside the postures at hand.
-  struct Rival {
-    std::size_t frame = 0;  ///< The latest in which it was found.
-    PoseFit::Pose pose;
-    std::size_t due = 0;  ///< The frame in which it is found again.
-  };
-
   void solve_frame(std::size_t frame);
   [[nodiscard]] PoseFit::Pose first_pose();
   [[nodiscard]] PoseFit::Pose next_pose(const Eigen::VectorXd& before);
   [[nodiscard]] PoseFit::Pose solve_from(const Eigen::VectorXd& start);
-  [[nodiscard]] bool may_search(double share) const;
 
   [[nodiscard]] double cost_without_limbs(const Eigen::VectorXd& q);
   void improve_limbs(std::size_t frame, PoseFit::Pose& pose);
   [[nodiscard]] std::vector<bool> surprised_limbs(std::size_t frame, const Eigen::VectorXd& distances) const;
   [[nodiscard]] Eigen::VectorXd limb_distances() const;
-  bool search_limb(std::size_t limb, std::size_t frame, bool thorough);
+  bool search_limb(std::size_t limb, std::size_t frame);
+  void search_valley(std::size_t limb, std::size_t frame);
+  [[nodiscard]] bool may_search() const;
   void search_suspicious();
   void try_roots(std::size_t frame);
 
   [[nodiscard]] std::optional<PoseFit::Pose> minimum_near(std::size_t frame, const Eigen::VectorXd& start);
-  [[nodiscard]] Eigen::VectorXd carried(const Rival& rival, std::size_t limb, std::size_t frame) const;
-  [[nodiscard]] double lag_of(const PoseFit::Pose& pose, std::size_t limb, std::size_t frame) const;
-  void follow_rivals(std::size_t limb, std::size_t frame, bool all);
-  void look_back(Rival rival, std::size_t limb, std::size_t since);
   bool take(std::size_t frame, PoseFit::Pose& pose);
 
   [[nodiscard]] Stretch follow(std::size_t frame, const PoseFit::Pose& pose, bool forwards);
@@ -88,12 +79,9 @@ class PoseSequence {
   std::vector<std::unique_ptr<LimbFit>> limbs_;
   std::vector<PoseFit::Pose> poses_;
   std::vector<bool> seen_;
-  Eigen::MatrixXd parts_;                    ///< Per frame and limb: the limb's own part of 2 J.
-  Eigen::VectorXd distances_;                ///< Mean square distance of each limb's markers in the latest frame.
-  std::size_t solved_ = 0;                   ///< Frames.
-  std::vector<std::vector<Rival>> rivals_;   ///< Per limb.
-  std::vector<std::size_t> searched_until_;  ///< Per limb: frame behind the latest search.
-  std::vector<std::size_t> pause_;           ///< Per limb: frames until the next one.
+  Eigen::MatrixXd parts_;      ///< Per frame and limb: the limb's own part of 2 J.
+  Eigen::VectorXd distances_;  ///< Mean square distance of each limb's markers in the latest frame.
+  std::size_t solved_ = 0;     ///< Frames.
   double cost_before_;
   double searched_ = 0.0;  ///< Work of searches.
 };

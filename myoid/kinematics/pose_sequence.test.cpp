@@ -193,7 +193,6 @@ TEST(PoseSequence, FindsEachOfManyUnrelatedPosturesThatFitExactly) {
 
 TEST(PoseSequence, IsNeverAboveTheTruthNorAboveTwoHundredRandomStarts) {
   const model::BodyModel m = person();
-  int missed = 0;
   for (unsigned seed = 1; seed <= movements_to_judge(); ++seed) {
     Draws random(seed);
     const Eigen::MatrixXd truth = movement(m, random, 200);
@@ -211,13 +210,9 @@ TEST(PoseSequence, IsNeverAboveTheTruthNorAboveTwoHundredRandomStarts) {
       fit.set_targets(markers, i);
       const Eigen::VectorXd found = result.q.values().row(i).transpose();
       const double best = best_of_random(m, fit, found, 200, random);
-      // A minimum that lasts for a few frames may be missed: one of 240 judged frames of 30 movements, by 5.4e-6 m^2.
-      const double above = result.objective[static_cast<std::size_t>(i)] - best;
-      EXPECT_LT(above, 1e-5) << "movement " << seed << ", frame " << i;
-      if (above > 1e-6) ++missed;
+      EXPECT_LE(result.objective[static_cast<std::size_t>(i)], best + 1e-6) << "movement " << seed << ", frame " << i;
     }
   }
-  EXPECT_LE(missed, 1);
 }
 
 /// A chain of two hinges in a plane with a marker at its tip: the elbow may be bent either way.
@@ -333,7 +328,7 @@ TEST(LimbFit, FindsTheOtherPostureOfALimbFromItsOwnMarkers) {
   (void)whole.place(stuck);
   for (const auto& limb : limbs_of(m, options, every_marker(m))) {
     limb->stand(whole, stuck, markers, 0);
-    const auto others = limb->other_postures(stuck, 1.0, true);
+    const auto others = limb->other_postures(stuck, 1.0);
     const bool right = limb->coordinates().front() == m.coordinate_index("flexion_r");
     ASSERT_EQ(others.empty(), !right) << "the left arm fits";
     if (right) {

@@ -50,7 +50,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/posterior/likelihood_block.h", "a plain value, exercised by likelihood.test"},
     {"myoid/intervals/result.h", "values only; exercised by torque.test"},
     {"myoid/model/opensim_defects/compat.h", "switches, exercised by muscle_path.test and the OpenSim table"},
-    {"myoid/model/joint_posture.h", "exercised by kinematic_tree.test and body_accelerations.test"},
     {"myoid/opensim_tools/tool_result.h", "plain values, exercised by run_tool.test"},
     {"myoid/phases/phases.h", "plain values, exercised by find_phases.test"},
     {"myoid/commands/convert.h", "exercised by running the program"},

@@ -1,31 +1,32 @@
 // The search of PoseSequence for other minima.
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "myoid/core/index.h"
 #include "myoid/kinematics/joint_angles.h"
 #include "myoid/kinematics/pose_comparison.h"
 #include "myoid/kinematics/pose_sequence.h"
+#include "myoid/kinematics/valley_starts.h"
 
 namespace myoid::kinematics {
 namespace {
 
-constexpr std::size_t kLongest = 32;  // frames between searches of a limb after searches that found nothing
-constexpr double kRivalShare = 0.4;   // of the work, for rivals and routine searches
-constexpr double kLastShare = 0.6;    // the same with the searches behind the last frame
-constexpr double kSuspicious = 1.15;  // a limb's cost over its median
-constexpr std::size_t kPlace = 8;     // frames of which the worst is searched then
-constexpr int kAlone = 4;             // such searches of a limb in turn that found nothing end them
-constexpr double kNear = 0.5;         // lag of a rival that is found again in the next frame,
-constexpr double kMiddle = 1.5;       // in the next but one,
-constexpr double kFar = 5.0;          // in the fourth
-constexpr double kForgotten = 15.0;   // lag of a rival that is not followed any longer
-constexpr double kJump = 0.05;        // sum of relative gains at which a jump pays
+constexpr double kSearchShare = 0.25;   // of the work, for searches of suspicious places
+constexpr double kFilesOfFrame = 10.0;  // postures evaluated in the time in which a frame is read and written
+constexpr double kSuspicious = 1.15;    // a limb's cost over its median
+constexpr std::size_t kPlace = 8;       // frames of which the worst is searched then
+constexpr std::size_t kRoutine = 64;    // frames of which one is searched in any case, and so is one of the last
+constexpr int kInVain = 4;              // such searches of a limb in turn that found nothing end them
+constexpr int kValleySteps = 4;         // after which a start in a valley must be
+constexpr double kHopeless = 1.0;       // no farther above the frame's cost, in units of the limb's own part
+constexpr double kJump = 0.05;          // sum of relative gains at which a jump pays
 
 }  // namespace
 
-/// Searches each limb thoroughly where it fits much worse than it usually does, the worst places first.
+/// Searches each limb now and then, and where it fits much worse than it usually does, the worst places first.
 void PoseSequence::search_suspicious() {
   struct Place {
     double ratio = 0.0;
@@ -42,109 +43,63 @@ void PoseSequence::search_suspicious() {
       const auto count = static_cast<Eigen::Index>(std::min(poses_.size() - first, kPlace));
       Eigen::Index worst = 0;
       const double ratio = column.segment(static_cast<Eigen::Index>(first), count).maxCoeff(&worst) / usual;
-      if (ratio > kSuspicious) places.push_back({ratio, limb, first + at(worst)});
+      const bool routine = first + kPlace >= poses_.size() || (first + kPlace) % kRoutine == 0;
+      if (routine) places.push_back({std::numeric_limits<double>::infinity(), limb, first + at(worst)});
+      if (ratio > kSuspicious && !routine) places.push_back({ratio, limb, first + at(worst)});
     }
   }
   std::ranges::sort(places, std::greater(), &Place::ratio);
-  std::vector<int> alone(limbs_.size(), 0);
+  std::vector<int> in_vain(limbs_.size(), 0);
   for (const Place& place : places) {
-    if (!may_search(kLastShare)) return;
-    if (!seen_[place.frame] || alone[place.limb] >= kAlone) continue;
-    rivals_[place.limb].clear();
-    searched_until_[place.limb] = place.frame - std::min(place.frame, kPlace);
-    alone[place.limb] = search_limb(place.limb, place.frame, true) ? 0 : alone[place.limb] + 1;
+    if (!may_search()) return;
+    if (!seen_[place.frame] || in_vain[place.limb] >= kInVain) continue;
+    const bool better = search_limb(place.limb, place.frame);
+    if (std::isfinite(place.ratio)) in_vain[place.limb] = better ? 0 : in_vain[place.limb] + 1;
   }
 }
 
-/// Returns how much higher a posture's cost is than that of the frame, in units of the limb's own part.
-double PoseSequence::lag_of(const PoseFit::Pose& pose, std::size_t limb, std::size_t frame) const {
-  return (pose.cost - poses_[frame].cost) /
-         (parts_(static_cast<Eigen::Index>(frame), static_cast<Eigen::Index>(limb)) + kJumped_m2);
+/// Returns true while searches have taken no more than their share of the work, to which reading and writing a frame
+/// adds.
+bool PoseSequence::may_search() const {
+  const double files =
+      kFilesOfFrame * static_cast<double>(solved_ * (model_.bodies.size() + model_.coordinates.size()));
+  return searched_ < kSearchShare * (fit_.work() + files);
 }
 
-/// Returns a start for a rival in another frame: the limb stays, everything else moves as the postures at hand do.
-Eigen::VectorXd PoseSequence::carried(const Rival& rival, std::size_t limb, std::size_t frame) const {
-  Eigen::VectorXd start = rival.pose.q + poses_[frame].q - poses_[rival.frame].q;
-  for (const Eigen::Index c : limbs_[limb]->coordinates()) start[c] = rival.pose.q[c];
-  return start;
-}
-
-/// Finds the rivals of a limb again in a frame, those that are due or all; one that is the better minimum is taken.
-void PoseSequence::follow_rivals(std::size_t limb, std::size_t frame, bool all) {
-  if (!all && !may_search(kRivalShare)) return;
-  const double before = fit_.work();
-  std::vector<Rival> kept;
-  std::vector<Rival> rivals = std::move(rivals_[limb]);
-  rivals_[limb].clear();
-  for (Rival& rival : rivals) {
-    if (rival.frame == frame || !(all || rival.due <= frame)) {
-      kept.push_back(std::move(rival));
-      continue;
-    }
-    auto pose = minimum_near(frame, carried(rival, limb, frame));
-    if (!pose || same_posture(*pose, poses_[frame])) continue;
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Rival& other) {
-      return other.frame == frame && same_posture(*pose, other.pose);
-    });
-    if (known) continue;
-    PoseFit::Pose old = poses_[frame];
-    if (take(frame, *pose)) pose = std::move(old);
-    const double lag = lag_of(*pose, limb, frame);
-    if (lag > kForgotten) continue;
-    const std::size_t wait = lag < kNear ? 1 : lag < kMiddle ? 2 : lag < kFar ? 4 : kWindow;
-    kept.push_back({frame, std::move(*pose), frame + wait});
-  }
-  rivals_[limb] = std::move(kept);
-  searched_ += fit_.work() - before;
-}
-
-/// Searches a limb in a frame for rivals that are not known; follows each back to the frame of the search before.
-/// Returns true if the limb has other minima on its base.
-bool PoseSequence::search_limb(std::size_t limb, std::size_t frame, bool thorough) {
-  follow_rivals(limb, frame, true);
+/// Searches a limb in a frame, again after a better minimum; returns true if one was found.
+bool PoseSequence::search_limb(std::size_t limb, std::size_t frame) {
   const double before = fit_.work() + limbs_[limb]->work();
-  bool alone = true;
+  bool better = false;
   for (int round = 0; round < kRounds; ++round) {
     fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
     const Eigen::VectorXd q = poses_[frame].q;
     (void)fit_.place(q);
     limbs_[limb]->stand(fit_, q, markers_, static_cast<Eigen::Index>(frame));
     bool taken = false;
-    for (const Eigen::VectorXd& start : limbs_[limb]->other_postures(q, kOwnShare, thorough)) {
-      alone = false;
-      auto& rivals = rivals_[limb];
+    for (const Eigen::VectorXd& start : limbs_[limb]->other_postures(q, kOwnShare)) {
       auto pose = minimum_near(frame, start);
-      if (!pose || same_posture(*pose, poses_[frame])) continue;
-      const bool known = std::any_of(rivals.begin(), rivals.end(), [&](const Rival& other) {
-        return other.frame == frame && same_posture(*pose, other.pose);
-      });
-      if (known) continue;
-      PoseFit::Pose old = poses_[frame];
-      if (take(frame, *pose)) {
-        taken = true;
-        pose = std::move(old);
-      }
-      if (lag_of(*pose, limb, frame) > kForgotten) continue;
-      rivals.push_back({frame, *pose, frame + 1});
-      look_back(rivals.back(), limb, searched_until_[limb]);
+      taken = (pose && take(frame, *pose)) || taken;
     }
     if (!taken) break;
+    better = true;
   }
-  searched_until_[limb] = frame + 1;
-  pause_[limb] = alone ? std::min(2 * pause_[limb], kLongest) : kWindow;
   searched_ += fit_.work() + limbs_[limb]->work() - before;
-  return !alone;
+  return better;
 }
 
-/// Follows a new rival backwards while it is near, and takes it where it is the better minimum.
-void PoseSequence::look_back(Rival rival, std::size_t limb, std::size_t since) {
-  while (rival.frame > since && lag_of(rival.pose, limb, rival.frame) < kMiddle) {
-    const std::size_t frame = rival.frame - 1;
-    if (!seen_[frame]) return;
-    auto pose = minimum_near(frame, carried(rival, limb, frame));
-    if (!pose || same_posture(*pose, poses_[frame])) return;
-    rival = {frame, *pose, frame};
-    if (take(frame, *pose)) return;
+/// Searches a limb in the valleys of its posture, where it has one (valley_starts.h).
+void PoseSequence::search_valley(std::size_t limb, std::size_t frame) {
+  const double part = parts_(static_cast<Eigen::Index>(frame), static_cast<Eigen::Index>(limb));
+  if (part < kJumped_m2) return;
+  fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+  const Eigen::VectorXd q = poses_[frame].q;
+  const std::vector<Eigen::Index> coordinates = limbs_[limb]->turning();
+  for (const Eigen::VectorXd& start : valley_starts(model_, q, {coordinates, fit_.curvature(q, coordinates), part})) {
+    fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+    PoseFit::Search search = fit_.begin(start);
+    fit_.advance(search, kValleySteps);
+    if (search.pose.cost > poses_[frame].cost + kHopeless * part) continue;
+    if (auto pose = minimum_near(frame, search.pose.q)) (void)take(frame, *pose);
   }
 }
 
