@@ -353,8 +353,10 @@ void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationRes
 }
 
 /// Puts the greatest voluntary torques before the muscles' numbers.
+/// Read at the mode, which fits the measured torque: the means of the marginals of numbers that err together (a tendon,
+/// the fibers, their force) need not.
 void add_voluntary(const Reporting& of,
-                   const Density& density,
+                   const Candidate& best,
                    const NoiseValues& of_widths,
                    const EstimatorOptions& options,
                    IdentificationResult& result) {
@@ -365,7 +367,8 @@ void add_voluntary(const Reporting& of,
   fit.model_error = result.model_error;
   const Eigen::MatrixXd off = of.given.z.colwise() - of.given.z.rowwise().mean();
   VoluntaryTorques torques = voluntary_torques(
-      of.data, options, {density.likelihood(), result.solution, result.noise, of_widths, result.covariance},
+      of.data, options,
+      {best.density->likelihood(), best.density->z_of(best.mode.x), result.noise, of_widths, result.covariance},
       {of.given.density->likelihood(), of.given.value, of.given.noise, of.given.noise,
        off * off.transpose() / static_cast<double>(off.cols())},
       fit);
@@ -444,7 +447,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
                      options.unseen.strength};
   add_estimates(of, result);
   if (options.marginals && options.predictions && !options.measured_is_force)
-    add_voluntary(of, *best.density, sizes.noise, options, result);
+    add_voluntary(of, best, sizes.noise, options, result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, best.density->unlikeness(), result);
   if (best.mode.converged) result.diagnoses = signatures(result.estimates);
