@@ -83,7 +83,8 @@ TEST(Performance, WhatIsBesideTheMusclesHasItsPartInTheEquationOfMotion) {
     // Activations are turned in until they change by 1e-10, of some 100 N m at the most.
     EXPECT_NEAR(
         torque_nm,
-        arm.required_torque_nm(now.q, performance.script().protocol.plane, performance.script().protocol.held_mass_kg),
+        required_torque_nm(arm.elbow, now.q.value, now.q.second, performance.script().protocol.plane,
+                           performance.script().protocol.held_mass_kg),
         1e-7);
   }
 }
