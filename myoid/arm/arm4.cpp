@@ -91,6 +91,16 @@ std::string joint(std::string_view name,
       name, parent, child, coordinates, frames(parent, child, p_PF_m), axes);
 }
 
+std::string weld(std::string_view name, std::string_view parent, std::string_view child, const Vec3& p_PF_m) {
+  return fmt::format(
+      "        <WeldJoint name=\"{}\">\n"
+      "          <socket_parent_frame>{}_offset</socket_parent_frame>\n"
+      "          <socket_child_frame>{}_offset</socket_child_frame>\n"
+      "{}"
+      "        </WeldJoint>\n",
+      name, parent, child, frames(parent, child, p_PF_m));
+}
+
 std::string point(std::string_view name, std::string_view on, const Vec3& at_m) {
   return fmt::format(
       "                <PathPoint name=\"{}\"><socket_parent_frame>/bodyset/{}"
@@ -244,18 +254,17 @@ std::string arm_osim(const Arm4Options& options, std::string_view name, const st
                      {"base_ty", Vec3::UnitY(), 0.0, -10.0, 10.0, true},
                      {"base_tz", Vec3::UnitZ(), 0.0, -10.0, 10.0, true}});
   } else {
-    joints += fmt::format(
-        "        <WeldJoint name=\"base\">\n"
-        "          <socket_parent_frame>ground_offset</socket_parent_frame>\n"
-        "          <socket_child_frame>trunk_offset</socket_child_frame>\n"
-        "{}"
-        "        </WeldJoint>\n",
-        frames("ground", "trunk", base_m));
+    joints += weld("base", "ground", "trunk", base_m);
   }
-  joints += joint("shoulder", "trunk", "upper_arm", Vec3(0.0, 0.0, kShoulderOffset_m),
-                  {{"shoulder_flexion", Vec3::UnitZ(), shoulder_rad.x(), -kPi, kPi, false},
-                   {"shoulder_adduction", Vec3::UnitX(), shoulder_rad.y(), -kPi, 0.5 * kPi, false},
-                   {"shoulder_rotation", Vec3::UnitY(), shoulder_rad.z(), -kPi, kPi, false}});
+  const Vec3 shoulder_m(0.0, 0.0, kShoulderOffset_m);
+  if (options.elbow_only) {
+    joints += weld("shoulder", "trunk", "upper_arm", shoulder_m);
+  } else {
+    joints += joint("shoulder", "trunk", "upper_arm", shoulder_m,
+                    {{"shoulder_flexion", Vec3::UnitZ(), shoulder_rad.x(), -kPi, kPi, false},
+                     {"shoulder_adduction", Vec3::UnitX(), shoulder_rad.y(), -kPi, 0.5 * kPi, false},
+                     {"shoulder_rotation", Vec3::UnitY(), shoulder_rad.z(), -kPi, kPi, false}});
+  }
   const Vec3 elbow_m(0.0, -upper_m, 0.0);
   joints += joint("elbow", "upper_arm", rotations ? "ulna" : "forearm_hand", elbow_m,
                   {{"elbow_flexion", Vec3::UnitZ(), 0.0, -10.0 * kDegree, kElbowHigh_rad, false}});

@@ -22,6 +22,8 @@ struct Arm4Options {
   /// elbow_carrying and forearm_rotation; all of them locked by default. The muscles insert above
   /// these (body "ulna"), so that their lengths depend on elbow_flexion only.
   bool forearm_rotations = false;
+  /// The upper arm hangs at rest: elbow_flexion is the one coordinate.
+  bool elbow_only = false;
 };
 
 /// Returns the built-in right arm as an OpenSim model file (version 40000): bodies trunk, upper_arm and forearm_hand

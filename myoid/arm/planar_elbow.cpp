@@ -112,14 +112,14 @@ PlanarElbow planar_elbow(const ArmOptions& options) {
   return elbow;
 }
 
-double required_torque_nm(const PlanarElbow& elbow,
+double required_torque_nm(const HingedForearm& forearm,
                           double elbow_flexion_rad,
                           double acceleration_radps2,
                           double gravity_mps2,
                           double held_mass_kg) {
-  const double d_m = elbow.held_at_m;
-  return (elbow.inertia_kgm2 + held_mass_kg * d_m * d_m) * acceleration_radps2 +
-         (elbow.static_moment_kgm + held_mass_kg * d_m) * gravity_mps2 * std::sin(elbow_flexion_rad);
+  const double d_m = forearm.held_at_m;
+  return (forearm.inertia_kgm2 + held_mass_kg * d_m * d_m) * acceleration_radps2 +
+         (forearm.static_moment_kgm + held_mass_kg * d_m) * gravity_mps2 * std::sin(elbow_flexion_rad);
 }
 
 }  // namespace myoid::model

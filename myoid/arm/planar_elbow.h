@@ -54,12 +54,16 @@ struct MuscleTravel {
 };
 [[nodiscard]] MuscleTravel travel(const PlanarMuscle& muscle, double elbow_flexion_rad);
 
+/// Forearm and hand on the hinge of the elbow.
+struct HingedForearm {
+  double inertia_kgm2 = 0.0;       ///< Moment of inertia about the elbow.
+  double static_moment_kgm = 0.0;  ///< Mass times distance of its center.
+  double held_at_m = 0.0;          ///< Distance of a held object from the elbow.
+};
+
 /// The closed-form arm: an upper arm at rest, a forearm with hand on a hinge, four muscles.
-struct PlanarElbow {
+struct PlanarElbow : HingedForearm {
   std::array<PlanarMuscle, 4> muscles;  ///< BIC, BRA, BRD, TRI.
-  double inertia_kgm2 = 0.0;            ///< Moment of inertia of forearm and hand about the elbow.
-  double static_moment_kgm = 0.0;       ///< Mass times distance of its center.
-  double held_at_m = 0.0;
 };
 
 /// Returns the built-in arm. Attachments of the flexors are least-squares fits of the law above to
@@ -72,7 +76,7 @@ struct PlanarElbow {
 /// upper arm towards the elbow (9.81 when it hangs, 0 when the axis of the elbow is vertical):
 ///
 ///   T = (J + m d^2) qddot + (S + m d) g sin q
-[[nodiscard]] double required_torque_nm(const PlanarElbow& elbow,
+[[nodiscard]] double required_torque_nm(const HingedForearm& forearm,
                                         double elbow_flexion_rad,
                                         double acceleration_radps2,
                                         double gravity_mps2,

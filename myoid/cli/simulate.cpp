@@ -57,9 +57,10 @@ void add_output_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--rate", o.rate_hz, "Samples of the results [Hz] (default 200)");
   command.add_option("--tolerance", o.tolerance, "Relative local error of the integration (default 1e-8)");
   command.add_flag("--energy", o.energy, "Also the work of every element, and whether it adds up");
-  command.add_option("--sensitivity", o.sensitivity,
-                     "Also the derivatives by this parameter of arm4, such as BIC.max_isometric_force, 'BIC.*' or '*'; "
-                     "may be repeated");
+  command.add_option(
+      "--sensitivity", o.sensitivity,
+      "Also the derivatives by this parameter of the model, such as BIC.max_isometric_force, 'BIC.*' or '*'; "
+      "may be repeated");
   command.add_flag("--figures", o.figures, "Also a figure of the movement (.svg, .csv)");
 }
 

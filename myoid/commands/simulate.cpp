@@ -13,6 +13,7 @@
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/files/text_file.h"
 #include "myoid/report/write_report.h"
+#include "myoid/simulation/arm_model.h"
 #include "myoid/simulation/forward_simulation.h"
 
 namespace myoid::commands {
@@ -34,9 +35,6 @@ void refuse_impossible(const SimulateOptions& o) {
     throw InvalidInput(fmt::format("--tolerance {}: expected 1e-13 to 0.01", o.tolerance));
   if (o.model == "arm4") return;
   if (o.horizontal) throw InvalidInput("--horizontal belongs to arm4; a model file says its gravity itself");
-  if (!o.sensitivity.empty()) {
-    throw InvalidInput("--sensitivity belongs to arm4; of a model file, simulate twice and take differences");
-  }
 }
 
 Provenance provenance_of(const SimulateOptions& o, const Drive& drive) {
@@ -86,82 +84,29 @@ simulation::SimulationOptions integration_options(const SimulateOptions& o, doub
   return options;
 }
 
-muscle::MusculotendonLaws laws_of(simulation::MuscleCurves curves, muscle::TendonMode mode) {
-  switch (curves) {
-    case simulation::MuscleCurves::thelen:
-      return muscle::thelen_laws(mode);
-    case simulation::MuscleCurves::de_groote:
-      return muscle::de_groote_laws(mode);
-    case simulation::MuscleCurves::millard:
-      return muscle::millard_laws(mode);
-    case simulation::MuscleCurves::file:
-    case simulation::MuscleCurves::paper:
-      break;
-  }
-  return muscle::paper_laws(mode);
+simulation::ModelSetup setup_of(const SimulateOptions& o) {
+  return {.mode = tendon_mode(o), .curves = muscle_curves(o), .activation = activation_law(o)};
 }
 
-SimulateResult simulate_arm4(const SimulateOptions& o, Remarks& remarks) {
-  simulation::ArmSetup setup;
-  setup.horizontal = o.horizontal;
-  setup.held_mass_kg = o.held_mass_kg;
-  setup.laws = laws_of(muscle_curves(o), tendon_mode(o));
-  setup.activation.law = activation_law(o);
-  const simulation::Arm<double> arm = simulation::make_arm(setup);
-  std::vector<std::string> muscles;
-  for (const auto& m : arm.muscles) muscles.push_back(m.name);
-
-  SimulateResult result;
+/// Loads the arm, whose shoulder stays outside the simulation.
+simulation::SimulationModel load_arm(const SimulateOptions& o, SimulateResult& result, Remarks& remarks) {
   result.body = load_model("arm4", "exact", remarks);
-  Drive drive = read_drive(o, muscles, remarks);
-  simulation::SimulationInput input;
-  input.excitation = std::move(drive.excitation);
-  input.device = {simulation::Device{}};
-  simulation::SimulationStart start;
-  start.time_s = drive.start_s;
-  start.q = {0.0};
-  place(o, {{"elbow_flexion", true}}, start, input.device);
-  const simulation::SimulationOptions options = integration_options(o, drive.start_s, drive.end_s);
-  const std::vector<std::string> wanted = wanted_parameters(o, arm);
-  result.simulation = simulation::simulate(arm, input, start, options);
-  if (!wanted.empty() && result.simulation.status == math::OdeStatus::done) {
-    result.sensitivities = simulation::simulate_sensitivities(arm, input, start, options, wanted);
-  }
   const Vec3 shoulder = model::arm4_shoulder_rad(o.horizontal);
   result.held = {
       {"shoulder_flexion", shoulder.x()}, {"shoulder_adduction", shoulder.y()}, {"shoulder_rotation", shoulder.z()}};
-  result.provenance = provenance_of(o, drive);
-  return result;
+  return simulation::make_arm_model({.horizontal = o.horizontal, .held_mass_kg = o.held_mass_kg, .model = setup_of(o)});
 }
 
-SimulateResult simulate_file(const SimulateOptions& o, Remarks& remarks) {
-  model::BodyModel body = load_model(o.model, "exact", remarks);
+simulation::SimulationModel load_file(const SimulateOptions& o, SimulateResult& result, Remarks& remarks) {
+  result.body = load_model(o.model, "exact", remarks);
   if (o.held_mass_kg != 0.0) {
-    body = dynamics::with_held_mass(std::move(body), o.held_body, Vec3(o.held_at_m[0], o.held_at_m[1], o.held_at_m[2]),
-                                    o.held_mass_kg);
+    result.body = dynamics::with_held_mass(std::move(result.body), o.held_body,
+                                           Vec3(o.held_at_m[0], o.held_at_m[1], o.held_at_m[2]), o.held_mass_kg);
   }
-  const simulation::SimulationModel model = simulation::make_simulation_model(
-      std::move(body), {.mode = tendon_mode(o), .curves = muscle_curves(o), .activation = activation_law(o)});
+  simulation::SimulationModel model = simulation::make_simulation_model(result.body, setup_of(o));
   if (model.idle_actuators > 0)
     remarks.warn(fmt::format("{}: its {} actuators exert nothing", o.model, model.idle_actuators));
-  std::vector<std::string> muscles;
-  for (const auto& m : model.muscles) muscles.push_back(m.name);
-  std::vector<NamedCoordinate> coordinates;
-  for (const model::Coordinate& c : model.body.coordinates)
-    coordinates.push_back({c.name, c.motion == model::MotionType::rotational});
-
-  SimulateResult result;
-  result.body = model.body;
-  Drive drive = read_drive(o, muscles, remarks);
-  simulation::SimulationInput input;
-  input.excitation = std::move(drive.excitation);
-  input.device = simulation::default_devices(model);
-  simulation::SimulationStart start = simulation::default_start(model, drive.start_s);
-  refuse_followers(o, model.body);
-  place(o, coordinates, start, input.device);
-  result.simulation = simulation::simulate(model, input, start, integration_options(o, drive.start_s, drive.end_s));
-  result.provenance = provenance_of(o, drive);
-  return result;
+  return model;
 }
 
 /// Warns of simulations that ended early, and of jumps in the equations.
@@ -189,7 +134,27 @@ SimulateResult simulate(const SimulateOptions& options) {
   const SimulateOptions o = with_defaults(options);
   refuse_impossible(o);
   Remarks remarks(o.call);
-  SimulateResult result = o.model == "arm4" ? simulate_arm4(o, remarks) : simulate_file(o, remarks);
+  SimulateResult result;
+  const simulation::SimulationModel model =
+      o.model == "arm4" ? load_arm(o, result, remarks) : load_file(o, result, remarks);
+  std::vector<std::string> muscles;
+  for (const auto& m : model.muscles) muscles.push_back(m.name);
+  std::vector<NamedCoordinate> coordinates;
+  for (const model::Coordinate& c : model.body.coordinates)
+    coordinates.push_back({c.name, c.motion == model::MotionType::rotational});
+  Drive drive = read_drive(o, muscles, remarks);
+  simulation::SimulationInput input;
+  input.excitation = std::move(drive.excitation);
+  input.device = simulation::default_devices(model);
+  simulation::SimulationStart start = simulation::default_start(model, drive.start_s);
+  refuse_followers(o, model.body);
+  place(o, coordinates, start, input.device);
+  const std::vector<std::string> wanted = wanted_parameters(o, model);
+  const simulation::SimulationOptions integration = integration_options(o, drive.start_s, drive.end_s);
+  result.simulation = simulation::simulate(model, input, start, integration);
+  if (!wanted.empty() && result.simulation.status == math::OdeStatus::done)
+    result.sensitivities = simulation::simulate_sensitivities(model, input, start, integration, wanted);
+  result.provenance = provenance_of(o, drive);
   if (o.figures) result.figures.push_back(movement_figure(result.simulation));
   tell_trouble(result, remarks);
   result.remarks = remarks.list();
@@ -199,11 +164,7 @@ SimulateResult simulate(const SimulateOptions& options) {
 void write_simulate(const SimulateResult& result, const std::filesystem::path& folder) {
   const simulation::Simulation& s = result.simulation;
   write_simulation(s, result.body, result.held, result.provenance, folder);
-  if (result.sensitivities) {
-    std::vector<std::string> muscles;
-    for (const Channel& channel : s.activation.channels()) muscles.push_back(channel.name);
-    write_sensitivities(*result.sensitivities, muscles, result.provenance, folder);
-  }
+  if (result.sensitivities) write_sensitivities(*result.sensitivities, result.provenance, folder);
   for (const report::Figure& figure : result.figures) write_figure(figure, folder);
 }
 

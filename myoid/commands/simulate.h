@@ -35,7 +35,7 @@ struct SimulateOptions {
   double rate_hz = 200.0;                        ///< Rate of the results.
   double tolerance = 1e-8;                       ///< Relative local error of the integration.
   bool energy = false;                           ///< Computes the work of every element, too.
-  std::vector<std::string> sensitivity;          ///< Parameters of arm4, or beginnings of names with '*'.
+  std::vector<std::string> sensitivity;          ///< Parameters of the model, or beginnings of names with '*'.
   bool figures = false;                          ///< Draws a figure of the movement, too.
 };
 

@@ -13,8 +13,8 @@
 #include "myoid/core/names.h"
 #include "myoid/core/units.h"
 #include "myoid/files/text_file.h"
-#include "myoid/simulation/arm_parameters.h"
 #include "myoid/simulation/excitation.h"
+#include "myoid/simulation/sensitivity.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::commands {
@@ -127,9 +127,8 @@ void refuse_followers(const SimulateOptions& o, const model::BodyModel& body) {
   }
 }
 
-std::vector<std::string> wanted_parameters(const SimulateOptions& o, const simulation::Arm<double>& arm) {
-  std::vector<std::string> all = simulation::arm_parameter_names(arm);
-  all.insert(all.end(), {"start_angle", "start_speed"});
+std::vector<std::string> wanted_parameters(const SimulateOptions& o, const simulation::SimulationModel& model) {
+  const std::vector<std::string> all = simulation::sensitivity_names(model);
   std::vector<std::string> result;
   for (const std::string& text : o.sensitivity) {
     const std::string head = text.ends_with('*') ? text.substr(0, text.size() - 1) : text;

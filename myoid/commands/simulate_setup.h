@@ -6,7 +6,6 @@
 #include "myoid/commands/simulate.h"
 #include "myoid/muscle/activation.h"
 #include "myoid/muscle/musculotendon.h"
-#include "myoid/simulation/arm.h"
 #include "myoid/simulation/simulation_model.h"
 
 namespace myoid::commands {
@@ -43,8 +42,8 @@ void place(const SimulateOptions& options,
 /// Throws InvalidInput if the options place a coordinate that follows another by a coupler.
 void refuse_followers(const SimulateOptions& options, const model::BodyModel& body);
 
-/// Returns the parameters of the arm that `sensitivity` names, each once, in their order.
+/// Returns the parameters of the model that `sensitivity` names, each once, in their order.
 [[nodiscard]] std::vector<std::string> wanted_parameters(const SimulateOptions& options,
-                                                         const simulation::Arm<double>& arm);
+                                                         const simulation::SimulationModel& model);
 
 }  // namespace myoid::commands

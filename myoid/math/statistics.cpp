@@ -72,53 +72,6 @@ double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x, const s
   return std::max(1.0, n / (2.0 * positive_autocorrelation(x, pieces).sum() - 1.0));
 }
 
-Eigen::MatrixXd covariance_of_sum(const Eigen::MatrixXd& weights,
-                                  const Eigen::VectorXd& autocorrelation,
-                                  const std::vector<Eigen::Index>& pieces,
-                                  Eigen::Index stride) {
-  const Eigen::Index p = weights.rows();
-  const Eigen::Index reach = autocorrelation.size() - 1;
-  Eigen::VectorXd kernel(2 * reach + 1);
-  kernel << autocorrelation.reverse(), autocorrelation.tail(reach);
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
-  Eigen::Index begin = 0;
-  for (const Eigen::Index length : pieces) {
-    Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(length + 2 * reach, p);
-    padded.middleRows(reach, length) = weights.middleCols(begin, length).transpose();
-    const Eigen::Index count = (length + stride - 1) / stride;
-    Eigen::MatrixXd here(count, p), filtered(count, p);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Index t = i * stride;
-      here.row(i) = padded.row(reach + t);
-      filtered.row(i).noalias() = kernel.transpose() * padded.middleRows(t, kernel.size());
-    }
-    sum += static_cast<double>(length) / static_cast<double>(count) * filtered.transpose() * here;
-    begin += length;
-  }
-  return 0.5 * (sum + sum.transpose());
-}
-
-Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores, const std::vector<Eigen::Index>& pieces, Eigen::Index lag) {
-  // The Bartlett-weighted sum of all products of samples up to `lag` apart equals the sum of the squares of all sums
-  // over lag + 1 consecutive samples, divided by lag + 1; windows extend beyond both ends.
-  const Eigen::Index p = scores.cols();
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
-  Eigen::Index begin = 0;
-  for (const Eigen::Index length : pieces) {
-    Eigen::MatrixXd windows(p, length + lag);
-    Eigen::VectorXd window = Eigen::VectorXd::Zero(p);
-    for (Eigen::Index i = 0; i < length + lag; ++i) {
-      if (i < length) window += scores.row(begin + i).transpose();
-      if (i > lag) window -= scores.row(begin + i - lag - 1).transpose();
-      windows.col(i) = window;
-    }
-    sum.selfadjointView<Eigen::Lower>().rankUpdate(windows, 1.0 / static_cast<double>(lag + 1));
-    begin += length;
-  }
-  sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
-  return sum;
-}
-
 Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index width) {
   Eigen::VectorXd sum(x.size() + 1);
   sum[0] = 0.0;

@@ -36,20 +36,6 @@ namespace myoid::math {
 [[nodiscard]] double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
                                            const std::vector<Eigen::Index>& pieces);
 
-/// Returns the covariance of sum_t g_t e_t for known weights g_t (the columns, p x n) and e of unit
-/// variance with this autocorrelation: sum_t sum_s g_t rho(t - s) g_s', within `pieces`. Every
-/// `stride`-th t stands for its neighbors: exact for 1, otherwise for weights that change slowly.
-[[nodiscard]] Eigen::MatrixXd covariance_of_sum(const Eigen::MatrixXd& weights,
-                                                const Eigen::VectorXd& autocorrelation,
-                                                const std::vector<Eigen::Index>& pieces,
-                                                Eigen::Index stride = 1);
-
-/// Returns the long-run covariance of a sum of scores (n x p) after Newey and West (1987): G_0 + sum_l (1 - l/(L+1))
-/// (G_l + G_l'), with G_l = sum_t g_t g_{t-l}', lags within `pieces` only. Positive semidefinite.
-[[nodiscard]] Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,
-                                         const std::vector<Eigen::Index>& pieces,
-                                         Eigen::Index lag);
-
 /// Averages over a window that slides sample by sample: entry i covers samples i .. i + width - 1,
 /// so that the result has x.size() - width + 1 entries. `width` is 1 to x.size().
 [[nodiscard]] Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index width);

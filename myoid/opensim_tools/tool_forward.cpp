@@ -10,7 +10,7 @@
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/model_controls.h"
 #include "myoid/opensim_tools/tool_stages.h"
-#include "myoid/simulation/simulation_model.h"
+#include "myoid/simulation/forward_simulation.h"
 
 namespace myoid {
 namespace {

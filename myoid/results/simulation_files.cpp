@@ -14,6 +14,7 @@
 #include "myoid/muscle/literature.h"
 #include "myoid/report/json_values.h"
 #include "myoid/results/stage_files.h"
+#include "myoid/simulation/arm_model.h"
 #include "myoid/simulation/forward_simulation.h"
 #include "myoid/tables/storage_writer.h"
 
@@ -145,13 +146,13 @@ report::Figure curves_figure() {
 Simulation paper_movement() {
   simulation::ArmSetup setup;
   setup.horizontal = true;
-  setup.laws = muscle::paper_laws(muscle::TendonMode::mass);
+  setup.model.mode = muscle::TendonMode::mass;
   const simulation::Burst flex[] = {{0.2, 0.3, 0.06}, {1.7, 0.3, 0.06}};
   const simulation::Burst extend[] = {{0.55, 0.3, 0.09}, {1.1, 0.3, 0.05}, {2.05, 0.3, 0.09}};
   simulation::SimulationInput input;
   const simulation::Signal flexor = simulation::bursts(flex, 0.01);
   input.excitation = {flexor, flexor, flexor, simulation::bursts(extend, 0.01)};
-  return simulation::simulate(simulation::make_arm(setup), input, {.q = {0.7}}, {.end_s = 3.0});
+  return simulation::simulate(simulation::make_arm_model(setup), input, {.q = {0.7}}, {.end_s = 3.0});
 }
 
 }  // namespace
@@ -258,24 +259,17 @@ void write_simulation(const Simulation& s,
 }
 
 void write_sensitivities(const simulation::Sensitivities& s,
-                         const std::vector<std::string>& muscles,
                          const Provenance& provenance,
                          const std::filesystem::path& folder) {
   std::vector<Channel> channels;
   for (const std::string& name : s.parameters) channels.push_back({name, Unit::dimensionless});
-  const auto write = [&](const std::string& file, const Eigen::MatrixXd& values, const std::string& what) {
-    recording::write_storage(folder / "sensitivities" / (file + ".sto"), {s.time_s, channels, values},
-                             {.title = fmt::format("d({})/d(parameter), SI", what), .comments = {made_by(provenance)}});
-  };
-  write("angle", s.angle, "elbow flexion");
-  write("speed", s.speed, "its speed");
-  write("acceleration", s.acceleration, "its acceleration");
-  write("torque", s.torque, "torque of the muscles");
-  write("device", s.device, "torque of the device");
-  for (std::size_t i = 0; i < muscles.size(); ++i) {
-    write(muscles[i] + "_activation", s.activation[i], "activation of " + muscles[i]);
-    write(muscles[i] + "_fiber_length", s.fiber_length[i], "fiber length of " + muscles[i]);
-    write(muscles[i] + "_tendon_force", s.tendon_force[i], "tendon force of " + muscles[i]);
+  std::vector<std::string> quantities;
+  for (const simulation::Sensitivity& sensitivity : s.of) quantities.push_back(sensitivity.quantity);
+  const std::vector<std::string> ids = recording::ids_of(quantities);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    recording::write_storage(
+        folder / "sensitivities" / (ids[k] + ".sto"), {s.time_s, channels, s.of[k].by_parameter},
+        {.title = fmt::format("d({})/d(parameter), SI", quantities[k]), .comments = {made_by(provenance)}});
   }
 }
 

@@ -36,11 +36,9 @@ void write_simulation(const simulation::Simulation& simulation,
 /// of neural input, of the built-in arm with muscle mass.
 [[nodiscard]] std::vector<report::Figure> paper_figures();
 
-/// Writes sensitivities/angle.sto, speed.sto, acceleration.sto, torque.sto, device.sto, and per
-/// muscle MUSCLE_activation.sto, MUSCLE_fiber_length.sto, MUSCLE_tendon_force.sto: a column per
-/// parameter, the derivative in SI units of the quantity over those of the parameter (radians).
+/// Writes sensitivities/QUANTITY.sto of every quantity: a column per parameter, the derivative in SI units of the
+/// quantity over those of the parameter (radians).
 void write_sensitivities(const simulation::Sensitivities& sensitivities,
-                         const std::vector<std::string>& muscles,
                          const Provenance& provenance,
                          const std::filesystem::path& folder);
 

@@ -10,7 +10,7 @@
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/osim/osim_reader.h"
-#include "myoid/simulation/arm.h"
+#include "myoid/simulation/arm_model.h"
 #include "myoid/simulation/forward_simulation.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -21,10 +21,10 @@ namespace {
 
 simulation::Simulation slow_movement(double seconds, double rate_hz) {
   simulation::ArmSetup setup;
-  setup.laws.mode = muscle::TendonMode::equilibrium;
+  setup.model.mode = muscle::TendonMode::equilibrium;
   simulation::SimulationInput input;
   for (int i = 0; i < 4; ++i) input.excitation.push_back({{0.0, 0.5 * seconds, seconds}, {0.03, 0.05, 0.03}});
-  return simulation::simulate(simulation::make_arm(setup), input, {.q = {0.8}},
+  return simulation::simulate(simulation::make_arm_model(setup), input, {.q = {0.8}},
                               {.end_s = seconds, .output_rate_hz = rate_hz, .energy = true});
 }
 
@@ -88,26 +88,22 @@ TEST(PaperFigures, AreTheCurvesAndAMovementThereAndBack) {
 TEST(SensitivityFiles, HaveAColumnPerParameterAndAFilePerQuantity) {
   const test::TemporaryFolder folder;
   simulation::SimulationInput input;
-  std::vector<std::string> muscles;
-  const simulation::Arm<double> arm = simulation::make_arm();
-  for (const auto& m : arm.muscles) {
-    muscles.push_back(m.name);
-    input.excitation.push_back(simulation::constant(0.1));
-  }
-  const std::vector<std::string> names = {"BIC.max_isometric_force", "arm_inertia", "start_angle"};
+  const simulation::SimulationModel arm = simulation::make_arm_model();
+  input.excitation.assign(arm.muscles.size(), simulation::constant(0.1));
+  const std::vector<std::string> names = {"BIC.max_isometric_force", "forearm_hand.mass", "elbow_flexion.start"};
   const simulation::Sensitivities s =
       simulation::simulate_sensitivities(arm, input, {.q = {1.0}}, {.end_s = 0.1, .output_rate_hz = 100.0}, names);
-  write_sensitivities(s, muscles, {.options_json = "{}"}, folder.path());
-  for (const char* file : {"angle", "speed", "acceleration", "torque", "device", "BIC_activation", "TRI_fiber_length",
-                           "BRD_tendon_force"}) {
+  write_sensitivities(s, {.options_json = "{}"}, folder.path());
+  for (const char* file : {"elbow_flexion_speed", "elbow_flexion_acceleration", "elbow_flexion_muscles",
+                           "elbow_flexion_device", "BIC_activation", "TRI_fiber_length", "BRD_tendon_force"}) {
     const recording::Storage read =
         recording::read_storage(folder.path() / "sensitivities" / (std::string(file) + ".sto"));
     EXPECT_EQ(read.data.sample_count(), 11) << file;
     EXPECT_EQ(read.data.channel_count(), 3) << file;
   }
-  const recording::Storage angle = recording::read_storage(folder.path() / "sensitivities/angle.sto");
-  EXPECT_EQ(angle.data.column("start_angle")[0], 1.0);
-  EXPECT_EQ(angle.data.column("arm_inertia")[10], s.angle(10, 1));
+  const recording::Storage angle = recording::read_storage(folder.path() / "sensitivities/elbow_flexion.sto");
+  EXPECT_EQ(angle.data.column("elbow_flexion.start")[0], 1.0);
+  EXPECT_EQ(angle.data.column("forearm_hand.mass")[10], s["elbow_flexion"](10, 1));
 }
 
 }  // namespace

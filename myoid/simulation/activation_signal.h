@@ -14,22 +14,21 @@ namespace myoid::simulation {
 /// The activation that follows an excitation, as a piecewise polynomial of time. Activation does not depend on the
 /// motion, so that its equations can be solved beforehand. The excitation u is linear between its nodes; steps end at
 /// the nodes and at the law's kinks; the local error is below `kActivationTolerance`. The signal is continuous, and so
-/// is its first derivative where u does not jump. `T`: double, or ceres::Jet for derivatives by the time constants.
-template <typename T = double>
+/// is its first derivative where u does not jump.
 class ActivationSignal {
  public:
   /// Begins at `start_s` with this state; `extend` continues it.
-  ActivationSignal(const muscle::ActivationDynamics<T>& dynamics,
+  ActivationSignal(const muscle::ActivationDynamics<double>& dynamics,
                    double start_s,
-                   const muscle::ActivationPoint<T>& state)
+                   const muscle::ActivationPoint<double>& state)
       : dynamics_(dynamics), stepper_(2, options()), signs_(1), end_(start_s), state_(state) {}
 
   /// Solves all times of `excitation`; begins in the steady state of its first value unless a state is given.
-  ActivationSignal(const muscle::ActivationDynamics<T>& dynamics,
+  ActivationSignal(const muscle::ActivationDynamics<double>& dynamics,
                    const Signal& excitation,
                    double start_s,
                    double end_s)
-      : ActivationSignal(dynamics, start_s, muscle::settled_activation(T(value_at(excitation, start_s)))) {
+      : ActivationSignal(dynamics, start_s, muscle::settled_activation(value_at(excitation, start_s))) {
     extend(excitation, end_s);
   }
 
@@ -63,21 +62,21 @@ class ActivationSignal {
     const double slope = (to - from) / (end_s - begin);
     if (dynamics_.law == muscle::ActivationLaw::envelope) {
       start_.push_back(begin);
-      piece_.push_back({T(from), T(slope), T(0.0), T(0.0), T(0.0)});
-      state_ = {T(to), T(to)};
+      piece_.push_back({from, slope, 0.0, 0.0, 0.0});
+      state_ = {to, to};
       end_ = end_s;
       return;
     }
     const auto excitation = [&](double t) { return from + slope * (t - begin); };
-    const auto rate = [&](double t, const T* y, T* ydot) {
-      const auto d = muscle::activation_rate(dynamics_, T(excitation(t)), {y[0], y[1]});
+    const auto rate = [&](double t, const double* y, double* ydot) {
+      const auto d = muscle::activation_rate(dynamics_, excitation(t), {y[0], y[1]});
       ydot[0] = d.filtered_excitation;
       ydot[1] = d.activation;
     };
-    const auto events = [&](double t, const T* y, double* g) {
-      g[0] = muscle::activation_event(plain_dynamics(), excitation(t), {math::plain(y[0]), math::plain(y[1])});
+    const auto events = [&](double t, const double* y, double* g) {
+      g[0] = muscle::activation_event(dynamics_, excitation(t), {y[0], y[1]});
     };
-    const std::array<T, 2> y{state_.filtered_excitation, state_.activation};
+    const std::array<double, 2> y{state_.filtered_excitation, state_.activation};
     double g = 0.0;
     events(begin, y.data(), &g);
     signs_.start({&g, 1});
@@ -96,7 +95,7 @@ class ActivationSignal {
 
   /// Returns the activation at this time; constant before the beginning and after the end. `hint`
   /// remembers the piece for increasing times; each user has its own, 0 at first.
-  [[nodiscard]] T at(double time_s, std::size_t& hint) const {
+  [[nodiscard]] double at(double time_s, std::size_t& hint) const {
     if (piece_.empty() || time_s >= end_) return state_.activation;
     if (time_s <= start_.front()) return piece_.front()[0];
     if (hint >= piece_.size()) hint = 0;
@@ -109,12 +108,12 @@ class ActivationSignal {
       }
     }
     const double s = time_s - start_[hint];
-    const std::array<T, 5>& c = piece_[hint];
+    const std::array<double, 5>& c = piece_[hint];
     return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * c[4])));
   }
 
   [[nodiscard]] double end_s() const { return end_; }
-  [[nodiscard]] const muscle::ActivationPoint<T>& state() const { return state_; }  ///< The state at the end.
+  [[nodiscard]] const muscle::ActivationPoint<double>& state() const { return state_; }  ///< The state at the end.
   /// Returns the status. Unless it is `done`, the times contradict the law and the signal is unusable.
   [[nodiscard]] math::OdeStatus status() const { return status_; }
 
@@ -130,21 +129,17 @@ class ActivationSignal {
     o.absolute_tolerance = kActivationTolerance;
     return o;
   }
-  muscle::ActivationDynamics<double> plain_dynamics() const {
-    return {dynamics_.law, math::plain(dynamics_.excitation_time_s), math::plain(dynamics_.activation_time_s),
-            math::plain(dynamics_.deactivation_time_s), dynamics_.steepness};
-  }
 
   static constexpr double kActivationTolerance = 1e-10;
 
-  muscle::ActivationDynamics<T> dynamics_;
-  math::RungeKutta<T> stepper_;
+  muscle::ActivationDynamics<double> dynamics_;
+  math::RungeKutta<double> stepper_;
   math::EventSigns signs_;
   double end_ = 0.0;
-  muscle::ActivationPoint<T> state_;
+  muscle::ActivationPoint<double> state_;
   math::OdeStatus status_ = math::OdeStatus::done;
   std::vector<double> start_;
-  std::vector<std::array<T, 5>> piece_;
+  std::vector<std::array<double, 5>> piece_;
 };
 
 }  // namespace myoid::simulation

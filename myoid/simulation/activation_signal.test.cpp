@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/activation_steps.h"
@@ -25,7 +24,7 @@ TEST(ActivationSignal, FollowsBurstsAsTheExactStepsDo) {
   for (const ActivationLaw law : kLaws) {
     const ActivationDynamics<double> dynamics{.law = law};
     const Signal u = bursts(kBursts, 0.05);
-    const ActivationSignal<double> a(dynamics, u, 0.0, 1.2);
+    const ActivationSignal a(dynamics, u, 0.0, 1.2);
     ASSERT_EQ(a.status(), math::OdeStatus::done);
     auto exact = muscle::settled_activation(0.05);
     std::size_t hint = 0;
@@ -38,7 +37,7 @@ TEST(ActivationSignal, FollowsBurstsAsTheExactStepsDo) {
 
 TEST(ActivationSignal, OfTheEnvelopeIsTheExcitationItself) {
   const Signal u = bursts(kBursts, 0.05);
-  const ActivationSignal<double> a({.law = ActivationLaw::envelope}, u, 0.0, 1.2);
+  const ActivationSignal a({.law = ActivationLaw::envelope}, u, 0.0, 1.2);
   std::size_t hint = 0;
   for (const double t : {0.0, 0.1, 0.2, 0.25, 0.7, 0.3}) EXPECT_NEAR(a.at(t, hint), value_at(u, t), 1e-15) << t;
 }
@@ -52,38 +51,13 @@ TEST(ActivationSignal, DenseSamplesPassAsThroughTwoLags) {
     u.value.push_back(0.5 + 0.4 * std::sin(omega * 0.001 * k));
   }
   const ActivationDynamics<double> d{.law = ActivationLaw::recursive};
-  const ActivationSignal<double> a(d, u, 0.0, 3.0);
+  const ActivationSignal a(d, u, 0.0, 3.0);
   const double gain = 1.0 / std::sqrt((1.0 + std::pow(omega * 0.040, 2)) * (1.0 + std::pow(omega * 0.015, 2)));
   const double lag = std::atan(omega * 0.040) + std::atan(omega * 0.015);
   std::size_t hint = 0;
   for (double t = 2.0; t < 3.0; t += 0.0137) {
     // Chords between samples lie below the sine by (omega dt)^2 / 8 of its amplitude: 2e-5.
     EXPECT_NEAR(a.at(t, hint), 0.5 + 0.4 * gain * std::sin(omega * t - lag), 2e-5);
-  }
-}
-
-TEST(ActivationSignal, DerivativesByTheTimeConstantsAgreeWithDifferences) {
-  using Jet = ceres::Jet<double, 3>;
-  const Signal u = bursts(kBursts, 0.05);
-  for (const ActivationLaw law : kLaws) {
-    ActivationDynamics<Jet> dual{law, Jet(0.04, 0), Jet(0.015, 1), Jet(0.05, 2)};
-    const ActivationSignal<Jet> a(dual, u, 0.0, 1.2);
-    for (int p = 0; p < 3; ++p) {
-      const auto shifted = [&](double by) {
-        double tau[] = {0.04, 0.015, 0.05};
-        tau[p] += by;
-        return ActivationSignal<double>({law, tau[0], tau[1], tau[2]}, u, 0.0, 1.2);
-      };
-      const double h = 1e-6;
-      const auto up = shifted(h);
-      const auto down = shifted(-h);
-      std::size_t hints[3] = {0, 0, 0};
-      for (double t = 0.05; t < 1.2; t += 0.071) {
-        // Rounding of values good to 1e-10, divided by 2 h.
-        EXPECT_NEAR(a.at(t, hints[0]).v[p], (up.at(t, hints[1]) - down.at(t, hints[2])) / (2.0 * h), 1e-3)
-            << "law " << static_cast<int>(law) << " t " << t;
-      }
-    }
   }
 }
 

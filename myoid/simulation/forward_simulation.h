@@ -1,14 +1,17 @@
 #pragma once
 
-#include "myoid/simulation/arm.h"
 #include "myoid/simulation/simulation.h"
+#include "myoid/simulation/simulation_model.h"
 
 namespace myoid::simulation {
 
-/// Integrates the arm's equations of motion from `start` to `options.end_s`; its one coordinate is elbow_flexion. If
-/// all tendons are rigid, the method is explicit, otherwise implicit. Same input, same result. Throws InvalidInput if
-/// arm, inputs or options cannot be used, and Interrupted on request; `status` reports a numerical failure.
-[[nodiscard]] Simulation simulate(const Arm<double>& arm,
+/// Integrates the model's equations of motion, M(q) qddot = R F_t + gravity - Coriolis + joints + external, from
+/// `start` to `options.end_s`, with all coordinates in the model's order. If all tendons are rigid, the method is
+/// explicit, otherwise implicit. Same input, same result. Dependent coordinates start where their couplers say. Throws
+/// InvalidInput if inputs or options cannot be used or a device would move a dependent coordinate, ModelError if the
+/// mass matrix of the free coordinates is not positive definite: a body has no mass. Throws Interrupted on request;
+/// `status` reports a numerical failure.
+[[nodiscard]] Simulation simulate(const SimulationModel& model,
                                   const SimulationInput& input,
                                   const SimulationStart& start,
                                   const SimulationOptions& options);

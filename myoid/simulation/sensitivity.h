@@ -6,50 +6,49 @@
 
 #include <Eigen/Core>
 
-#include "myoid/simulation/arm.h"
 #include "myoid/simulation/simulation.h"
+#include "myoid/simulation/simulation_model.h"
 
 namespace myoid::simulation {
 
-/// Derivatives of a simulated movement by parameters of the arm: one row per output time, one
-/// column per parameter, in SI units of the quantity over those of the parameter.
+/// Derivatives of one quantity: one row per output time, one column per parameter, in SI units of the quantity over
+/// those of the parameter.
+struct Sensitivity {
+  std::string quantity;
+  Eigen::MatrixXd by_parameter;
+};
+
+/// Derivatives of a simulated movement by parameters of the model.
 struct Sensitivities {
   math::OdeStatus status = math::OdeStatus::done;
   std::string message;  ///< One sentence.
-  math::OdeStatistics statistics;
   std::vector<std::string> parameters;
   Eigen::VectorXd time_s;
-  Eigen::MatrixXd angle, speed, acceleration;  ///< Sensitivities of elbow flexion.
-  Eigen::MatrixXd torque;                      ///< Torque of all muscles together.
-  Eigen::MatrixXd device;                      ///< Torque of the device that moves the joint; 0 without one.
-  std::vector<Eigen::MatrixXd> activation;     ///< One matrix per muscle, here and below.
-  std::vector<Eigen::MatrixXd> fiber_length;
-  std::vector<Eigen::MatrixXd> tendon_force;
+  /// COORDINATE, COORDINATE_speed, COORDINATE_acceleration, COORDINATE_muscles (their torque), COORDINATE_device (the
+  /// torque of the device that moves it), MUSCLE_activation, MUSCLE_fiber_length, MUSCLE_tendon_force.
+  std::vector<Sensitivity> of;
+
+  /// Returns the derivatives of a quantity. Throws InvalidInput if there is none of this name.
+  [[nodiscard]] const Eigen::MatrixXd& operator[](std::string_view quantity) const;
 };
 
-/// Computes the derivatives of `simulate`'s result by the named parameters (arm_parameters.h, and "start_angle",
-/// "start_speed") by forward sensitivity equations, ds/dt = (df/dy) s + df/dp. The right-hand side is exact: the
-/// equations of motion in dual numbers. Derivatives of the start are included: unless given, fibers begin in
-/// equilibrium, which depends on the parameters. The laws are continuous at their kinks, so that the sensitivities do
-/// not jump there. Throws as `simulate` does, if a name is unknown, and for a controller, whose answers have no
-/// derivatives. Threads take eight parameters at a time; the result does not depend on the number of threads.
-[[nodiscard]] Sensitivities simulate_sensitivities(const Arm<double>& arm,
+/// Returns the names of all parameters: those of `model_parameters`, and COORDINATE.start, COORDINATE.start_speed.
+[[nodiscard]] std::vector<std::string> sensitivity_names(SimulationModel model);
+
+/// Computes the derivatives of `simulate`'s result by the named parameters by forward sensitivity equations, integrated
+/// along with the states:
+///
+///   ds/dt = (f(y + h s, p + h) - f(y - h s, p - h)) / (2 h)
+///
+/// with h = 1e-4 of the parameter (of its unit if it is 0). Instead of h and -h, a parameter of 0 that may not be
+/// negative is 2 h and 0. Derivatives of the start are included: unless given, fibers begin in equilibrium, which
+/// depends on the parameters. The laws are continuous at their kinks, so that the sensitivities do not jump there.
+/// Throws as `simulate` does, and if a name is unknown. Threads take eight parameters at a time; the result does not
+/// depend on the number of threads.
+[[nodiscard]] Sensitivities simulate_sensitivities(const SimulationModel& model,
                                                    const SimulationInput& input,
                                                    const SimulationStart& start,
                                                    const SimulationOptions& options,
                                                    std::span<const std::string> parameters);
-
-/// Standard deviations of independent measurements at every output time; 0: not measured.
-struct MeasurementSpread {
-  double angle_rad = 0.0;
-  double torque_nm = 0.0;       ///< Torque of all muscles together.
-  double device_nm = 0.0;       ///< Torque at the dynamometer.
-  double tendon_force_n = 0.0;  ///< Tendon force of every muscle.
-  double fiber_length_m = 0.0;  ///< Fiber length of every muscle, as by ultrasound.
-};
-
-/// Returns Fisher's information about the parameters in such measurements, sum of J' J / sd^2,
-/// parameters x parameters, in SI units. Throws InvalidInput if a spread is negative or all are 0.
-[[nodiscard]] Eigen::MatrixXd information(const Sensitivities& sensitivities, const MeasurementSpread& spread);
 
 }  // namespace myoid::simulation

@@ -8,8 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/simulation/arm_parameters.h"
+#include "myoid/simulation/arm_model.h"
 #include "myoid/simulation/forward_simulation.h"
+#include "myoid/simulation/model_parameters.h"
 
 namespace myoid::simulation {
 namespace {
@@ -19,12 +20,14 @@ using muscle::TendonMode;
 constexpr TendonMode kTendonModes[] = {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass};
 
 /// Every effect takes part: passive forces, pennation, shifted optimum, a load, gravity.
-Arm<double> whole_arm(TendonMode mode) {
+SimulationModel whole_arm(TendonMode mode) {
   ArmSetup setup{.held_mass_kg = 0.5};
-  setup.laws = muscle::thelen_laws(mode);
-  setup.laws.velocity = muscle::VelocityLaw::hill;
-  Arm<double> arm = make_arm(setup);
-  for (ArmMuscle<double>& m : arm.muscles) {
+  setup.model.mode = mode;
+  setup.model.curves = MuscleCurves::thelen;
+  SimulationModel arm = make_arm_model(setup);
+  for (ModelMuscle& m : arm.muscles) {
+    m.laws.velocity = muscle::VelocityLaw::hill;
+    m.parameters.damping = 0.1;
     m.parameters.pennation_at_optimal_rad = 0.15;
     m.parameters.optimal_length_shift = 0.15;
   }
@@ -48,32 +51,33 @@ SimulationOptions within(double tolerance) {
 // start, and by the extensor's strength.
 TEST(Sensitivities, AgreeWithDifferences) {
   for (const TendonMode mode : kTendonModes) {
-    const Arm<double> arm = whole_arm(mode);
+    const SimulationModel arm = whole_arm(mode);
     std::vector<std::string> names;
-    for (const std::string& name : arm_parameter_names(arm)) {
+    for (const std::string& name : sensitivity_names(arm)) {
       const bool other = name == "TRI.max_isometric_force" || name == "BRD.tendon_slack_length";
-      if (other || name.starts_with("BIC.") || name.find('.') == std::string::npos) names.push_back(name);
+      const bool moves = name.starts_with("BIC.") || name.starts_with("elbow_flexion.") ||
+                         name.starts_with("forearm_hand.") || name.starts_with("gravity_");
+      if (other || moves) names.push_back(name);
     }
-    names.insert(names.end(), {"start_angle", "start_speed"});
     const SimulationInput input = there_and_back();
     const Sensitivities s = simulate_sensitivities(arm, input, {.q = {1.3}, .qdot = {0.2}}, within(1e-9), names);
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     for (std::size_t p = 0; p < names.size(); ++p) {
       const auto shifted = [&](double by) {
-        Arm<double> other = arm;
+        SimulationModel other = arm;
         SimulationStart start{.q = {1.3}, .qdot = {0.2}};
-        if (names[p] == "start_angle") {
+        if (names[p] == "elbow_flexion.start") {
           start.q[0] += by;
-        } else if (names[p] == "start_speed") {
+        } else if (names[p] == "elbow_flexion.start_speed") {
           start.qdot[0] += by;
         } else {
-          arm_parameter(other, names[p]) += by;
+          *model_parameter(other, names[p]).value += by;
         }
         return simulate(other, input, start, within(1e-11));
       };
-      Arm<double> copy = arm;
-      const bool of_start = names[p].starts_with("start_");
-      const double value = of_start ? 1.0 : arm_parameter(copy, names[p]);
+      SimulationModel copy = arm;
+      const bool of_start = names[p].find(".start") != std::string::npos;
+      const double value = of_start ? 1.0 : *model_parameter(copy, names[p]).value;
       const double unit = value != 0.0 ? std::abs(value) : 0.1;
       const double h = 3e-4 * unit;
       const Simulation up = shifted(h);
@@ -89,98 +93,84 @@ TEST(Sensitivities, AgreeWithDifferences) {
           EXPECT_NEAR(ours, difference, 1e-5 * size / unit + 1e-4 * std::abs(difference))
               << what << " by " << names[p] << ", mode " << static_cast<int>(mode) << ", t " << s.time_s[row];
         };
-        expect(s.angle(row, c), up.motion, down.motion, 0, 1.0, "angle");
-        expect(s.speed(row, c), up.motion, down.motion, 1, 10.0, "speed");
-        expect(s.acceleration(row, c), up.motion, down.motion, 2, 100.0, "acceleration");
-        expect(s.torque(row, c), up.torque, down.torque, 0, 10.0, "torque");
-        expect(s.tendon_force[0](row, c), up.tendon_force, down.tendon_force, 0, 100.0, "force");
-        expect(s.fiber_length[0](row, c), up.fiber_length, down.fiber_length, 0, 0.1, "fiber");
-        expect(s.activation[0](row, c), up.activation, down.activation, 0, 1.0, "activation");
+        expect(s["elbow_flexion"](row, c), up.motion, down.motion, 0, 1.0, "angle");
+        expect(s["elbow_flexion_speed"](row, c), up.motion, down.motion, 1, 10.0, "speed");
+        expect(s["elbow_flexion_acceleration"](row, c), up.motion, down.motion, 2, 100.0, "acceleration");
+        expect(s["elbow_flexion_muscles"](row, c), up.torque, down.torque, 0, 10.0, "torque");
+        expect(s["BIC_tendon_force"](row, c), up.tendon_force, down.tendon_force, 0, 100.0, "force");
+        expect(s["BIC_fiber_length"](row, c), up.fiber_length, down.fiber_length, 0, 0.1, "fiber");
+        expect(s["BIC_activation"](row, c), up.activation, down.activation, 0, 1.0, "activation");
       }
     }
     // The sensitivities are not all zero.
     const Eigen::Index strength = 0;  // of BIC, 1060 N
     ASSERT_EQ(names[0], "BIC.max_isometric_force");
-    EXPECT_GT(std::abs(s.angle(2, strength)) * 1059.0, 0.05);
+    EXPECT_GT(std::abs(s["elbow_flexion"](2, strength)) * 1059.0, 0.05);
   }
 }
 
 // In a held posture the torque of rigid muscles is proportional to their strengths: sum F dT/dF = T.
 TEST(Sensitivities, OfAHeldTorqueToTheStrengthsAddUpToTheTorque) {
-  const Arm<double> arm = make_arm();
+  const SimulationModel arm = make_arm_model();
   SimulationInput input{.excitation = std::vector<Signal>(4, constant(0.2)), .device = {locked()}};
   const std::vector<std::string> names = {"BIC.max_isometric_force", "BRA.max_isometric_force",
                                           "BRD.max_isometric_force", "TRI.max_isometric_force"};
   const SimulationOptions options{.end_s = 0.1, .output_times_s = {0.1}};
   const Sensitivities s = simulate_sensitivities(arm, input, {.q = {1.3}}, options, names);
   const Simulation held = simulate(arm, input, {.q = {1.3}}, options);
-  Arm<double> copy = arm;
+  SimulationModel copy = arm;
   double sum = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) sum += s.torque(0, static_cast<Eigen::Index>(k)) * arm_parameter(copy, names[k]);
-  EXPECT_NEAR(sum, held.torque.values()(0, 0), 1e-12 * std::abs(sum));
-  EXPECT_NEAR(s.device(0, 0), -s.torque(0, 0), 1e-14);
-  EXPECT_EQ(s.angle.cwiseAbs().maxCoeff(), 0.0);
+  for (std::size_t k = 0; k < 4; ++k)
+    sum += s["elbow_flexion_muscles"](0, static_cast<Eigen::Index>(k)) * *model_parameter(copy, names[k]).value;
+  // Round-off of differences of a step of 1e-4.
+  EXPECT_NEAR(sum, held.torque.values()(0, 0), 1e-10 * std::abs(sum));
+  EXPECT_NEAR(s["elbow_flexion_device"](0, 0), -s["elbow_flexion_muscles"](0, 0), 1e-13);
+  EXPECT_EQ(s["elbow_flexion"].cwiseAbs().maxCoeff(), 0.0);
 }
 
 // The use of sensitivities: a movement's parameters are found again from it.
 TEST(Sensitivities, LeadBackToTheParametersOfAMovement) {
   const std::vector<std::string> names = {"BIC.max_isometric_force", "BIC.optimal_fiber_length",
-                                          "TRI.max_isometric_force", "arm_inertia"};
+                                          "TRI.max_isometric_force", "forearm_hand.inertia_zz"};
   for (const TendonMode mode : kTendonModes) {
-    const Arm<double> truth = whole_arm(mode);
+    const SimulationModel truth = whole_arm(mode);
     SimulationOptions options = within(1e-10);
     options.output_times_s = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3};
     const SimulationInput input = there_and_back();
     const Simulation measured = simulate(truth, input, {.q = {1.3}}, options);
-    Arm<double> guess = truth;
+    SimulationModel guess = truth;
     const double off[] = {0.9, 1.03, 1.1, 1.05};
-    for (std::size_t k = 0; k < names.size(); ++k) arm_parameter(guess, names[k]) *= off[k];
+    for (std::size_t k = 0; k < names.size(); ++k) *model_parameter(guess, names[k]).value *= off[k];
     for (int iteration = 0; iteration < 5; ++iteration) {
       const Simulation s = simulate(guess, input, {.q = {1.3}}, options);
       const Sensitivities d = simulate_sensitivities(guess, input, {.q = {1.3}}, options, names);
       Eigen::MatrixXd jacobian(18, 4);
       Eigen::VectorXd residual(18);
-      jacobian << d.angle, 0.1 * d.speed, 0.01 * d.torque;
+      jacobian << d["elbow_flexion"], 0.1 * d["elbow_flexion_speed"], 0.01 * d["elbow_flexion_muscles"];
       residual << s.motion.values().col(0) - measured.motion.values().col(0),
           0.1 * (s.motion.values().col(1) - measured.motion.values().col(1)),
           0.01 * (s.torque.column("muscles") - measured.torque.column("muscles"));
       Eigen::VectorXd size(4);
-      for (Eigen::Index k = 0; k < 4; ++k) size[k] = arm_parameter(guess, names[static_cast<std::size_t>(k)]);
+      for (Eigen::Index k = 0; k < 4; ++k) size[k] = *model_parameter(guess, names[static_cast<std::size_t>(k)]).value;
       const Eigen::MatrixXd scaled = jacobian * size.asDiagonal();
       const Eigen::VectorXd step = scaled.colPivHouseholderQr().solve(-residual);
       for (Eigen::Index k = 0; k < 4; ++k)
-        arm_parameter(guess, names[static_cast<std::size_t>(k)]) += size[k] * step[k];
+        *model_parameter(guess, names[static_cast<std::size_t>(k)]).value += size[k] * step[k];
     }
     // Five steps of Gauss and Newton from 10 % off: quadratic, down to the integration's errors.
     for (const std::string& name : names) {
-      Arm<double> copy = truth;
-      const double wanted = arm_parameter(copy, name);
-      EXPECT_NEAR(arm_parameter(guess, name), wanted, 1e-5 * wanted) << name << ", mode " << static_cast<int>(mode);
+      SimulationModel copy = truth;
+      const double wanted = *model_parameter(copy, name).value;
+      EXPECT_NEAR(*model_parameter(guess, name).value, wanted, 1e-5 * wanted)
+          << name << ", mode " << static_cast<int>(mode);
     }
   }
 }
 
-TEST(Sensitivities, InformationIsTheCurvatureOfTheMisfit) {
-  Sensitivities s;
-  s.parameters = {"a", "b"};
-  s.angle = Eigen::MatrixXd{{1.0, 2.0}, {0.5, 0.0}, {0.0, 1.0}};
-  s.torque = s.device = Eigen::MatrixXd::Zero(3, 2);
-  s.tendon_force = {Eigen::MatrixXd{{10.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}};
-  const Eigen::MatrixXd of_both = information(s, {.angle_rad = 0.5, .tendon_force_n = 5.0});
-  EXPECT_NEAR(of_both(0, 0), 1.25 / 0.25 + 4.0, 1e-14);
-  EXPECT_NEAR(of_both(0, 1), 2.0 / 0.25, 1e-14);
-  EXPECT_NEAR(of_both(1, 1), 5.0 / 0.25, 1e-14);
-  EXPECT_THROW((void)information(s, {}), InvalidInput);
-  EXPECT_THROW((void)information(s, {.angle_rad = -1.0}), InvalidInput);
-}
-
 TEST(Sensitivities, RefuseWhatHasNone) {
   const std::vector<std::string> unknown = {"BIC.colour"};
-  EXPECT_THROW((void)simulate_sensitivities(make_arm(), there_and_back(), {.q = {1.0}}, within(1e-8), unknown),
+  EXPECT_THROW((void)simulate_sensitivities(make_arm_model(), there_and_back(), {.q = {1.0}}, within(1e-8), unknown),
                InvalidInput);
-  SimulationOptions controlled = within(1e-8);
-  controlled.controller.excite = [](double, std::span<const double>, std::span<const double>, std::span<double>) {};
-  EXPECT_THROW((void)simulate_sensitivities(make_arm(), there_and_back(), {.q = {1.0}}, controlled, {}), InvalidInput);
 }
 
 }  // namespace

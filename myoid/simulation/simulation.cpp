@@ -14,21 +14,6 @@ Device locked() {
   return {[](double) { return 0.0; }, {}};
 }
 
-Device isokinetic(double start_s, double end_s, double speed, double rise_s) {
-  if (!(rise_s > 0.0) || !(end_s - start_s >= rise_s) || !std::isfinite(speed)) {
-    throw InvalidInput(
-        fmt::format("isokinetic movement from {} to {} s at {} with a rise of {} s: expected a rise of more "
-                    "than 0 that ends before the slowing down begins",
-                    start_s, end_s, speed, rise_s));
-  }
-  const double a = speed / rise_s;
-  return {[=](double t) {
-            if (t >= start_s && t < start_s + rise_s) return a;
-            return t >= end_s && t < end_s + rise_s ? -a : 0.0;
-          },
-          {start_s, start_s + rise_s, end_s, end_s + rise_s}};
-}
-
 EnergyBalance energy_balance(const Simulation& simulation) {
   const TimeSeries& e = simulation.energy;
   if (e.sample_count() < 2) {

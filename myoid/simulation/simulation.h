@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -34,23 +33,12 @@ struct Device {
 
 /// Holds the coordinate at its initial value.
 [[nodiscard]] Device locked();
-/// Rests until `start_s`, accelerates evenly to the speed within `rise_s`, and slows down equally from `end_s` on.
-[[nodiscard]] Device isokinetic(double start_s, double end_s, double speed, double rise_s = 0.05);
 
 /// Excitations, external forces and devices.
 struct SimulationInput {
   std::vector<Signal> excitation;  ///< One per muscle, 0..1.
   std::vector<Signal> external;    ///< One per coordinate [N m | N]; may be empty.
   std::vector<Device> device;      ///< One per coordinate; empty: all are free.
-};
-
-/// Called every `interval_s` for excitations, which it writes over the last ones; they hold until
-/// the next call. For a virtual person who corrects movements.
-struct Controller {
-  double interval_s = 0.01;
-  std::function<void(
-      double time_s, std::span<const double> q, std::span<const double> qdot, std::span<double> excitation)>
-      excite;
 };
 
 struct SimulationOptions {
@@ -60,7 +48,6 @@ struct SimulationOptions {
   bool energy = false;                 ///< Also integrate the work of every element.
   bool locate_kinks = true;            ///< End steps where the right-hand side has a kink (slack, v = 0, ...).
   math::OdeOptions ode;
-  Controller controller;  ///< Replaces the excitations if it has a function.
   Progress progress;
 };
 

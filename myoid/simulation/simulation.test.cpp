@@ -3,26 +3,19 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/simulation/arm_model.h"
 #include "myoid/simulation/forward_simulation.h"
 
 namespace myoid::simulation {
 namespace {
 
-TEST(Device, IsokineticMovementComesToItsSpeedAndToRest) {
-  const Device device = isokinetic(1.0, 2.0, 3.0, 0.1);
-  EXPECT_EQ(device.acceleration(0.5), 0.0);
-  EXPECT_DOUBLE_EQ(device.acceleration(1.05), 30.0);
-  EXPECT_EQ(device.acceleration(1.5), 0.0);
-  EXPECT_DOUBLE_EQ(device.acceleration(2.05), -30.0);
-  EXPECT_EQ(device.acceleration(2.5), 0.0);
-  EXPECT_EQ(device.jumps_s, (std::vector{1.0, 1.1, 2.0, 2.1}));
-  EXPECT_THROW((void)isokinetic(1.0, 1.05, 3.0, 0.1), InvalidInput);
-  EXPECT_EQ(locked().acceleration(7.0), 0.0);
-}
+TEST(Device, ALockedCoordinateDoesNotAccelerate) { EXPECT_EQ(locked().acceleration(7.0), 0.0); }
 
 // One wrong entry breaks the balance: each entry in turn is off by 0.01 J of some 10 J.
 TEST(EnergyBalance, SeesAnErrorInAnyEntry) {
-  const Arm<double> arm = with_tendon_mode(make_arm(), muscle::TendonMode::mass);
+  ArmSetup setup;
+  setup.model.mode = muscle::TendonMode::mass;
+  const SimulationModel arm = make_arm_model(setup);
   SimulationInput in;
   const Burst burst[] = {{0.1, 0.3, 0.5}};
   for (int i = 0; i < 4; ++i) in.excitation.push_back(bursts(burst, 0.05));

@@ -6,11 +6,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
-#include "myoid/dynamics/passive_forces.h"
-#include "myoid/model/muscle_path.h"
 #include "myoid/osim/muscle_laws.h"
-#include "myoid/simulation/simulation_run.h"
-#include "myoid/simulation/tree_dynamics.h"
 
 namespace myoid::simulation {
 namespace {
@@ -79,100 +75,6 @@ muscle::JointPassive<double> joint_of(const model::Coordinate& coordinate, const
   }
   return joint;
 }
-
-/// A model in the form that `SimulationRun` moves; see HingeSkeleton.
-class TreeSkeleton {
- public:
-  explicit TreeSkeleton(const SimulationModel& model)
-      : model_(&model), dynamics_(model.body), n_(model.muscles.size()) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      units_.emplace_back(model.muscles[i].parameters, model.muscles[i].laws, model.millard[i]);
-    }
-    const auto nq = static_cast<Eigen::Index>(coordinate_count());
-    q_.setConstant(nq, std::nan(""));
-    qdot_.setConstant(nq, std::nan(""));
-    paths_.resize(n_);
-    passive_.resize(coordinate_count());
-    forces_.resize(coordinate_count());
-  }
-
-  [[nodiscard]] std::size_t coordinate_count() const { return model_->body.coordinates.size(); }
-  [[nodiscard]] const std::string& coordinate_name(std::size_t k) const { return model_->body.coordinates[k].name; }
-  [[nodiscard]] bool is_rotational(std::size_t k) const {
-    return model_->body.coordinates[k].motion != model::MotionType::translational;
-  }
-  [[nodiscard]] std::size_t muscle_count() const { return n_; }
-  [[nodiscard]] const std::string& muscle_name(std::size_t i) const { return model_->muscles[i].name; }
-  [[nodiscard]] const muscle::Musculotendon<double>& unit(std::size_t i) const { return units_[i]; }
-  [[nodiscard]] const muscle::ActivationDynamics<double>& activation(std::size_t i) const {
-    return model_->muscles[i].activation;
-  }
-
-  void set(const double* q, const double* qdot) {
-    const auto nq = static_cast<Eigen::Index>(coordinate_count());
-    const Eigen::Map<const Eigen::VectorXd> here(q, nq);
-    const Eigen::Map<const Eigen::VectorXd> speed(qdot, nq);
-    if (here == q_ && speed == qdot_) return;
-    q_ = here;
-    qdot_ = speed;
-    dynamics_.set(q_, qdot_);
-    for (std::size_t i = 0; i < n_; ++i) {
-      const auto index = static_cast<std::size_t>(model_->muscles[i].index);
-      model::compute_path(model_->body, model_->body.muscles[index].path, dynamics_.state(), workspace_, paths_[i]);
-    }
-    if (!model_->body.passive_forces.empty()) {
-      others_.setZero(nq);
-      wrenches_.clear();
-      dynamics::append_passive_forces(model_->body, dynamics_.state(), others_, wrenches_);
-      for (const model::BodyWrench& wrench : wrenches_) dynamics_.add(wrench, others_);
-    }
-    for (std::size_t k = 0; k < coordinate_count(); ++k) {
-      const auto c = static_cast<Eigen::Index>(k);
-      passive_[k] = muscle::joint_passive(model_->joints[k], dynamics_.q()[c], dynamics_.qdot()[c]);
-    }
-  }
-  [[nodiscard]] double length_m(std::size_t i) const { return paths_[i].length_m; }
-  [[nodiscard]] double velocity_mps(std::size_t i) const { return paths_[i].speed_mps; }
-  [[nodiscard]] double moment_arm_m(std::size_t i, std::size_t k) const {
-    return paths_[i].moment_arm_m[static_cast<Eigen::Index>(k)];
-  }
-  void accelerate(const double* tau, const char* prescribed, double* qddot, double* device) {
-    for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] = tau[k] + passive_[k].torque_nm + other(k);
-    if (!dynamics_.accelerate(forces_.data(), prescribed, qddot, device)) {
-      throw ModelError(
-          "the mass matrix of the free coordinates is not positive: a coordinate moves bodies without mass or inertia; "
-          "give them some, or lock the coordinate");
-    }
-  }
-  [[nodiscard]] double gravity(std::size_t k) const { return dynamics_.gravity()[static_cast<Eigen::Index>(k)]; }
-  [[nodiscard]] double joint_elastic(std::size_t k) const { return passive_[k].elastic_torque_nm; }
-  /// Includes the model's other passive forces, whose energies are not counted.
-  [[nodiscard]] double joint_viscous(std::size_t k) const { return passive_[k].viscous_torque_nm + other(k); }
-  [[nodiscard]] double kinetic_energy_j() const { return dynamics_.kinetic_energy_j(); }
-  [[nodiscard]] double gravity_energy_j() const { return dynamics_.gravity_energy_j(); }
-  [[nodiscard]] double joint_elastic_energy_j() const {
-    double sum = 0.0;
-    for (const auto& joint : passive_) sum += joint.stored_energy_j;
-    return sum;
-  }
-
- private:
-  [[nodiscard]] double other(std::size_t k) const {
-    return model_->body.passive_forces.empty() ? 0.0 : others_[static_cast<Eigen::Index>(k)];
-  }
-
-  const SimulationModel* model_;
-  TreeDynamics dynamics_;
-  std::size_t n_;
-  std::vector<muscle::Musculotendon<double>> units_;
-  Eigen::VectorXd q_, qdot_;
-  model::PathWorkspace workspace_;
-  std::vector<model::PathResult> paths_;
-  std::vector<muscle::JointPassiveOutput<double>> passive_;
-  std::vector<double> forces_;
-  Eigen::VectorXd others_;  ///< Generalized forces of the model's passive forces.
-  std::vector<model::BodyWrench> wrenches_;
-};
 
 }  // namespace
 
@@ -262,33 +164,6 @@ std::vector<Device> default_devices(const SimulationModel& model) {
     }
   }
   return devices;
-}
-
-Simulation simulate(const SimulationModel& model,
-                    const SimulationInput& input,
-                    const SimulationStart& start,
-                    const SimulationOptions& options) {
-  for (const model::CoordinateCoupler& c : model.body.couplers) {
-    const auto k = static_cast<std::size_t>(c.dependent);
-    if (k < input.device.size() && input.device[k].acceleration) {
-      const std::string& leader = model.body.coordinates[static_cast<std::size_t>(c.independent)].name;
-      throw InvalidInput(
-          fmt::format("coordinate '{}' follows '{}' (coupler '{}'): it cannot be held or moved by itself; hold '{}'",
-                      model.body.coordinates[k].name, leader, c.name, leader));
-    }
-  }
-  SimulationStart consistent = start;
-  if (start.q.size() == model.body.coordinates.size()) {
-    consistent.qdot.resize(start.q.size(), 0.0);
-    TreeDynamics dynamics(model.body);
-    const auto n = static_cast<Eigen::Index>(start.q.size());
-    dynamics.set(Eigen::Map<const Eigen::VectorXd>(start.q.data(), n),
-                 Eigen::Map<const Eigen::VectorXd>(consistent.qdot.data(), n));
-    consistent.q.assign(dynamics.q().begin(), dynamics.q().end());
-    consistent.qdot.assign(dynamics.qdot().begin(), dynamics.qdot().end());
-  }
-  SimulationRun<TreeSkeleton> run(TreeSkeleton(model), input, consistent, options);
-  return run.go();
 }
 
 }  // namespace myoid::simulation

@@ -63,13 +63,4 @@ struct SimulationModel {
 [[nodiscard]] SimulationStart default_start(const SimulationModel& model, double time_s = 0.0);
 [[nodiscard]] std::vector<Device> default_devices(const SimulationModel& model);
 
-/// Integrates the model's equations of motion, M(q) qddot = R F_t + gravity - Coriolis + joints + external, as
-/// `simulate` does for the arm, with all coordinates in the model's order. Dependent coordinates start where their
-/// couplers say. Throws InvalidInput if a device would move one of them, ModelError if the mass matrix of the free
-/// coordinates is not positive definite: a body has no mass.
-[[nodiscard]] Simulation simulate(const SimulationModel& model,
-                                  const SimulationInput& input,
-                                  const SimulationStart& start,
-                                  const SimulationOptions& options);
-
 }  // namespace myoid::simulation

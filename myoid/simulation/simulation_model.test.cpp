@@ -10,6 +10,7 @@
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/simulation/arm_model.h"
 #include "myoid/simulation/forward_simulation.h"
 
 #include "tests/support/data_folder.h"
@@ -28,30 +29,26 @@ std::vector<Signal> bursting() {
   return {flexor, flexor, flexor, bursts(extend, 0.02)};
 }
 
-// The file's arm with its shoulder locked, and the closed form: two descriptions of one arm.
-TEST(SimulationModel, TheArmsFileMovesAsItsClosedFormDoes) {
+// An arm whose shoulder is locked, and one whose upper arm is welded to the trunk: two trees of one arm.
+TEST(SimulationModel, ALockedShoulderIsAWeldedOne) {
   for (const TendonMode mode : {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass}) {
-    ArmSetup setup;
-    setup.laws = muscle::thelen_laws(mode);
-    Arm<double> arm = make_arm(setup);  // its stops keep it where the file's paths hold
-    SimulationModel model =
-        make_simulation_model(arm4(), {.mode = mode, .activation = muscle::ActivationLaw::two_lags, .stops = false});
-    model.joints[3] = arm.joint;
-    for (std::size_t i = 0; i < 4; ++i) {
-      arm.muscles[i].parameters = model.muscles[i].parameters;
-      arm.muscles[i].activation = model.muscles[i].activation;
-    }
+    const ArmSetup setup{
+        .model = {.mode = mode, .curves = MuscleCurves::thelen, .activation = muscle::ActivationLaw::two_lags}};
+    const SimulationModel elbow = make_arm_model(setup);  // its stops keep it where the file's paths hold
+    SimulationModel model = make_simulation_model(arm4(), setup.model);
+    model.joints[3] = elbow.joints[0];
+    model.muscles = elbow.muscles;
     const SimulationOptions options{.end_s = 2.0, .output_rate_hz = 50.0, .energy = true};
-    const Simulation closed = simulate(arm, {.excitation = bursting()}, {.q = {1.0}}, options);
+    const Simulation welded = simulate(elbow, {.excitation = bursting()}, {.q = {1.0}}, options);
     SimulationStart start = default_start(model);
     start.q[3] = 1.0;
     const Simulation tree =
         simulate(model, {.excitation = bursting(), .device = {locked(), locked(), locked(), {}}}, start, options);
     ASSERT_EQ(tree.status, math::OdeStatus::done) << tree.message;
     // Both to the tolerance of 1e-8, whose local errors accumulate.
-    EXPECT_LT((tree.motion.column("elbow_flexion") - closed.motion.column("elbow_flexion")).cwiseAbs().maxCoeff(),
+    EXPECT_LT((tree.motion.column("elbow_flexion") - welded.motion.column("elbow_flexion")).cwiseAbs().maxCoeff(),
               1e-5);
-    EXPECT_LT((tree.torque.column("elbow_flexion/muscles") - closed.torque.column("muscles")).cwiseAbs().maxCoeff(),
+    EXPECT_LT((tree.torque.column("elbow_flexion/muscles") - welded.torque.column("muscles")).cwiseAbs().maxCoeff(),
               2e-3);
     EXPECT_LT(energy_balance(tree).worst, 1e-6) << energy_balance(tree).where;
     EXPECT_LT(tree.motion.column("shoulder_flexion").cwiseAbs().maxCoeff(), 1e-15);

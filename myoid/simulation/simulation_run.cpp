@@ -1,25 +1,32 @@
 #include "myoid/simulation/simulation_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/simulation/tree_dynamics.h"
 
 namespace myoid::simulation {
 
-void check_simulation(std::span<const std::string> muscles,
-                      std::size_t coordinate_count,
+void check_simulation(const SimulationModel& model,
                       const SimulationInput& input,
                       const SimulationStart& start,
                       const SimulationOptions& o) {
-  const std::size_t n = muscles.size();
+  const std::size_t n = model.muscles.size();
+  const std::size_t coordinate_count = model.body.coordinates.size();
   const auto fits = [](std::size_t found, std::size_t expected, bool may_be_empty, std::string_view what,
                        std::string_view of) {
     if (found != expected && !(may_be_empty && found == 0))
       throw InvalidInput(fmt::format("{} {} for {} {}", found, what, expected, of));
   };
-  if (!o.controller.excite) fits(input.excitation.size(), n, false, "excitations", "muscles");
-  for (std::size_t i = 0; i < std::min(n, input.excitation.size()); ++i)
-    validate_excitation(input.excitation[i], "excitation of " + muscles[i]);
+  fits(input.excitation.size(), n, false, "excitations", "muscles");
+  for (std::size_t i = 0; i < n; ++i)
+    validate_excitation(input.excitation[i], "excitation of " + model.muscles[i].name);
   fits(input.external.size(), coordinate_count, true, "external forces", "coordinates");
   for (const Signal& signal : input.external) validate(signal, "external force");
   fits(input.device.size(), coordinate_count, true, "devices", "coordinates");
@@ -35,9 +42,28 @@ void check_simulation(std::span<const std::string> muscles,
   if (!std::isfinite(start.time_s) || !std::isfinite(o.end_s) || !(o.end_s > start.time_s)) {
     throw InvalidInput(fmt::format("the simulation goes from {} to {} s, expected a later end", start.time_s, o.end_s));
   }
-  if (o.controller.excite && !(o.controller.interval_s > 0.0)) {
-    throw InvalidInput(fmt::format("the controller's interval is {} s, expected more than 0", o.controller.interval_s));
+  for (const model::CoordinateCoupler& c : model.body.couplers) {
+    const auto k = static_cast<std::size_t>(c.dependent);
+    if (k < input.device.size() && input.device[k].acceleration) {
+      const std::string& leader = model.body.coordinates[static_cast<std::size_t>(c.independent)].name;
+      throw InvalidInput(
+          fmt::format("coordinate '{}' follows '{}' (coupler '{}'): it cannot be held or moved by itself; hold '{}'",
+                      model.body.coordinates[k].name, leader, c.name, leader));
+    }
   }
+}
+
+SimulationStart consistent_start(const SimulationModel& model, const SimulationStart& start) {
+  if (model.body.couplers.empty() || start.q.size() != model.body.coordinates.size()) return start;
+  SimulationStart consistent = start;
+  consistent.qdot.resize(start.q.size(), 0.0);
+  TreeDynamics dynamics(model.body);
+  const auto n = static_cast<Eigen::Index>(start.q.size());
+  dynamics.set(Eigen::Map<const Eigen::VectorXd>(start.q.data(), n),
+               Eigen::Map<const Eigen::VectorXd>(consistent.qdot.data(), n));
+  consistent.q.assign(dynamics.q().begin(), dynamics.q().end());
+  consistent.qdot.assign(dynamics.qdot().begin(), dynamics.qdot().end());
+  return consistent;
 }
 
 std::vector<double> output_times(const SimulationStart& start, const SimulationOptions& o) {
@@ -72,9 +98,7 @@ std::vector<double> break_times(const SimulationInput& input, double start_s, co
     std::copy_if(times.begin(), times.end(), std::inserter(breaks, breaks.end()),
                  [&](double t) { return t > start_s && t < options.end_s; });
   };
-  if (!options.controller.excite) {
-    for (const Signal& excitation : input.excitation) append(jumps(excitation));
-  }
+  for (const Signal& excitation : input.excitation) append(jumps(excitation));
   for (const Signal& force : input.external) append(jumps(force));
   for (const Device& device : input.device) append(device.jumps_s);
   return {breaks.begin(), breaks.end()};

@@ -114,7 +114,7 @@ TEST(Departures, AnElasticTendonPullsAsItsFiberDoes) {
       EXPECT_NEAR(now.force_n[m], tendon_n, 1e-6);
       torque_nm += geometry.moment_arm_m[m] * now.force_n[m];
     }
-    EXPECT_NEAR(torque_nm, arm.required_torque_nm(now.q, Plane::vertical, 1.5), 1e-6);
+    EXPECT_NEAR(torque_nm, required_torque_nm(arm.elbow, now.q.value, now.q.second, Plane::vertical, 1.5), 1e-6);
   }
   EXPECT_GT(most_strain, 0.005);
 }

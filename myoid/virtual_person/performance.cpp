@@ -57,7 +57,8 @@ Instant ExactPerformance::at(double time_s) const {
   now.passive_torque_nm = beside_.joint_torque_nm - beside_.joint_stiffness_nm_per_rad * now.q.value -
                           beside_.joint_viscosity_nms_per_rad * now.q.first;
   const double required_nm =
-      arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg) - now.passive_torque_nm;
+      required_torque_nm(arm_->elbow, now.q.value, now.q.second, script.protocol.plane, script.protocol.held_mass_kg) -
+      now.passive_torque_nm;
   const bool prescribed = script.against_dynamometer();
   if (prescribed) now.activation = script.prescribed_activations(time_s);
   // The force per activation depends a little on the activation (its shift of the optimum) and on

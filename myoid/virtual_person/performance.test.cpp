@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/core/units.h"
+#include "myoid/dynamics/held_mass.h"
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/osim/osim_reader.h"
 #include "myoid/simulation/forward_simulation.h"
 
 namespace myoid::twin {
@@ -81,10 +84,10 @@ TEST(Performance, WhatIsBesideTheMusclesHasItsPartInTheEquationOfMotion) {
                                                                  geometry.velocity_mps[i], p);
     }
     // Activations are turned in until they change by 1e-10, of some 100 N m at the most.
-    EXPECT_NEAR(
-        torque_nm,
-        arm.required_torque_nm(now.q, performance.script().protocol.plane, performance.script().protocol.held_mass_kg),
-        1e-7);
+    EXPECT_NEAR(torque_nm,
+                required_torque_nm(arm.elbow, now.q.value, now.q.second, performance.script().protocol.plane,
+                                   performance.script().protocol.held_mass_kg),
+                1e-7);
   }
 }
 
@@ -109,22 +112,23 @@ TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
 
   // The same muscles, joint and excitations through the integrator of forward_simulation.h, with
   // the laws themselves instead of tables. The open loop: nobody corrects what differs.
-  simulation::Arm<double> other;
-  std::vector<muscle::ActivationPoint<double>> activation;
-  for (const TrueHead& head : arm.heads) {
-    other.muscles.push_back({.name = std::string(head.name),
-                             .path = {head.path.constant_m, head.path.above_m, head.path.below_m,
-                                      head.path.straight_rad, head.path.pulley_m},
-                             .parameters = head.parameters,
-                             .laws = arm.laws,
-                             .activation = arm.activation});
+  std::vector<model::ArmMuscle> muscles;
+  for (const TrueHead& head : arm.heads)
+    muscles.push_back({head.path, head.parameters.hill, head.parameters.pennation_at_optimal_rad});
+  model::BodyModel body = model::parse_osim(model::arm_osim({.elbow_only = true}, "person", muscles), "person.osim");
+  model::Body& forearm = body.bodies[static_cast<std::size_t>(*body.find_body("forearm_hand"))];
+  const double center_m = arm.static_moment_kgm / forearm.mass_kg;
+  forearm.p_BBcm_B = Vec3(0.0, -center_m, 0.0);
+  forearm.I_BBcm_B(2, 2) = arm.inertia_kgm2 - forearm.mass_kg * center_m * center_m;
+  body = dynamics::with_held_mass(std::move(body), "forearm_hand", Vec3(0.0, -arm.held_at_m, 0.0), 1.5);
+  simulation::SimulationModel other = simulation::make_simulation_model(std::move(body), {});
+  for (std::size_t i = 0; i < kHeadCount; ++i) {
+    other.muscles[i].parameters = arm.heads[i].parameters;
+    other.muscles[i].laws = arm.laws;
+    other.muscles[i].activation = arm.activation;
+    other.millard[i] = arm.millard;
   }
-  other.joint = arm.joint;
-  other.inertia_kgm2 = arm.inertia_kgm2;
-  other.static_moment_kgm = arm.static_moment_kgm;
-  other.held_mass_kg = 1.5;
-  other.held_at_m = arm.held_at_m;
-  other.gravity_mps2 = kStandardGravity;
+  other.joints[0] = arm.joint;
   simulation::SimulationInput input;
   for (std::size_t i = 0; i < kHeadCount; ++i) {
     simulation::Signal signal;

@@ -140,12 +140,13 @@ TrueArm draw_true_arm(const TruthSpec& spec, const VirtualSubject& subject, math
   return arm;
 }
 
-double required_torque_nm(
-    const TrueArm& arm, double elbow_flexion_rad, double acceleration_radps2, Plane plane, double held_mass_kg) {
-  const double inertia_kgm2 = arm.inertia_kgm2 + held_mass_kg * arm.held_at_m * arm.held_at_m;
-  const double moment_kgm = arm.static_moment_kgm + held_mass_kg * arm.held_at_m;
+double required_torque_nm(const model::HingedForearm& forearm,
+                          double elbow_flexion_rad,
+                          double acceleration_radps2,
+                          Plane plane,
+                          double held_mass_kg) {
   const double gravity_mps2 = plane == Plane::vertical ? kStandardGravity : 0.0;
-  return inertia_kgm2 * acceleration_radps2 + moment_kgm * gravity_mps2 * std::sin(elbow_flexion_rad);
+  return model::required_torque_nm(forearm, elbow_flexion_rad, acceleration_radps2, gravity_mps2, held_mass_kg);
 }
 
 }  // namespace myoid::twin

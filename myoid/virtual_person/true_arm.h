@@ -30,16 +30,13 @@ struct TrueHead {
 };
 
 /// The arm of a person at level L2, with all its departures from the fitted arm.
-struct TrueArm {
+struct TrueArm : model::HingedForearm {
   std::array<TrueHead, kHeadCount> heads;
   muscle::MusculotendonLaws laws;  ///< Elastic tendon; De Groote's or Millard's curves.
   muscle::MillardShape millard;
   muscle::ActivationDynamics<double> activation;  ///< Equation (1) of the source paper.
   double delay_s = 0.0;                           ///< From the electrode's signal to the muscle's excitation.
   muscle::JointPassive<double> joint;
-  double inertia_kgm2 = 0.0;  ///< Moment of inertia of forearm and hand about the elbow.
-  double static_moment_kgm = 0.0;
-  double held_at_m = 0.0;
 };
 
 /// Draws an arm. Standard deviations, times `spec.spread`: ln F_max 0.2 for the person, 0.15 per muscle and 0.05 per
@@ -53,8 +50,11 @@ struct TrueArm {
 /// eccentric maximum is uniform in 1.3 to 1.5.
 [[nodiscard]] TrueArm draw_true_arm(const TruthSpec& spec, const VirtualSubject& subject, math::Random& random);
 
-/// Returns the torque that the motion requires of muscles, passive joint and dynamometer together [N m].
-[[nodiscard]] double required_torque_nm(
-    const TrueArm& arm, double elbow_flexion_rad, double acceleration_radps2, Plane plane, double held_mass_kg);
+/// Returns the torque about the elbow that the motion requires of muscles, joint and dynamometer together [N m].
+[[nodiscard]] double required_torque_nm(const model::HingedForearm& forearm,
+                                        double elbow_flexion_rad,
+                                        double acceleration_radps2,
+                                        Plane plane,
+                                        double held_mass_kg);
 
 }  // namespace myoid::twin

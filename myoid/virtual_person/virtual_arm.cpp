@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "myoid/arm/arm4.h"
-#include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/osim/osim_reader.h"
 
@@ -93,11 +92,6 @@ MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths, cons
     result.moment_arm_m[i] = now.moment_arm_m;
   }
   return result;
-}
-
-double VirtualArm::required_torque_nm(const Moment& elbow_flexion_rad, Plane plane, double held_mass_kg) const {
-  return model::required_torque_nm(elbow, elbow_flexion_rad.value, elbow_flexion_rad.second,
-                                   plane == Plane::vertical ? kStandardGravity : 0.0, held_mass_kg);
 }
 
 Eigen::MatrixXd VirtualArm::markers_m(const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad,

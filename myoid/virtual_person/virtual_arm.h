@@ -63,9 +63,6 @@ struct VirtualArm {
     return geometry_of(elbow.muscles, elbow_flexion_rad);
   }
 
-  /// Returns the torque about the elbow that the motion requires of muscles and dynamometer together [N m].
-  [[nodiscard]] double required_torque_nm(const Moment& elbow_flexion_rad, Plane plane, double held_mass_kg) const;
-
   [[nodiscard]] std::vector<std::string> marker_names() const;
   [[nodiscard]] std::vector<MarkerSegment> marker_segments() const;
   /// Returns positions in ground: a row per angle, x y z of one marker after the other [m].

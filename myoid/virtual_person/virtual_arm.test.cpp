@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
+#include "myoid/virtual_person/true_arm.h"
 
 namespace myoid::twin {
 namespace {
@@ -50,9 +51,9 @@ TEST(VirtualArm, MuscleVelocityIsTheChangeOfLength) {
 TEST(VirtualArm, AWomansArmIsLighter) {
   const VirtualArm man(VirtualSubject{});
   const VirtualArm woman(VirtualSubject{.sex = "female"});
-  EXPECT_LT(woman.required_torque_nm({1.5, 0.0, 0.0}, Plane::vertical, 0.0),
-            man.required_torque_nm({1.5, 0.0, 0.0}, Plane::vertical, 0.0));
-  EXPECT_EQ(man.required_torque_nm({1.5, 0.0, 0.0}, Plane::horizontal, 3.0), 0.0);
+  EXPECT_LT(required_torque_nm(woman.elbow, 1.5, 0.0, Plane::vertical, 0.0),
+            required_torque_nm(man.elbow, 1.5, 0.0, Plane::vertical, 0.0));
+  EXPECT_EQ(required_torque_nm(man.elbow, 1.5, 0.0, Plane::horizontal, 3.0), 0.0);
 }
 
 }  // namespace

@@ -571,7 +571,7 @@ class SimulateResult:
         moment_arm: [m]
         torque: By source [N m].
         energy: Works and energies [J]; None unless asked for.
-        sensitivities: Derivatives by parameters of the arm: parameters, time, angle, speed, ...; None unless asked for.
+        sensitivities: Derivatives by parameters of the model: parameters, time, elbow_flexion, BIC_tendon_force, ...; or None.
     """
 
     finished: bool
@@ -623,7 +623,7 @@ def simulate(*, model: File | None = None, out: File | None = None, excitations:
         rate: Samples of the results [Hz] (default 200).
         tolerance: Relative local error (default 1e-8).
         energy: Also the work of every element.
-        sensitivity: Also the derivatives by these parameters of arm4.
+        sensitivity: Also the derivatives by these parameters of the model.
         figures: Also a figure of the movement, in `out`.
     """
     return SimulateResult(**call("simulate", locals()))

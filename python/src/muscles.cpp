@@ -150,21 +150,10 @@ commands::SimulateOptions simulate_options(Keywords& k) {
 }
 
 py::dict sensitivity_dict(simulation::Sensitivities s) {
-  const auto list = [](std::vector<Eigen::MatrixXd>& matrices) {
-    py::list arrays;
-    for (Eigen::MatrixXd& matrix : matrices) arrays.append(to_array(std::move(matrix)));
-    return arrays;
-  };
   py::dict d;
   d["parameters"] = s.parameters;
   d["time"] = to_array(std::move(s.time_s));
-  d["angle"] = to_array(std::move(s.angle));
-  d["speed"] = to_array(std::move(s.speed));
-  d["acceleration"] = to_array(std::move(s.acceleration));
-  d["torque"] = to_array(std::move(s.torque));
-  d["activation"] = list(s.activation);
-  d["fiber_length"] = list(s.fiber_length);
-  d["tendon_force"] = list(s.tendon_force);
+  for (simulation::Sensitivity& of : s.of) d[py::str(of.quantity)] = to_array(std::move(of.by_parameter));
   return d;
 }
 

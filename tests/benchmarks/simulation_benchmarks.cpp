@@ -1,6 +1,7 @@
 // Ten simulated seconds of the four-muscle arm. Figures and command: docs/data/timings.txt.
 #include <benchmark/benchmark.h>
 
+#include "myoid/simulation/arm_model.h"
 #include "myoid/simulation/forward_simulation.h"
 #include "myoid/simulation/sensitivity.h"
 
@@ -20,10 +21,16 @@ simulation::SimulationInput bursting() {
   return {.excitation = {flexor, flexor, flexor, simulation::bursts(extend, 0.02)}};
 }
 
+simulation::SimulationModel arm_in(muscle::TendonMode mode) {
+  simulation::ArmSetup setup;
+  setup.model.mode = mode;
+  return simulation::make_arm_model(setup);
+}
+
 /// range(0): the tendon mode; range(1): with the work of every element.
 void simulate_arm(benchmark::State& state) {
   const auto mode = static_cast<muscle::TendonMode>(state.range(0));
-  const simulation::Arm<double> arm = simulation::with_tendon_mode(simulation::make_arm(), mode);
+  const simulation::SimulationModel arm = arm_in(mode);
   const simulation::SimulationInput input = bursting();
   simulation::SimulationOptions options{.end_s = 10.0, .output_rate_hz = 100.0};
   options.energy = state.range(1) != 0;
@@ -42,7 +49,7 @@ BENCHMARK(simulate_arm)
 /// One second, derivatives by eight parameters.
 void simulate_arm_sensitivities(benchmark::State& state) {
   const auto mode = static_cast<muscle::TendonMode>(state.range(0));
-  const simulation::Arm<double> arm = simulation::with_tendon_mode(simulation::make_arm(), mode);
+  const simulation::SimulationModel arm = arm_in(mode);
   const std::vector<std::string> names = {
       "BIC.max_isometric_force", "BIC.optimal_fiber_length", "BIC.concentric_curvature", "BIC.tendon_slack_length",
       "TRI.max_isometric_force", "TRI.optimal_fiber_length", "TRI.concentric_curvature", "TRI.tendon_slack_length"};

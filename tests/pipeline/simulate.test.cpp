@@ -94,9 +94,9 @@ TEST(Simulate, ItsTorqueIsThatOfInverseDynamicsOfItsMotion) {
 TEST(Simulate, WritesDerivativesByParameters) {
   const TemporaryFolder folder;
   const Finished run = myoid({"simulate", "--excite", "BIC=0.2", "--end", "0.2", "--sensitivity", "BIC.*",
-                              "--sensitivity", "arm_inertia", "--out", folder / "s"});
+                              "--sensitivity", "forearm_hand.mass", "--out", folder / "s"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const std::string angle = folder / "s/sensitivities/angle.sto";
+  const std::string angle = folder / "s/sensitivities/elbow_flexion.sto";
   EXPECT_GT(column(angle, "BIC.max_isometric_force").back(), 0.0);  // stronger: more flexed
   EXPECT_LT(column(angle, "arm_inertia").back(), 0.0);              // heavier: less
   const Finished wrong = myoid({"simulate", "--sensitivity", "BIC.color", "--out", folder / "w"});

@@ -214,7 +214,7 @@ def test_simulate_falls_as_the_pendulum_s_energy_says(tmp_path):
     work = found.energy["gravity_work"] + found.energy["gravity_energy"]
     np.testing.assert_allclose(work, work[0], atol=1e-6)
     s = found.sensitivities
-    assert s["parameters"] == ["BIC.max_isometric_force"] and s["angle"].shape == (len(s["time"]), 1)
+    assert s["parameters"] == ["BIC.max_isometric_force"] and s["elbow_flexion"].shape == (len(s["time"]), 1)
 
 
 def test_muscle_simulated_and_fitted(tmp_path):

@@ -1,0 +1,23 @@
+#include "myoid/simulation/arm_model.h"
+
+#include <utility>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/dynamics/held_mass.h"
+#include "myoid/osim/osim_reader.h"
+
+namespace myoid::simulation {
+
+SimulationModel make_arm_model(const ArmSetup& setup) {
+  model::BodyModel body =
+      model::parse_osim(model::arm4_osim({.person = setup.person, .elbow_only = true}), "arm4.osim");
+  body = dynamics::with_held_mass(std::move(body), "forearm_hand", model::arm4_held_at_m(setup.person),
+                                  setup.held_mass_kg);
+  if (setup.horizontal) body.gravity_G.setZero();
+  SimulationModel model = make_simulation_model(std::move(body), setup.model);
+  for (ModelMuscle& m : model.muscles) m.parameters = muscle::published_defaults(m.parameters.hill, m.laws);
+  model.joints.front() = muscle::elbow_passive();
+  return model;
+}
+
+}  // namespace myoid::simulation
