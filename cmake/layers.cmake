@@ -40,8 +40,7 @@ set(MYOID_LAYER_results core math files muscle tables recording model kinematics
     identification intervals methods report phases study design run scene)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model)
-set(MYOID_LAYER_identify_files core math files muscle tables recording signals kinematics
-    identification methods study intake checks run)
+set(MYOID_LAYER_identify_files core files muscle tables identification study)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
 set(MYOID_LAYER_virtual_person core math files muscle model osim arm beliefs
@@ -51,7 +50,7 @@ set(MYOID_LAYER_twin core math files muscle tables c3d arm intervals study run
 set(MYOID_LAYER_cohort core math files tables recording report study results)
 set(MYOID_LAYER_realtime core files identification kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
-set(MYOID_LAYER_commands core beliefs files muscle tables c3d recording signals model osim arm kinematics
+set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
     results draft contents identify_files opensim_tools virtual_person twin cohort)
 set(MYOID_LAYER_cli core math files intervals methods report study results contents cohort mat commands)

@@ -73,7 +73,7 @@ double common_share(const Stretches& a, const Stretches& b) {
 
 TrialPrint print_of(const TrialSpec& spec, const TrialInput& input) {
   TrialPrint print{.trial = spec.name, .use = spec.use, .emg_file = {}, .motion_file = {}, .emg = {}, .movement = {}};
-  const TimeSeries movement = movement_of(input);
+  const TimeSeries movement = input.given.lengths ? *input.given.lengths : movement_of(input);
   if (!movement.empty()) print.movement = stretches_of(movement);
   if (input.emg) {
     // The EMG before the movement, which the delay requires, belongs to the previous trial.
@@ -81,6 +81,7 @@ TrialPrint print_of(const TrialSpec& spec, const TrialInput& input) {
     print.emg = stretches_of(input.emg->slice(begin_s, 1e300));
   }
   if (spec.emg) print.emg_file = spec.emg->filename().string();
+  if (spec.given.lengths) print.motion_file = spec.given.lengths->filename().string();
   if (spec.motion) print.motion_file = spec.motion->filename().string();
   if (spec.markers) print.motion_file = spec.markers->filename().string();
   return print;

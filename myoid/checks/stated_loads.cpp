@@ -10,7 +10,7 @@ namespace myoid {
 
 bool states_loads(const TrialSpec& trial) {
   return trial.held_mass_kg || trial.external_loads || trial.plates || trial.load_cell || trial.external_torque ||
-         trial.given.torques;
+         trial.given.torques || trial.given.forces;
 }
 
 std::optional<Remark> unstated_loads(const std::vector<TrialSpec>& trials) {

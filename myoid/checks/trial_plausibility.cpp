@@ -193,10 +193,12 @@ std::vector<Remark> implausible(const Study& study,
                             .says = text});
     }
   }
-  if (input.motion) check_angles(study, model, *input.motion, trial.name, findings);
+  if (input.motion && !study.model.is_none()) check_angles(study, model, *input.motion, trial.name, findings);
   if (input.motion && input.motion->channel_count() > 0) {
     for (Remark& remark : kinematics::implausible(model, *input.motion)) {
       remark.where = trial.name;
+      // Of angles at the times of given lengths nothing but the joint's own torque depends.
+      if (trial.given.lengths) remark.severity = std::max(remark.severity, Severity::warning);
       findings.push_back(std::move(remark));
     }
   }

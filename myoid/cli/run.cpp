@@ -13,6 +13,7 @@
 #include "myoid/cli/options.h"
 #include "myoid/cli/say.h"
 #include "myoid/files/output_file.h"
+#include "myoid/intervals/score.h"
 #include "myoid/report/report.h"
 #include "myoid/results/answer.h"
 #include "myoid/results/paper_tables.h"
@@ -71,12 +72,18 @@ void print_method(const identification::IdentificationResult& method, std::size_
 void print_predictions(const StudyResult& result) {
   if (!result.folds.empty()) {
     const std::string_view left_out = choice_name(result.source.study.identify.folds);
-    say("\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about that {0}'s own mean)\n",
-        left_out);
-    say("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2", "literature x gain: RMSE", "R2");
+    const PredictedByFolds of = predicted_by_folds(result);
+    const bool several = std::ranges::any_of(
+        result.folds, [&](const identification::Fold& f) { return f.joint != result.folds.front().joint; });
+    say("\nleave one {0} out: {1} predicted for a {0} that took no part in the fit (R2 about that {0}'s own mean)\n",
+        left_out, of.name);
+    say("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, fmt::format("RMSE [{}]", of.unit), "R2",
+        "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {
-      say("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", in_column(f.trial), f.identified.rmse_nm(),
-          f.identified.r2(), f.literature.rmse_nm(), f.literature.r2());
+      say("{:<20} {:>10.2f} {:>8} {:>26.2f} {:>8}\n",
+          in_column(several ? fmt::format("{}, {}", f.trial, f.joint) : f.trial), f.identified.rmse_nm(),
+          identification::r2_text(f.identified.r2()), f.literature.rmse_nm(),
+          identification::r2_text(f.literature.r2()));
     }
   }
   for (const identification::IdentificationResult& method : result.fit.methods) {
@@ -86,7 +93,7 @@ void print_predictions(const StudyResult& result) {
       if (t.calibration) continue;
       if (first) say("\nvalidation trials\n{:<20} {:>10} {:>8}\n", "trial", "RMSE [N m]", "R2");
       first = false;
-      say("{:<20} {:>10.2f} {:>8.3f}\n", in_column(t.trial), t.score.rmse_nm(), t.score.r2());
+      say("{:<20} {:>10.2f} {:>8}\n", in_column(t.trial), t.score.rmse_nm(), identification::r2_text(t.score.r2()));
     }
   }
 }
@@ -116,21 +123,31 @@ void print_gates(const std::vector<report::Gate>& gates) {
   }
 }
 
-/// Prints the source paper's tables, without their verdicts' reasons, and the searches.
-void print_paper(const identification::IdentificationResult& paper) {
-  say("\nmethod paper: minima of the published criterion, on forces that nobody measured: no intervals\n");
-  const std::vector<report::Table> tables = paper_tables(paper);
-  for (const report::Table& table : tables) {
-    if (table.id == "published_searches") continue;  // below, as sentences
-    say("{}\n", table.title);
-    for (const std::string& column : table.columns) say("{:<12} ", column);
+void print_table(const report::Table& table) {
+  std::vector<std::size_t> width;
+  for (const std::string& column : table.columns) width.push_back(std::max<std::size_t>(12, column.size()));
+  for (const std::vector<report::Cell>& row : table.rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], in_column(row[c].text).size());
+  }
+  say("{}\n", table.title);
+  for (std::size_t c = 0; c < table.columns.size(); ++c) say("{:<{}} ", table.columns[c], width[c]);
+  say("\n");
+  for (const std::vector<report::Cell>& row : table.rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) say("{:<{}} ", in_column(row[c].text), width[c]);
     say("\n");
-    for (const std::vector<report::Cell>& row : table.rows) {
-      for (const report::Cell& cell : row) say("{:<12} ", in_column(cell.text));
-      say("\n");
-    }
+  }
+}
+
+/// Prints the source paper's tables, without their verdicts' reasons, and the searches.
+void print_paper(const StudyResult& result, const identification::IdentificationResult& paper) {
+  say("\nmethod paper: minima of the published criterion{}\n",
+      shares_forces(result.source.study) ? ", on forces that nobody measured: no intervals" : "");
+  for (const report::Table& table : paper_tables(paper)) {
+    if (table.id != "published_searches") print_table(table);  // below, as sentences
   }
   for (const identification::PublishedSearch& search : paper.published) say("{}\n", published_sentence(search));
+  if (!result.fit.contests.empty()) print_table(solver_table(result.fit.contests));
+  for (const report::Table& table : basin_tables(paper)) print_table(table);
 }
 
 /// Prints all numbers of the methods with intervals, their predictions, the next movements and the quality gates.
@@ -147,7 +164,7 @@ void print_everything(const StudyResult& result, const std::vector<report::Gate>
 void print_answer(const StudyResult& result, const std::vector<report::Gate>& gates, bool with_paper) {
   say("{}", answer_text(result, gates, std::min(help_width(), kAnswerColumns)));
   const identification::IdentificationResult* paper = method_of(result.fit, "paper");
-  if (paper != nullptr && (with_paper || result.fit.methods.size() == 1)) print_paper(*paper);
+  if (paper != nullptr && (with_paper || result.fit.methods.size() == 1)) print_paper(result, *paper);
 }
 
 /// Warns of failed gates with --json and --quiet, which do not print the gates.
@@ -208,7 +225,7 @@ void add_run(CLI::App& app, Context& context) {
   add_video_options(command, options->video);
   const MatOption mat(command);
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
-  add_common_options(command, context, {.seed = false});
+  add_common_options(command, context);
   command.callback([&context, options, out, mat] {
     mat.prepare(context, {options->study});
     const commands::RunResult result = compute_run(context, *options, *out);

@@ -1,36 +1,17 @@
 #include "myoid/commands/identify_options.h"
 
 #include <algorithm>
-#include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/error.h"
 #include "myoid/identification/parameter_fields.h"
-#include "myoid/identification/parameters.h"
-#include "myoid/study/read_study.h"
 
 namespace myoid::commands {
 namespace {
 
 using identification::ParameterRule;
-using identification::StudyData;
-
-bool is_free(const StudyData& data, bool (*about)(const ParameterRule&)) {
-  return std::ranges::any_of(data.rules,
-                             [&](const ParameterRule& rule) { return rule.free.value_or(false) && about(rule); });
-}
-
-/// Returns true for a parameter of the joint that acts by its motion.
-bool is_about_motion(const ParameterRule& rule) {
-  const identification::ParameterField& field = identification::parameter_field(rule.parameter);
-  return field.scope == identification::Scope::joint && field.field != identification::kOffset;
-}
-
-bool is_about_lags(const ParameterRule& rule) { return identification::is_lag(rule.parameter); }
 
 /// Names the options that the published method does not have.
 std::vector<std::string> beyond_the_paper(const IdentifyOptions& o, const MuscleTable& table) {
@@ -55,25 +36,6 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
       throw InvalidInput(fmt::format(
           "--free {}: it acts by the joint's motion; give its angles with --motion, one file per trial", name));
   }
-}
-
-identification::EstimatorSettings settings_of(const IdentifyOptions& o) {
-  identification::EstimatorSettings settings;
-  if (!o.lag.empty()) settings.lag = *choice_named<identification::LagChoice>(o.lag);
-  settings.delay_s = o.delay_s;
-  settings.posterior_draws = o.posterior_draws;
-  if (o.beliefs && o.method != "paper") settings.unseen = read_beliefs(*o.beliefs);
-  return settings;
-}
-
-/// Describes activations of another program: 1 is a maximal effort, by a normalization of unknown exactness.
-identification::ActivationSource activation_source(const StudyData& data) {
-  identification::ActivationSource source;
-  std::set<std::string> channels;
-  for (const identification::MuscleSetup& muscle : data.muscles) channels.insert(muscle.emg_channel);
-  for (const std::string& channel : channels)
-    source.channels.push_back({.channel = channel, .gain_sd = identification::beliefs::kEmgGain.sd});
-  return source;
 }
 
 /// Throws InvalidInput for a value that its setting does not allow.
@@ -235,26 +197,6 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
        "trials are predicted by the joint torque, of method torque");
   tell(torque && !o.files.forces.empty(), "--forces", "method torque fits joint torques (--torques)");
   return found;
-}
-
-identification::EstimatorOptions estimator_options(const IdentifyOptions& o, const StudyData& data, Remarks& remarks) {
-  identification::EstimatorSettings settings = settings_of(o);
-  if (!o.files.motions.empty() && !is_free(data, is_about_motion))
-    remarks.warn(
-        "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be identified (--free)");
-  if (is_free(data, is_about_lags)) {
-    if (!o.lag.empty()) {
-      throw InvalidInput(
-          fmt::format("--lag {}: the lags of equation (1) are to be identified, which is a third way to follow the "
-                      "EMG; leave one of both out",
-                      o.lag));
-    }
-    settings.lag = identification::LagChoice::equation_1;
-    remarks.warn(
-        "the lags of equation (1) are to be identified: the activations given are taken for excitations that pass "
-        "them, and the delay is the time that is left beside them");
-  }
-  return identification::estimator_options(settings, activation_source(data), o.call.progress);
 }
 
 }  // namespace myoid::commands

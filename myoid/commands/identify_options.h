@@ -6,10 +6,7 @@
 #include <vector>
 
 #include "myoid/commands/call.h"
-#include "myoid/identification/estimator_settings.h"
-#include "myoid/identification/options.h"
-#include "myoid/identification/study_data.h"
-#include "myoid/identify_files/identify_data.h"
+#include "myoid/identify_files/identify_sources.h"
 #include "myoid/identify_files/muscles_csv.h"
 #include "myoid/study/setting.h"
 
@@ -19,7 +16,7 @@ namespace myoid::commands {
 struct IdentifyOptions {
   Call call;
   std::filesystem::path muscles;
-  IdentifySources files;  ///< `identify` sets its `torque` and times from the other options.
+  IdentifySources files;
   std::string method = "torque";
   std::optional<double> delay_s;
   std::string lag;  ///< Empty: the method's own.
@@ -44,11 +41,5 @@ void refuse_impossible(const IdentifyOptions& options, const MuscleTable& table)
 
 /// Returns a sentence for each given option that has no effect.
 [[nodiscard]] std::vector<std::string> without_effect(const IdentifyOptions& options);
-
-/// Returns the fit's options for data with these rules. Throws InvalidInput if two of the
-/// options state how muscles follow their EMG.
-[[nodiscard]] identification::EstimatorOptions estimator_options(const IdentifyOptions& options,
-                                                                 const identification::StudyData& data,
-                                                                 Remarks& remarks);
 
 }  // namespace myoid::commands

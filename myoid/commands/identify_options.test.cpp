@@ -64,20 +64,5 @@ TEST(IdentifyOptions, WhatTheMethodOrTheFilesCannotGiveIsRefused) {
   EXPECT_THROW(check_values(o), InvalidInput);
 }
 
-TEST(IdentifyOptions, LagsToBeIdentifiedLeaveNoOtherWayToFollowTheEmg) {
-  IdentifyOptions o;
-  identification::StudyData data;
-  identification::ParameterRule rule;
-  rule.parameter = "excitation_time";
-  rule.free = true;
-  data.rules.push_back(rule);
-  Remarks remarks(o.call);
-  (void)estimator_options(o, data, remarks);
-  ASSERT_EQ(remarks.list().size(), 1U);
-  EXPECT_THAT(remarks.list()[0].says, HasSubstr("lags of equation (1)"));
-  o.lag = "shared";
-  EXPECT_THROW((void)estimator_options(o, data, remarks), InvalidInput);
-}
-
 }  // namespace
 }  // namespace myoid::commands

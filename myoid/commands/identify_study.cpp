@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "myoid/core/error.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/identify_files/electrode_ties.h"
@@ -25,9 +27,9 @@ ParameterRule free_or_held(const std::string& name, bool free) {
 }
 
 std::vector<TrialSpec> trials_of(const IdentifyOptions& o) {
-  IdentifySources files = o.files;
-  files.torque = o.method == "torque";
-  require_counts(files);
+  const IdentifySources& files = o.files;
+  const bool torque = o.method == "torque";
+  require_counts(files, torque);
   const auto one = [](const std::vector<std::string>& list, std::size_t i) -> std::optional<std::filesystem::path> {
     if (i < list.size()) return list[i];
     return std::nullopt;
@@ -40,15 +42,15 @@ std::vector<TrialSpec> trials_of(const IdentifyOptions& o) {
     trial.emg = files.activations[i];
     trial.given.lengths = files.lengths[i];
     trial.given.velocities = one(files.velocities, i);
-    if (!files.torque) trial.given.forces = one(files.forces, i);
-    if (files.torque) {
+    if (!torque) trial.given.forces = one(files.forces, i);
+    if (torque) {
       trial.motion = one(files.motions, i);
       trial.given.torques = one(files.torques, i);
       for (std::size_t j = 0; j < joints; ++j) trial.given.moment_arms.emplace_back(files.moment_arms[joints * i + j]);
     }
     trials.push_back(std::move(trial));
   }
-  if (!files.torque) return trials;
+  if (!torque) return trials;
   for (const std::string& name : files.held_back) trials[trial_named(name, files.lengths)].use = Use::validation;
   return trials;
 }
@@ -68,13 +70,28 @@ std::vector<ParameterRule> rules_of(const IdentifyOptions& o, const MuscleTable&
   return rules;
 }
 
+/// Returns true if the lags of equation (1) are to be identified. Throws InvalidInput if the options state how muscles
+/// follow their EMG, too.
+bool frees_lags(const IdentifyOptions& o, const std::vector<ParameterRule>& rules) {
+  const bool frees = std::ranges::any_of(rules, [](const ParameterRule& rule) {
+    return rule.free.value_or(false) && identification::is_lag(rule.parameter);
+  });
+  if (frees && !o.lag.empty())
+    throw InvalidInput(
+        fmt::format("--lag {}: the lags of equation (1) are to be identified, which is a third way to follow the "
+                    "EMG; leave one of both out",
+                    o.lag));
+  return frees;
+}
+
 IdentifySpec fit_of(const IdentifyOptions& o) {
   IdentifySpec fit;
   fit.methods = {*choice_named<identification::Method>(o.method)};
   fit.posterior_draws = o.posterior_draws;
   fit.cross_validate = o.folds != "none";
   fit.folds = o.folds == "block" ? identification::FoldKind::block : identification::FoldKind::trial;
-  fit.starts = o.starts.value_or(1);
+  fit.starts = o.starts;
+  fit.compare_solvers = o.compare_solvers;
   fit.next_movements = 0;
   fit.elastic_tendon = false;
   if (!o.lag.empty()) fit.lag = *choice_named<identification::LagChoice>(o.lag);
@@ -85,6 +102,7 @@ IdentifySpec fit_of(const IdentifyOptions& o) {
 
 Study identify_study(const IdentifyOptions& o, const MuscleTable& table, Remarks& remarks) {
   Study study;
+  study.file = o.muscles;
   study.model.builtin = "none";
   study.model.coordinate = "joint";
   if (!o.files.coordinates.empty()) {
@@ -101,6 +119,11 @@ Study identify_study(const IdentifyOptions& o, const MuscleTable& table, Remarks
   study.identify = fit_of(o);
   study.muscles = muscle_specs(table);
   study.parameters = rules_of(o, table, remarks);
+  study.identify.dynamics = frees_lags(o, study.parameters);
+  if (study.identify.dynamics)
+    remarks.warn(
+        "the lags of equation (1) are to be identified: the activations given are taken for excitations that pass "
+        "them, and the delay is the time that is left beside them");
   study.trials = trials_of(o);
   restrict_trials(study, o.call.start_s, o.call.end_s);
   return study;

@@ -9,9 +9,9 @@
 
 #include "myoid/commands/identify.h"
 #include "myoid/commands/run.h"
+#include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/study/read_study.h"
-#include "myoid/study/study_text.h"
 #include "myoid/tables/series_file.h"
 
 #include "tests/support/elbow_study.h"
@@ -75,22 +75,23 @@ void expect_same(const identification::IdentificationResult& a, const identifica
   }
 }
 
-RunResult run_of(const IdentifyResult& result, const std::filesystem::path& folder) {
-  recording::write_file(folder / "study.toml", study_toml(seen_from(folder, result.study)));
+/// Writes the results of `identify`, and runs the study among them.
+RunResult run_of(IdentifyResult& result, const std::filesystem::path& folder) {
+  write_identify(result, folder);
   RunOptions options;
   options.study = (folder / "study.toml").string();
   return run(options);
 }
 
-TEST(IdentifyStudy, RunFindsTheParametersOfIdentify) {
+TEST(IdentifyStudy, RunFindsTheParametersOfTheStudyAmongTheResults) {
   const Files files;
-  const IdentifyResult result = identify(files.options);
-  const RunResult same = run_of(result, files.folder.path());
-  expect_same(result.fit, *torque_of(same.study.fit));
-  EXPECT_FALSE(same.gates.empty());
-  write_run(same, files.folder / "results");
-  for (const char* file : {"report.html", "parameters.json", "1_t0_l/id.sto"})
-    EXPECT_TRUE(std::filesystem::exists(files.folder / "results" / file)) << file;
+  IdentifyResult result = identify(files.options);
+  const std::filesystem::path folder = files.folder / "results";
+  const RunResult same = run_of(result, folder);
+  expect_same(result.fit(), *torque_of(same.study.fit));
+  EXPECT_EQ(result.run.gates.size(), same.gates.size());
+  for (const char* file : {"report.html", "run.json", "parameters.json", "1_t0_l/id.sto"})
+    EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
 }
 
 TEST(IdentifyStudy, RunFitsGivenForcesAsIdentifyDoes) {
@@ -108,10 +109,10 @@ TEST(IdentifyStudy, RunFitsGivenForcesAsIdentifyDoes) {
   }
   o.files.torques.clear();
   o.files.moment_arms.clear();
-  const IdentifyResult result = identify(o);
-  const RunResult same = run_of(result, files.folder.path());
+  IdentifyResult result = identify(o);
+  const RunResult same = run_of(result, files.folder / "results");
   ASSERT_NE(method_of(same.study.fit, "force"), nullptr);
-  expect_same(result.fit, *method_of(same.study.fit, "force"));
+  expect_same(result.fit(), *method_of(same.study.fit, "force"));
   EXPECT_TRUE(same.study.trials[0].forces.generalized.empty());
 }
 
@@ -129,8 +130,21 @@ TEST(IdentifyStudy, WishesOfTheTableAndOfTheOptionsStandInTheStudy) {
   recording::write_file(files.folder / "muscles.csv", csv);
   files.options.hold = {"emg_exponent"};
   files.options.delay_s = 0.05;
-  const IdentifyResult result = identify(files.options);
-  expect_same(result.fit, *torque_of(run_of(result, files.folder.path()).study.fit));
+  IdentifyResult result = identify(files.options);
+  expect_same(result.fit(), *torque_of(run_of(result, files.folder / "results").study.fit));
+}
+
+TEST(IdentifyStudy, LagsToBeIdentifiedLeaveNoOtherWayToFollowTheEmg) {
+  Files files;
+  files.options.free_more = {"excitation_time"};
+  Remarks remarks(files.options.call);
+  MuscleTable table;
+  table.muscles = files.study.data.muscles;
+  EXPECT_TRUE(identify_study(files.options, table, remarks).identify.dynamics);
+  ASSERT_EQ(remarks.list().size(), 1U);
+  EXPECT_NE(remarks.list()[0].says.find("lags of equation (1)"), std::string::npos);
+  files.options.lag = "shared";
+  EXPECT_THROW((void)identify_study(files.options, table, remarks), InvalidInput);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "myoid/results/study_workbench.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/run_study.h"
+#include "myoid/study/study_model.h"
 #include "myoid/study/study_text.h"
 #include "myoid/study/trial_videos.h"
 
@@ -47,7 +48,7 @@ bool RunResult::failed(bool strict) const {
   bool failed =
       std::ranges::any_of(gates, [](const report::Gate& gate) { return gate.status == report::GateStatus::fail; });
   for (const identification::IdentificationResult& method : study.fit.methods) {
-    if (method.method != "torque") continue;
+    if (method.method == "paper") continue;
     failed = failed || method.termination != math::Termination::converged;
     for (const identification::ParameterEstimate& e : method.estimates)
       failed = failed || (strict && e.verdict == identification::Verdict::not_identifiable);
@@ -56,13 +57,19 @@ bool RunResult::failed(bool strict) const {
 }
 
 RunResult run(const RunOptions& o) {
+  Study study = read_filmed_study(o.study, o.video);
+  if (!o.methods.empty()) study.identify.methods = o.methods;
+  return run(study, o);
+}
+
+RunResult run(const Study& study, const RunOptions& o) {
   Remarks remarks(o.call);
   RunResult result;
-  Study study = read_filmed_study(o.study, o.video);
   for (const std::string& text : study.identify.without_effect) remarks.warn(text);
-  if (!o.methods.empty()) study.identify.methods = o.methods;
+  if (const std::string assumed = assumed_starts(study); !assumed.empty()) remarks.warn(assumed);
   result.study = run_study(study, {.start_s = o.call.start_s,
                                    .end_s = o.call.end_s,
+                                   .seed = o.call.seed,
                                    .progress = o.call.progress,
                                    .stage_ended = o.call.stage_ended,
                                    .store = o.store});
@@ -72,6 +79,7 @@ RunResult run(const RunOptions& o) {
   result.provenance.inputs = result.study.source.files;
   result.provenance.options_json = study_json(result.study.source.study);
   result.reading_remarks = tell_trials(result.study, remarks);
+  if (result.study.fit_input.nuisances_held) remarks.note(std::string(kFewRows));
   result.remarks = remarks.list();
   return result;
 }

@@ -18,8 +18,8 @@ namespace myoid::commands {
 inline constexpr const char* kStageFolder = ".stages";
 
 /// Names of the results beside the folders of trials, figures and tables.
-inline const std::vector<std::string_view> kRunFiles{"report.",     "run.json",         "methods.",
-                                                     "parameters.", "fold_parameters.", "posterior."};
+inline const std::vector<std::string_view> kRunFiles{"report.",          "run.json",   "methods.",     "parameters.",
+                                                     "fold_parameters.", "posterior.", "predictions.", "solvers."};
 
 /// Options of the whole pipeline, from a study's recordings to muscle parameters.
 struct RunOptions {
@@ -37,12 +37,15 @@ struct RunResult {
   Provenance provenance;
   std::vector<Remark> remarks;
 
-  /// Returns true if a gate failed, or method torque did not converge; with `strict` also if method
-  /// torque has a parameter that is not identifiable.
+  /// Returns true if a gate failed, or method torque or force did not converge; with `strict` also if such a method has
+  /// a parameter that is not identifiable.
   [[nodiscard]] bool failed(bool strict) const;
 };
 
 [[nodiscard]] RunResult run(const RunOptions& options);
+
+/// Runs a study that no file holds yet; `options.study` is not read.
+[[nodiscard]] RunResult run(const Study& study, const RunOptions& options);
 
 /// Writes all results and the report, in the place of the files of an earlier run.
 void write_run(const RunResult& result, const std::filesystem::path& folder);

@@ -12,6 +12,10 @@ namespace myoid::identification {
 namespace {
 
 constexpr double kStrained = 0.5;  // of the greatest EMG
+constexpr std::string_view kSpeedName = "max_shortening_speed";
+
+/// Returns true for a rule that frees a parameter, and that neither the study nor the user gives.
+bool is_freed_as_usual(const ParameterRule& rule) { return rule.usual && rule.free.value_or(false); }
 
 /// Returns the belief as a rule, with its spread in units of `unit`.
 ParameterRule nuisance(const Belief& belief, double unit = 1.0) {
@@ -107,8 +111,13 @@ bool tells_nuisances(const StudyData& data, const EstimatorOptions& options) {
 
 void hold_nuisances(StudyData& data, std::string_view but) {
   std::erase_if(data.rules, [&](const ParameterRule& rule) {
-    return rule.usual && rule.free.value_or(false) && rule.parameter != but;
+    return is_freed_as_usual(rule) && rule.parameter != but && rule.parameter != kSpeedName;
   });
+}
+
+void hold_speeds(StudyData& data) {
+  std::erase_if(data.rules,
+                [](const ParameterRule& rule) { return is_freed_as_usual(rule) && rule.parameter == kSpeedName; });
 }
 
 }  // namespace myoid::identification

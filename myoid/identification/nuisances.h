@@ -28,7 +28,11 @@ namespace myoid::identification {
 /// walk, 0.6 rows an unknown, it predicts another speed with an R2 of 0.42 in place of 0.77.
 [[nodiscard]] bool tells_nuisances(const StudyData& data, const EstimatorOptions& options);
 
-/// Removes the rules of the nuisances, but for those of one parameter. Rules that the study or the user gives stay.
+/// Removes the rules of the nuisances, but for those of one parameter. Rules that the study or the user gives stay, and
+/// so do those of `free_speeds`.
 void hold_nuisances(StudyData& data, std::string_view but = {});
+
+/// Removes the rules of `free_speeds`.
+void hold_speeds(StudyData& data);
 
 }  // namespace myoid::identification

@@ -47,7 +47,7 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
   std::vector<ParameterRule> rules;
   for (MuscleSetup& setup : data.muscles) {
     if (!contains(muscles, setup.name)) continue;
-    ParameterRule rule{.parameter = "max_shortening_speed", .owners = {setup.name}, .free = true};
+    ParameterRule rule{.parameter = "max_shortening_speed", .owners = {setup.name}, .free = true, .usual = true};
     // A model's own value may lie outside a person's range; the bounds then lie about this value.
     const double start = setup.start.max_shortening_speed_mps;
     if (!setup.bounds.contains("max_shortening_speed") && (start < usual.lower || start > usual.upper)) {

@@ -21,11 +21,11 @@ void require_count(std::size_t count, std::size_t trials, std::string_view optio
 
 }  // namespace
 
-void require_counts(const IdentifySources& s) {
+void require_counts(const IdentifySources& s, bool torque) {
   const std::size_t trials = s.lengths.size();
   require_count(s.activations.size(), trials, "--activations");
   if (!s.velocities.empty()) require_count(s.velocities.size(), trials, "--velocities");
-  if (!s.torque) {
+  if (!torque) {
     require_count(s.forces.size(), trials, "--forces");
     return;
   }
@@ -40,21 +40,6 @@ void require_counts(const IdentifySources& s) {
   require_count(s.torques.size(), trials, "--torques");
   if (!s.motions.empty()) require_count(s.motions.size(), trials, "--motion");
   if (!s.forces.empty()) require_count(s.forces.size(), trials, "--forces");
-}
-
-TrialFiles files_of(const IdentifySources& s, std::size_t trial) {
-  const auto of_trial = [&](const std::vector<std::string>& list) {
-    return trial < list.size() ? list[trial] : std::string();
-  };
-  TrialFiles files{.activations = s.activations[trial],
-                   .lengths = s.lengths[trial],
-                   .velocities = of_trial(s.velocities),
-                   .moment_arms = {},
-                   .torques = s.torque ? of_trial(s.torques) : "",
-                   .resting_torque_is_free = s.resting_torque_is_free};
-  const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
-  for (std::size_t j = 0; s.torque && j < joints; ++j) files.moment_arms.push_back(s.moment_arms[joints * trial + j]);
-  return files;
 }
 
 std::string trial_label(const std::vector<std::string>& lengths, std::size_t number) {

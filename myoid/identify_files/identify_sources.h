@@ -1,12 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "myoid/run/given_check.h"
 
 namespace myoid {
 
@@ -19,21 +16,12 @@ struct IdentifySources {
   std::vector<std::string> motions;        ///< Joint angles (.mot, .sto); empty: no motion of the joints.
   std::optional<double> motion_cutoff_hz;  ///< Cut-off (-3 dB) that smooths the angles; empty: not smoothed.
   std::vector<std::string> coordinates;    ///< Columns of the torque files; empty: the only column.
-  /// Trials that are not fitted, by the names of `trial_named`.
-  std::vector<std::string> held_back;
-  bool torque = true;                    ///< Fits torques; false: forces.
-  std::optional<double> start_s, end_s;  ///< [s]
-  bool resting_torque_is_free = false;   ///< The torque of the joint without activity is fitted.
+  std::vector<std::string> held_back;      ///< Trials that are not fitted, by the names of `trial_named`.
 };
 
-/// Receives a sentence on the files or their values.
-using TellRemark = std::function<void(const std::string&)>;
-
-/// Throws InvalidInput if a kind of files does not match the number of trials.
-void require_counts(const IdentifySources& sources);
-
-/// Returns the names of one trial's files.
-[[nodiscard]] TrialFiles files_of(const IdentifySources& sources, std::size_t trial);
+/// Throws InvalidInput if a kind of files does not match the number of trials. `torque`: the fit is one to torques,
+/// else to forces.
+void require_counts(const IdentifySources& sources, bool torque);
 
 /// Returns "walk" for a single file of lengths, "2 (walk)" for one of several. Files of equal name
 /// get as many folders as distinguish them: "2 (fast/walk)".

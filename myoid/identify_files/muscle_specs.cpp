@@ -49,8 +49,12 @@ std::vector<MuscleSpec> muscle_specs(const MuscleTable& table) {
     spec.name = setup.name;
     spec.osim = {setup.name};
     spec.emg = setup.emg_channel;
-    for (const muscle::HillField& field : muscle::kHillFields)
-      spec.start[std::string(field.name)] = setup.start.*field.member;
+    for (const muscle::HillField& field : muscle::kHillFields) {
+      const std::string name(field.name);
+      const auto assumed = table.assumed.find(name);
+      if (assumed == table.assumed.end() || !identification::contains(assumed->second, setup.name))
+        spec.start[name] = setup.start.*field.member;
+    }
     std::ranges::copy_if(setup.fixed, std::back_inserter(spec.fixed), is_hill);
     specs.push_back(std::move(spec));
   }

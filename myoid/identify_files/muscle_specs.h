@@ -8,7 +8,8 @@
 
 namespace myoid {
 
-/// Returns the muscles of a table as [[muscle]]: names, channels, starting values and held parameters.
+/// Returns the muscles of a table as [[muscle]]: names, channels, stated starting values and held parameters. A study
+/// takes the other starting values from the literature, as the table does.
 [[nodiscard]] std::vector<MuscleSpec> muscle_specs(const MuscleTable& table);
 
 /// Returns the rest of a table as [[parameter]]: bounds, priors, values beyond the paper's law, and its rules.

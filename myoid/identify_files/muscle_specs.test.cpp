@@ -27,7 +27,7 @@ TEST(MuscleSpecs, ATableIsMusclesWithStartsAndParametersWithTheRest) {
   EXPECT_EQ(specs[1].emg, "TRI");
   EXPECT_EQ(specs[0].osim, std::vector<std::string>{"BIC"});
   EXPECT_EQ(specs[0].start.at("max_isometric_force"), 900.0);
-  EXPECT_EQ(specs[1].start.at("concentric_curvature"), 0.28) << "the literature's";
+  EXPECT_FALSE(specs[1].start.contains("concentric_curvature")) << "the literature's";
   EXPECT_EQ(specs[0].fixed, std::vector<std::string>{"concentric_curvature"});
   EXPECT_TRUE(specs[1].fixed.empty());
   const std::vector<identification::ParameterRule> rules = parameter_rules(table);

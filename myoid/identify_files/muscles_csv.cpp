@@ -45,24 +45,6 @@ constexpr const char* kProduct = "eccentric_curvature_product";
 constexpr const char* kRatio = "eccentric_slope_ratio";
 constexpr const char* kSpeed = "max_shortening_speed";
 
-/// Lists the literature's values that replace empty cells, in a sentence.
-std::string assumption(const std::filesystem::path& path,
-                       const std::map<std::string, std::vector<std::string>>& assumed,
-                       std::size_t muscles) {
-  std::string text;
-  for (const auto& [parameter, names] : assumed) {
-    const char* const value = parameter == "force_length_width"     ? "0.45 l_m0"
-                              : parameter == "concentric_curvature" ? "0.28"
-                              : parameter == "eccentric_plateau"    ? "1.4"
-                              : parameter == "max_shortening_speed"
-                                  ? "10 l_m0 per second"
-                                  : "by a slope in lengthening of 1.5 times that in shortening";
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", parameter, value);
-    if (names.size() < muscles) text += fmt::format(" ({})", fmt::join(names, ", "));
-  }
-  return fmt::format("{}: start from the literature's values: {}", path.string(), text);
-}
-
 /// One muscle's row of the table.
 class Row {
  public:
@@ -264,7 +246,6 @@ void read_parameter(const Row& row,
   // A request for the product makes the product the unknown, in place of the ratio of slopes.
   if (name == kProduct && (wishes.is_held() || wishes.any_bound() || wishes.prior_sd)) setup.priors.erase(kRatio);
   if (const auto rule = rule_of(row, field, wishes, muscle)) table.rules.push_back(*rule);
-  if (name == kSpeed && !wishes.held) table.speed_may_be_free.push_back(setup.name);
 }
 
 }  // namespace
@@ -276,14 +257,13 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
   const recording::CsvTable table = recording::read_csv_table(path);
   const std::map<std::string, MuscleColumn> columns = muscle_columns(table, path);
   MuscleTable result;
-  std::map<std::string, std::vector<std::string>> assumed;  // Muscles by parameter.
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const Row row(table, columns, path, r);
     for (const MuscleSetup& other : result.muscles) {
       if (other.name == row.cell("muscle")) row.fail(fmt::format("muscle '{}' is listed twice", other.name));
     }
     StartingMuscle muscle = read_start(row);
-    for (const std::string& parameter : muscle.assumed) assumed[parameter].push_back(muscle.setup.name);
+    for (const std::string& parameter : muscle.assumed) result.assumed[parameter].push_back(muscle.setup.name);
     for (const identification::ParameterField& field : identification::parameter_fields()) {
       if (field.scope == identification::Scope::muscle) read_parameter(row, field, within_bounds, muscle, result);
     }
@@ -291,10 +271,6 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
   }
   if (!table.last_row_has_end) {
     result.notes.push_back(fmt::format("{}:{}: {}", path.string(), table.lines.back(), recording::kLastRowKept));
-  }
-  if (!assumed.empty()) {
-    result.assumed = assumption(path, assumed, result.muscles.size());
-    result.notes.push_back(result.assumed);
   }
   if (result.muscles.empty()) throw ReadError(path, 0, "there are no muscles");
   return result;

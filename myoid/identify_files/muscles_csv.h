@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,8 @@ struct MuscleTable {
   std::vector<identification::MuscleSetup> muscles;
   std::vector<identification::ParameterRule> rules;  ///< Parameters that are not held by default.
   std::vector<std::string> notes;                    ///< Notes of the reader, with the file's name.
-  /// Describes the starting values from the literature; empty: none. Also a note.
-  std::string assumed;
-  std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor free.
+  /// Muscles whose start of a parameter is the literature's, by parameter.
+  std::map<std::string, std::vector<std::string>> assumed;
 };
 
 /// Reads muscles.csv: `muscle`, `max_isometric_force`, `optimal_fiber_length`, and any number of known columns of

@@ -75,17 +75,37 @@ TEST(ReadGiven, StagesAreReadAtTheTimesOfTheLengthsAndVelocitiesAreTheirRates) {
   EXPECT_EQ(parts[0].input.motion->sample_count(), 401);
 }
 
-TEST(ReadGiven, TimesThatAFileLacksAreLeftOutWithAWarning) {
+TEST(ReadGiven, TimesThatAFileLacksAreLeftOutAndNamed) {
   const GivenTrial trial;
   trial.torque(GivenTrial::clock(0.5, 4.0));
   const std::vector<TrialPart> parts = trial.read();
   ASSERT_EQ(parts.size(), 1U);
   EXPECT_NEAR(parts[0].input.given.lengths->time_s()[0], 0.5, 0.005 + 1e-9);
-  ASSERT_FALSE(parts[0].input.remarks.empty());
-  EXPECT_NE(parts[0].input.remarks.back().says.find("id.sto"), std::string::npos);
-  // A file that covers less than half is refused.
+  const Remark& most = parts[0].input.remarks.back();
+  EXPECT_EQ(most.severity, Severity::note);
+  EXPECT_NE(most.says.find("id.sto"), std::string::npos);
+  // It is a warning where less than half is left, and an error where nothing is.
   trial.torque(GivenTrial::clock(2.5, 4.0));
+  const std::vector<TrialPart> less = trial.read();
+  EXPECT_EQ(less[0].input.remarks.back().severity, Severity::warning);
+  trial.torque(GivenTrial::clock(5.0, 8.0));
   EXPECT_NE(message_of([&] { (void)trial.read(); }).find("id.sto"), std::string::npos);
+}
+
+TEST(ReadGiven, AGapOfAFileIsExcludedFromTheTrialWithItsSurroundings) {
+  const GivenTrial trial;
+  Eigen::VectorXd t = GivenTrial::clock(0.0, 3.0);
+  for (double& time : t) time += time > 1.505 ? 1.0 : 0.0;
+  for (const std::string file : {"r.sto", "e.sto"}) {
+    trial.write(file, t, 0.03 + 0.0 * t.array(), file == "e.sto" ? Unit::dimensionless : Unit::meter);
+    const std::vector<TrialPart> parts = trial.read();
+    ASSERT_EQ(parts.size(), 1U) << "no part of a trial that is cut";
+    const std::vector<Stretch>& windows = parts[0].spec.exclude.windows;
+    ASSERT_EQ(windows.size(), file == "r.sto" ? 1U : 2U);
+    for (const Stretch& window : windows) EXPECT_NEAR(window.begin_s, 1.5 - 0.1, 1e-9);
+    // Torque lags behind EMG; of the other files the splines' ends reach 0.1 s.
+    EXPECT_NEAR(windows.back().end_s, 2.51 + (file == "e.sto" ? 0.3 : 0.1), 1e-9);
+  }
 }
 
 TEST(ReadGiven, AColumnThatLacksAndAnotherUnitAreRefusedWithTheFile) {

@@ -43,14 +43,21 @@ void require_files(const Study& study, const TrialSpec& trial) {
   for (const std::filesystem::path& path : trial.given.moment_arms) require("moment_arms", path);
 }
 
-TimeSeries read_motion(const std::filesystem::path& path, const model::BodyModel& model, TrialInput& input) {
+TimeSeries read_motion(const Study& study,
+                       const std::filesystem::path& path,
+                       const model::BodyModel& model,
+                       TrialInput& input) {
   const recording::Storage file = recording::read_storage(path);
   add_repairs(path, file.repairs, input.remarks);
+  // Without a body the only column is the angle of the only joint, by any name.
+  const bool only = study.model.is_none() && model.coordinates.size() == 1 && file.data.channel_count() == 1;
   const auto is_angle = [&](const std::string& name) {
     const auto index = model.find_coordinate(name);
-    return index && model.coordinates[static_cast<std::size_t>(*index)].motion == model::MotionType::rotational;
+    return only ||
+           (index && model.coordinates[static_cast<std::size_t>(*index)].motion == model::MotionType::rotational);
   };
   TimeSeries motion = recording::to_si(file, is_angle);
+  if (only) motion = {motion.time_s(), {{model.coordinates[0].name, Unit::radian}}, motion.values()};
   bool any = false;
   for (const Channel& channel : motion.channels()) any |= model.find_coordinate(channel.name).has_value();
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
@@ -58,8 +65,10 @@ TimeSeries read_motion(const std::filesystem::path& path, const model::BodyModel
   if (!any)
     throw ReadError(
         path, 0,
-        fmt::format("no column is a coordinate of the model; found {}, expected some of {}; rename the columns",
-                    channel_names(motion), name_list(model.coordinates, &model::Coordinate::name)));
+        fmt::format(
+            "no column is a coordinate of the model; found {}, expected some of {}; rename the columns{}",
+            channel_names(motion), name_list(model.coordinates, &model::Coordinate::name),
+            study.model.is_none() ? ", or name the study's coordinate as they are (identify: --coordinate)" : ""));
   return motion;
 }
 
@@ -67,11 +76,13 @@ TimeSeries read_trial_motion(const Study& study,
                              const TrialSpec& trial,
                              const model::BodyModel& model,
                              TrialInput& input) {
-  TimeSeries motion =
-      read_motion(*trial.motion, model, input).slice(trial.start_s.value_or(-1e300), trial.end_s.value_or(1e300));
+  TimeSeries motion = read_motion(study, *trial.motion, model, input);
+  // Derivatives at given times follow from the whole motion, and `join_given_clocks` looks at its clock.
+  if (!trial.given.lengths) motion = motion.slice(trial.start_s.value_or(-1e300), trial.end_s.value_or(1e300));
   require_finite(motion, trial.motion->string());
-  if (motion.sample_count() < 10) throw ReadError(*trial.motion, 0, few_samples(trial, motion));
-  if (std::string pauses = check_clock(*trial.motion, motion.time_s()); !pauses.empty())
+  const int least = trial.given.lengths ? 2 : kLeastOfATrial;
+  if (motion.sample_count() < least) throw ReadError(*trial.motion, 0, few_samples(trial, motion, least));
+  if (std::string pauses = trial.given.lengths ? "" : check_clock(*trial.motion, motion.time_s()); !pauses.empty())
     warn(input, RemarkCode::clock_pause, std::move(pauses));
   check_cutoff(study, *trial.motion, motion.time_s());
   return motion;
@@ -110,16 +121,13 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   return result;
 }
 
-/// Returns the part of the motion with measured loads and given stages, if more than 0.1 s of it has none: neither
-/// the last value nor a line through the last two is a load of the time after it. Load cells and
-/// force plates refuse such a motion where they are read.
+/// Returns the part of the motion with measured loads, if more than 0.1 s of it has none: neither the last value nor a
+/// line through the last two is a load of the time after it. Load cells and force plates refuse such a motion where
+/// they are read.
 std::optional<Cover> cover_by_files(const TrialSpec& trial, const TrialInput& input) {
   if (trial.external_loads) {
     const Eigen::Vector2d clock(input.loads->start_s, input.loads->end_s);
     if (auto cover = check_cover(*trial.external_loads, "force", clock, input)) return cover;
-  }
-  for (const GivenFile& given : given_files(trial, input)) {
-    if (auto cover = check_cover(given.file, given.holds, given.series->time_s(), input)) return cover;
   }
   if (!trial.external_torque) return std::nullopt;
   return check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), input);
@@ -158,6 +166,7 @@ std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& tri
   std::vector<TrialPart> parts;
   try {
     TrialPart whole{trial, read_trial_input(study, trial, model)};
+    join_given_clocks(whole.spec, whole.input);
     const auto cover = cover_by_files(trial, whole.input);
     if (!cover) {
       parts.push_back(std::move(whole));

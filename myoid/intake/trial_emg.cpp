@@ -227,9 +227,13 @@ TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Reme
     if (std::ranges::find(wanted, muscle.emg) == wanted.end()) wanted.push_back(muscle.emg);
   }
   // The EMG may begin earlier than the motion, because of the delay.
-  TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input).slice(start - 0.5, end);
+  TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input);
+  // Of activations beside given lengths `join_given_clocks` looks at the clock.
+  const bool given = trial.given.lengths && study.emg.kind == EmgKind::activation;
+  if (!given) emg = emg.slice(start - 0.5, end);
   require_finite(emg, trial.emg->string());
-  if (emg.sample_count() < 10) throw ReadError(*trial.emg, 0, few_samples(trial, emg));
+  if (given) return emg;
+  if (emg.sample_count() < kLeastOfATrial) throw ReadError(*trial.emg, 0, few_samples(trial, emg));
   if (std::string pauses = check_clock(*trial.emg, emg.time_s()); !pauses.empty())
     warn(input, RemarkCode::clock_pause, std::move(pauses));
   if (const auto cover = check_cover(*trial.emg, "EMG", emg.time_s(), input))

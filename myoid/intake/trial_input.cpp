@@ -23,12 +23,12 @@ void add_repairs(const std::filesystem::path& path,
   for (const recording::Repair& repair : repairs) add_notes({recording::to_string(path.filename(), repair)}, remarks);
 }
 
-std::string few_samples(const TrialSpec& trial, const TimeSeries& series) {
+std::string few_samples(const TrialSpec& trial, const TimeSeries& series, int needed) {
   const auto limit = [](const std::optional<double>& time_s, std::string_view otherwise) {
     return time_s ? fmt::format("{} s", *time_s) : std::string(otherwise);
   };
-  return fmt::format("{} samples from {} to {}; at least 10 are needed", series.sample_count(),
-                     limit(trial.start_s, "its begin"), limit(trial.end_s, "its end"));
+  return fmt::format("{} samples from {} to {}; at least {} are needed", series.sample_count(),
+                     limit(trial.start_s, "its begin"), limit(trial.end_s, "its end"), needed);
 }
 
 }  // namespace myoid

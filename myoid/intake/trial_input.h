@@ -55,7 +55,10 @@ void add_repairs(const std::filesystem::path& path,
                  const std::vector<recording::Repair>& repairs,
                  std::vector<Remark>& remarks);
 
+/// Least number of samples of a recording.
+inline constexpr int kLeastOfATrial = 10;
+
 /// Returns "3 samples from its begin to 2 s; at least 10 are needed".
-[[nodiscard]] std::string few_samples(const TrialSpec& trial, const TimeSeries& series);
+[[nodiscard]] std::string few_samples(const TrialSpec& trial, const TimeSeries& series, int needed = kLeastOfATrial);
 
 }  // namespace myoid

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/nuisances.h"
 #include "myoid/intervals/verdict_cap.h"
 #include "myoid/intervals/verdicts.h"
 #include "myoid/methods/prediction.h"
@@ -61,15 +62,22 @@ EstimatorOptions of_one_force(EstimatorOptions options) {
   return options;
 }
 
-IdentificationResult identify_muscle_force(const StudyData& one, const ForceOptions& options) {
-  const EstimatorOptions once = of_one_force(options.estimator);
-  const std::string& name = one.muscles.front().name;
-  std::vector<std::string> speed;
-  if (contains(options.speed_may_be_free, name)) speed.push_back(name);
-  return options.detect_exact ? identify_torque_or_exact(one, once, speed) : identify_torque(one, once);
+namespace {
+
+/// Holds the nuisances where the trials do not tell them.
+void hold_untold(StudyData& one, const EstimatorOptions& once) {
+  if (!tells_nuisances(one, once)) hold_nuisances(one);
 }
 
-namespace {
+/// Fits one muscle of the study that `force_study` makes.
+IdentificationResult identify_muscle_force(StudyData one, const ForceOptions& options) {
+  const EstimatorOptions once = of_one_force(options.estimator);
+  if (options.detect_exact) {
+    if (std::optional<IdentificationResult> exact = identify_exactly(one, once)) return std::move(*exact);
+    hold_untold(one, once);
+  }
+  return identify_torque(one, once);
+}
 
 /// Copies the fit of muscle k into the result of all muscles.
 void take_over(IdentificationResult fit, const StudyData& data, std::size_t k, IdentificationResult& all) {
@@ -115,6 +123,21 @@ void predict_unfitted(const StudyData& one, std::size_t k, const EstimatorOption
 }
 
 }  // namespace
+
+std::vector<Fold> cross_validate_force(const StudyData& data,
+                                       const EstimatorOptions& options,
+                                       const CrossValidationOptions& how) {
+  const EstimatorOptions once = of_one_force(options);
+  std::vector<Fold> folds;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    if (!covers(options.muscles, data.muscles[k].name)) continue;
+    StudyData one = force_study(data, k);
+    hold_untold(one, once);
+    std::vector<Fold> of_one = cross_validate(one, once, how);
+    std::ranges::move(of_one, std::back_inserter(folds));
+  }
+  return folds;
+}
 
 IdentificationResult identify_force(const StudyData& data, const ForceOptions& options) {
   validate(data);

@@ -1,16 +1,18 @@
 #pragma once
 
+#include <vector>
+
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
+#include "myoid/methods/cross_validation.h"
 
 namespace myoid::identification {
 
 struct ForceOptions {
   EstimatorOptions estimator;
-  bool shared_forces = false;                  ///< Computed by an optimizer: at best `prior_dominated`.
-  bool detect_exact = false;                   ///< As in identify_torque_or_exact.
-  std::vector<std::string> speed_may_be_free;  ///< As in identify_torque_or_exact.
+  bool shared_forces = false;  ///< Computed by an optimizer: at best `prior_dominated`.
+  bool detect_exact = false;   ///< Looks for an exact fit first (identify_exactly).
 };
 
 /// Fits every muscle alone, shortening and lengthening together, to its own force (measured, or from force sharing).
@@ -22,8 +24,11 @@ struct ForceOptions {
 /// muscle's own: both are exact. All muscles of one person follow their EMG by the same law, which is not chosen.
 [[nodiscard]] EstimatorOptions of_one_force(EstimatorOptions options);
 
-/// Fits one muscle of the study that `force_study` makes.
-[[nodiscard]] IdentificationResult identify_muscle_force(const StudyData& one_muscle, const ForceOptions& options = {});
+/// Predicts parts of the trials by the fits to the others, muscle by muscle: the fits of `identify_force` to measured
+/// forces with noise. A fold names its muscle as its joint, and its scores are of forces [N].
+[[nodiscard]] std::vector<Fold> cross_validate_force(const StudyData& data,
+                                                     const EstimatorOptions& options,
+                                                     const CrossValidationOptions& how);
 
 /// Returns the study of one muscle that `identify_force` fits.
 [[nodiscard]] StudyData force_study(const StudyData& data, std::size_t muscle);

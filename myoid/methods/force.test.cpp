@@ -104,6 +104,15 @@ TEST(IdentifyForce, ByThePosteriorEachNumberHasTwoReadingsThatHoldThePerson) {
   }
   EXPECT_EQ(all, 4 * 6);
   EXPECT_GE(held, 22);  // of 24 intervals of 95 % one or two miss
+  // Each muscle's force in each trial, by the other trial.
+  const std::vector<Fold> folds = cross_validate_force(study.data, options.estimator, {});
+  ASSERT_EQ(folds.size(), 4U * 2U);
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    EXPECT_EQ(folds[f].joint, study.data.muscles[f / 2].name);
+    EXPECT_EQ(folds[f].trial, study.data.trials[f % 2].name);
+    EXPECT_EQ(folds[f].measured_nm, study.data.trials[f % 2].force_n.col(static_cast<Eigen::Index>(f / 2)));
+    EXPECT_GT(folds[f].identified.r2(), 0.9) << folds[f].joint;
+  }
 }
 
 }  // namespace

@@ -289,19 +289,17 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
   return result;
 }
 
-std::optional<IdentificationResult> exact_fit(const StudyData& data,
-                                              const EstimatorOptions& options,
-                                              const std::vector<std::string>& speed_may_be_free) {
-  StudyData held = data;
-  hold_nuisances(held);
+std::optional<IdentificationResult> exact_fit(const StudyData& data, const EstimatorOptions& options) {
+  StudyData freed = data;
+  hold_nuisances(freed);
+  StudyData held = freed;
+  hold_speeds(held);
   if (auto fit = fit_exactly(held, options)) return fit;
-  if (!speed_may_be_free.empty()) {
-    StudyData freed = held;
-    free_speeds(freed, speed_may_be_free);
+  if (freed.rules != held.rules)
     if (auto fit = fit_exactly(freed, options)) return fit;
-  }
   StudyData of_emg = data;
   hold_nuisances(of_emg, beliefs::kEmgExponent.name);
+  hold_speeds(of_emg);
   return of_emg.rules == held.rules ? std::nullopt : fit_exactly(of_emg, options);
 }
 

@@ -30,10 +30,8 @@ inline constexpr double kNoiseFreeRate_hz = 200.0;
 /// (math/covariance.h). Throws InvalidInput for data that do not fit together.
 [[nodiscard]] std::optional<IdentificationResult> fit_exactly(const StudyData& data, const EstimatorOptions& options);
 
-/// Returns the first exact fit of the data without nuisances (nuisances.h); with the v_max of the muscles in
-/// `speed_may_be_free` as unknowns; with the EMG's exponents. Empty if none is exact.
-[[nodiscard]] std::optional<IdentificationResult> exact_fit(const StudyData& data,
-                                                            const EstimatorOptions& options,
-                                                            const std::vector<std::string>& speed_may_be_free = {});
+/// Returns the first exact fit of the data without nuisances (nuisances.h): with the v_max of `free_speeds` held; with
+/// this v_max as an unknown; with the EMG's exponents. Empty if none is exact.
+[[nodiscard]] std::optional<IdentificationResult> exact_fit(const StudyData& data, const EstimatorOptions& options);
 
 }  // namespace myoid::identification

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/identification/nuisances.h"
 #include "myoid/identification/told_by_motion.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/methods/late_emg.h"
@@ -75,23 +74,10 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   return result;
 }
 
-std::optional<IdentificationResult> identify_exactly(const StudyData& data,
-                                                     const TorqueOptions& options,
-                                                     const std::vector<std::string>& speed_may_be_free) {
-  std::optional<IdentificationResult> exact = exact_fit(data, options, speed_may_be_free);
+std::optional<IdentificationResult> identify_exactly(const StudyData& data, const TorqueOptions& options) {
+  std::optional<IdentificationResult> exact = exact_fit(data, options);
   if (exact && options.predictions) add_predictions(data, options, *exact);
   return exact;
-}
-
-IdentificationResult identify_torque_or_exact(const StudyData& data,
-                                              const TorqueOptions& options,
-                                              const std::vector<std::string>& speed_may_be_free) {
-  if (std::optional<IdentificationResult> exact = identify_exactly(data, options, speed_may_be_free))
-    return std::move(*exact);
-  StudyData whole = data;
-  free_speeds(whole, speed_may_be_free);
-  if (!tells_nuisances(whole, options)) hold_nuisances(whole);
-  return identify_torque(whole, options);
 }
 
 }  // namespace myoid::identification

@@ -28,15 +28,8 @@ using TorqueOptions = EstimatorOptions;
 [[nodiscard]] EstimatorOptions remembering_drives(EstimatorOptions options);
 
 /// Returns the exact fit of data without noise (exact_fit) with its predictions; empty if there is none.
-[[nodiscard]] std::optional<IdentificationResult> identify_exactly(
-    const StudyData& data, const TorqueOptions& options = {}, const std::vector<std::string>& speed_may_be_free = {});
-
-/// Identifies from data that may be free of noise: `identify_exactly` if it finds a fit, else `identify_torque`
-/// with the v_max of the muscles in `speed_may_be_free` as unknowns, and without the nuisances (nuisances.h) where the
-/// trials do not tell them.
-[[nodiscard]] IdentificationResult identify_torque_or_exact(const StudyData& data,
-                                                            const TorqueOptions& options = {},
-                                                            const std::vector<std::string>& speed_may_be_free = {});
+[[nodiscard]] std::optional<IdentificationResult> identify_exactly(const StudyData& data,
+                                                                   const TorqueOptions& options = {});
 
 /// Returns the caps that the data themselves put on a fit's verdicts, and warns of each in the result: motion alone
 /// tells the torque (told_by_motion_alone, VerdictRules::motion_alone), or the EMG is late (late_emg.h).

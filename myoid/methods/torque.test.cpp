@@ -266,31 +266,31 @@ TEST(IdentifyTorque, RefusesWhatDoesNotFitTogether) {
   }
 }
 
-TEST(IdentifyTorqueOrExact, FreesTheSpeedOnlyIfTheDataAreMetOnlyThen) {
+TEST(IdentifyExactly, FreesTheSpeedOnlyIfTheDataAreMetOnlyThen) {
   ElbowStudy study = elbow_study({.trials = 3});
-  const std::vector<std::string> all{"BIC", "BRA", "BRD", "TRI"};
-  const IdentificationResult held = identify_torque_or_exact(study.data, {}, all);
-  EXPECT_TRUE(held.exact);
-  EXPECT_EQ(held.solution.size(), 25);
+  free_speeds(study.data, {"BIC", "BRA", "BRD", "TRI"});
+  const std::optional<IdentificationResult> held = identify_exactly(study.data);
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->solution.size(), 25);
   for (MuscleSetup& setup : study.data.muscles) setup.start.max_shortening_speed_mps *= 1.2;
-  const IdentificationResult freed_speed = identify_torque_or_exact(study.data, {}, all);
-  ASSERT_TRUE(freed_speed.exact);
-  EXPECT_EQ(freed_speed.solution.size(), 29);
+  const std::optional<IdentificationResult> freed_speed = identify_exactly(study.data);
+  ASSERT_TRUE(freed_speed);
+  EXPECT_EQ(freed_speed->solution.size(), 29);
   for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_NEAR(freed_speed.muscles[k].max_shortening_speed_mps, study.truth[k].max_shortening_speed_mps,
+    EXPECT_NEAR(freed_speed->muscles[k].max_shortening_speed_mps, study.truth[k].max_shortening_speed_mps,
                 1e-6 * study.truth[k].max_shortening_speed_mps);
 }
 
-TEST(IdentifyTorqueOrExact, GivesExactDataBackByThePosteriorBesideNuisances) {
+TEST(IdentifyExactly, GivesTheDataBackBesideNuisances) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .with_priors = true});
   TorqueOptions options;
   options.unseen = {};
   for (const MuscleSetup& muscle : study.data.muscles) options.gain_prior_sd[muscle.emg_channel] = 0.1;
   study.data.rules = nuisance_rules(study.data, true);
-  const IdentificationResult result = identify_torque_or_exact(study.data, options);
-  ASSERT_TRUE(result.exact);
+  const std::optional<IdentificationResult> result = identify_exactly(study.data, options);
+  ASSERT_TRUE(result);
   int compared = 0;
-  for (const ParameterEstimate& e : result.estimates) {
+  for (const ParameterEstimate& e : result->estimates) {
     ASSERT_TRUE(e.given_estimate);
     EXPECT_EQ(*e.given_estimate, e.estimate);
     for (std::size_t k = 0; k < 4; ++k) {

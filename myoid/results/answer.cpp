@@ -101,7 +101,6 @@ std::string count_sentences(const IdentificationResult& fit, std::size_t muscle_
   return text;
 }
 
-/// Returns how well the fit predicts what it left out, with a blank before it; empty without folds.
 /// Returns true if R2 tells something of the torque: its standard deviation is 5 % of its root mean square or more.
 bool varies(const identification::Score& score) {
   constexpr double kShare = 0.05;
@@ -109,19 +108,22 @@ bool varies(const identification::Score& score) {
   return score.n > 0.0 && variance > kShare * kShare * (variance + score.mean_nm * score.mean_nm);
 }
 
-std::string fold_sentence(const std::vector<identification::Fold>& folds, std::string_view left_out) {
+/// Returns how well the fit predicts what it left out, with a blank before it; empty without folds.
+std::string fold_sentence(const StudyResult& result) {
   std::vector<double> ours, theirs;
-  for (const identification::Fold& f : folds) {
+  for (const identification::Fold& f : result.folds) {
     if (!varies(f.identified)) continue;
     ours.push_back(f.identified.r2());
     theirs.push_back(f.literature.r2());
   }
   if (ours.empty()) return "";
-  const std::string of = ours.size() == folds.size() ? "median" : fmt::format("median of {} that vary", ours.size());
+  const std::string of =
+      ours.size() == result.folds.size() ? "median" : fmt::format("median of {} that vary", ours.size());
   return fmt::format(
-      " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} ({}; 1 is perfect, the literature's "
+      " The {} of {}s left out of the fit is predicted with an R2 of {:.2f} ({}; 1 is perfect, the literature's "
       "muscles with a best gain reach {:.2f}).",
-      left_out, math::median(std::move(ours)), of, math::median(std::move(theirs)));
+      torque_of(result.fit) == nullptr ? "force" : "torque", choice_name(result.source.study.identify.folds),
+      math::median(std::move(ours)), of, math::median(std::move(theirs)));
 }
 
 /// Returns how many intervals of a virtual person hold the truth; empty: no truth is known.
@@ -247,21 +249,11 @@ std::vector<AnswerRow> answer_rows(const IdentificationResult& method, std::size
 std::string fit_sentences(const StudyResult& result, bool with_names) {
   const IdentificationResult* best = best_method(result.fit);
   if (best == nullptr)
-    return "Only the source paper's method was asked for. It fits forces that nobody measured, so that this recording "
-           "identifies nothing by it; its numbers stand at the end.";
+    return "Only the source paper's method was asked for. Unless its forces were measured, this recording identifies "
+           "nothing by it; its numbers stand at the end.";
   std::string text = count_sentences(*best, result.fit_input.data.muscles.size(), with_names);
   if (const std::string truth = truth_sentence(result, *best); !truth.empty()) text += " " + truth;
-  return text + fold_sentence(result.folds, choice_name(result.source.study.identify.folds));
-}
-
-std::string fit_answer_text(const IdentificationResult& fit,
-                            const std::vector<identification::Fold>& folds,
-                            std::string_view left_out,
-                            std::size_t muscle_count,
-                            std::size_t width) {
-  const std::string rows = row_lines(answer_rows(fit, muscle_count, kMostRows), width);
-  return rows + (rows.empty() ? "" : "\n") +
-         wrapped(count_sentences(fit, muscle_count, false) + fold_sentence(folds, left_out), width);
+  return text + fold_sentence(result);
 }
 
 std::string next_sentence(const StudyResult& result) {

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "myoid/intervals/result.h"
@@ -33,14 +32,6 @@ struct AnswerRow {
 /// Returns how many parameters the method identifies and how well it predicts the trials left out, in sentences.
 /// `with_names` lists the identified ones.
 [[nodiscard]] std::string fit_sentences(const StudyResult& result, bool with_names);
-
-/// Returns the answer of a fit without a study for a terminal, at most 24 lines: the numbers with both readings, and
-/// the fit in sentences. `left_out`: "trial" or "block" of the folds.
-[[nodiscard]] std::string fit_answer_text(const identification::IdentificationResult& fit,
-                                          const std::vector<identification::Fold>& folds,
-                                          std::string_view left_out,
-                                          std::size_t muscle_count,
-                                          std::size_t width);
 
 /// Returns the movements to record next and their gain; empty without a plan.
 [[nodiscard]] std::string next_sentence(const StudyResult& result);

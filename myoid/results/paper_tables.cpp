@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/counted.h"
+#include "myoid/files/text_file.h"
+#include "myoid/report/tables.h"
 #include "myoid/report/verdict_mark.h"
 #include "myoid/results/parameter_tables.h"
 
@@ -128,16 +130,32 @@ std::vector<Table> paper_tables(const IdentificationResult& method) {
           std::move(searches)};
 }
 
-report::Section paper_section(const IdentificationResult& paper) {
+Table solver_table(const std::vector<identification::NamedContest>& contests) {
+  Table table{.id = "solvers",
+              .title = "Solvers of the published criterion: cost [N²], distance from the best minimum",
+              .columns = {"fit", "solver", "start", "cost", "distance", "evaluations", "seconds", "termination"}};
+  using recording::format_number;
+  for (const auto& [fit, contest] : contests)
+    for (const identification::SolverRun& run : contest.runs)
+      table.rows.push_back(report::text_row({fit, run.solver, fmt::format("{}", run.start), format_number(run.cost),
+                                             format_number(run.distance), fmt::format("{}", run.evaluations),
+                                             format_number(run.seconds), std::string(math::name(run.termination))}));
+  return table;
+}
+
+report::Section paper_section(const StudyFit& fit, bool shared) {
+  const IdentificationResult& paper = *method_of(fit, "paper");
   report::Section section{
       .id = "paper",
       .heading = "The source paper's method beside it",
       .folded = true,
-      .paragraphs = {"Published in 2006: every muscle alone, shortening and lengthening apart, against forces that an "
-                     "optimization assigned. Nobody measured these forces. They know nothing of co-contraction or of "
-                     "the person's own strength, so the numbers have no interval, and none of them counts as a result "
-                     "of this recording."},
+      .paragraphs = {shared ? "Published in 2006: every muscle alone, shortening and lengthening apart, against forces "
+                              "that an optimization assigned and nobody measured. They know nothing of co-contraction "
+                              "or of the person's own strength: none of the numbers is a result of this recording."
+                            : "Published in 2006: every muscle alone, shortening and lengthening apart, against the "
+                              "forces given. It holds F_max and v_max: an error in them goes into every number."},
       .tables = paper_tables(paper)};
+  if (!fit.contests.empty()) section.tables.push_back(solver_table(fit.contests));
   for (Table& table : basin_tables(paper)) section.tables.push_back(std::move(table));
   return section;
 }

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "myoid/intervals/result.h"
+#include "myoid/methods/solver_contest.h"
 #include "myoid/report/report.h"
+#include "myoid/run/study_fit.h"
 
 namespace myoid {
 
@@ -16,7 +18,10 @@ namespace myoid {
 /// muscle in two rows, and a table of the searches.
 [[nodiscard]] std::vector<report::Table> paper_tables(const identification::IdentificationResult& method);
 
-/// Returns the section of the report, which is folded.
-[[nodiscard]] report::Section paper_section(const identification::IdentificationResult& paper);
+/// Returns the searches of the solvers that the study compares, with every digit: the content of solvers.csv.
+[[nodiscard]] report::Table solver_table(const std::vector<identification::NamedContest>& contests);
+
+/// Returns the section of the report, which is folded. `shared`: force sharing made the forces.
+[[nodiscard]] report::Section paper_section(const StudyFit& fit, bool shared);
 
 }  // namespace myoid

@@ -83,10 +83,18 @@ TEST(PaperTables, SayHowBothSearchesEnded) {
             std::string::npos);
 }
 
-TEST(PaperSection, IsFolded) {
-  const report::Section section = paper_section(two_branches());
+TEST(PaperSection, IsFoldedAndHasTheSolversThatTheStudyCompares) {
+  StudyFit fit;
+  fit.methods = {two_branches()};
+  const report::Section section = paper_section(fit, true);
   EXPECT_TRUE(section.folded);
   EXPECT_EQ(section.tables.size(), 3U);
+  fit.contests = {{"BIC shortening", {.runs = {{.solver = "gauss_newton", .cost = 0.1234567890123}}}},
+                  {"BIC lengthening", {}}};
+  const report::Table solvers = paper_section(fit, false).tables.at(3);
+  ASSERT_EQ(solvers.rows.size(), 1U);
+  EXPECT_EQ(solvers.rows[0][0].text, "BIC shortening");
+  EXPECT_EQ(solvers.rows[0][3].text, "0.1234567890123") << "solvers.csv has every digit";
 }
 
 }  // namespace

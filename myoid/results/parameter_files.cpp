@@ -13,7 +13,6 @@
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/quoted_text.h"
-#include "myoid/files/result_record.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/methods/prediction.h"
@@ -21,6 +20,7 @@
 #include "myoid/report/tables.h"
 #include "myoid/results/voluntary_report.h"
 #include "myoid/run/prediction_gates.h"
+#include "myoid/study/study_model.h"
 
 namespace myoid {
 namespace {
@@ -307,7 +307,8 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
 ParameterContext parameter_context(const StudyResult& result) {
   return {.phases = result.fit_input.phases,
           .resting = result.resting,
-          .left_out = std::string(choice_name(result.source.study.identify.folds))};
+          .left_out = std::string(choice_name(result.source.study.identify.folds)),
+          .starting_values = assumed_starts(result.source.study)};
 }
 
 void write_parameter_files(const std::vector<IdentificationResult>& methods,
@@ -317,17 +318,11 @@ void write_parameter_files(const std::vector<IdentificationResult>& methods,
                            const std::filesystem::path& folder) {
   recording::write_file(folder / "parameters.json", parameters_json(methods, folds, provenance, context));
   recording::write_file(folder / "parameters.csv", parameters_csv(methods));
-  const auto write_or_remove = [&](const char* name, bool there, const auto& text) {
-    if (there)
-      recording::write_file(folder / name, text());
-    else
-      recording::remove_result(folder / name);  // from an earlier run
-  };
-  write_or_remove("fold_parameters.csv", !folds.empty(), [&] { return fold_parameters_csv(folds); });
+  if (!folds.empty()) recording::write_file(folder / "fold_parameters.csv", fold_parameters_csv(folds));
   const auto drawn = std::ranges::find_if(methods, [](const auto& method) { return method.draws.size() > 0; });
   const auto told = std::ranges::find_if(methods, [](const auto& method) { return !method.voluntary.empty(); });
-  write_or_remove("voluntary_torque.csv", told != methods.end(), [&] { return voluntary_csv(*told); });
-  write_or_remove("posterior.csv", drawn != methods.end(), [&] { return posterior_csv(*drawn); });
+  if (told != methods.end()) recording::write_file(folder / "voluntary_torque.csv", voluntary_csv(*told));
+  if (drawn != methods.end()) recording::write_file(folder / "posterior.csv", posterior_csv(*drawn));
 }
 
 }  // namespace myoid

@@ -39,8 +39,8 @@ struct ParameterContext {
                                           const Provenance& provenance,
                                           const ParameterContext& context = {});
 
-/// Writes parameters.json, parameters.csv and, if there are such results, fold_parameters.csv, voluntary_torque.csv and
-/// posterior.csv. Removes files of these names from an earlier run.
+/// Writes parameters.json, parameters.csv and, if there are any, fold_parameters.csv, voluntary_torque.csv,
+/// posterior.csv.
 void write_parameter_files(const std::vector<identification::IdentificationResult>& methods,
                            const std::vector<identification::Fold>& folds,
                            const Provenance& provenance,

@@ -230,7 +230,7 @@ std::vector<Table> basin_tables(const IdentificationResult& method) {
   if (method.basins.empty()) return {};
   Table table{
       "basins_" + method.method,
-      fmt::format("Where the searches from {} starts ended (method {})", method.basins.front().starts, method.method),
+      fmt::format("Where the searches from several starts ended (method {})", method.method),
       "The given start and points spread evenly over two standard deviations of the priors. Distance: from the best "
       "minimum, root mean square over the unknowns, in these standard deviations. A second minimum of equal cost is an "
       "equally good answer.",

@@ -33,8 +33,7 @@ void write_prediction(const identification::TrialFit& prediction,
 /// Returns the folder of each predicted trial.
 [[nodiscard]] recording::NameIds prediction_folders(const std::vector<identification::TrialFit>& predictions);
 
-/// Writes each trial's `write_prediction` into the trial's folder, and predictions.csv. Each .sto says the
-/// band_sentence.
+/// Writes each trial's `write_prediction` into the trial's folder, and predictions.csv. Each .sto says band_sentence.
 void write_predictions(const std::vector<identification::TrialFit>& predictions,
                        const std::vector<std::string>& muscles,
                        const Provenance& provenance,

@@ -10,8 +10,11 @@
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/report/json_values.h"
+#include "myoid/report/tables.h"
 #include "myoid/results/methods_text.h"
+#include "myoid/results/paper_tables.h"
 #include "myoid/results/parameter_files.h"
+#include "myoid/results/prediction_files.h"
 #include "myoid/results/stage_files.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/quality_gates.h"
@@ -178,7 +181,11 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
   }
   for (const identification::InformedForces& forces : result.fit.informed)
     write_informed_forces(result, forces, folder / ids.of(forces.trial), with_emg(torque_of(result.fit)));
+  if (const IdentificationResult* torque = torque_of(result.fit))
+    write_held_back(*torque, result.fit_input.data, provenance, folder);
   write_identified_model(result, folder);
+  if (!result.fit.contests.empty())
+    recording::write_file(folder / "solvers.csv", report::table_csv(solver_table(result.fit.contests)));
   write_parameter_files(result.fit.methods, result.folds,
                         without_places(provenance, result.source.study.file.parent_path()), parameter_context(result),
                         folder);

@@ -21,6 +21,7 @@
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/study_emg.h"
 #include "myoid/study/study_ids.h"
+#include "myoid/study/study_model.h"
 
 namespace myoid {
 namespace {
@@ -34,6 +35,7 @@ using report::Table;
 
 std::vector<std::string> assumptions(const StudyResult& result) {
   std::vector<std::string> list = result.source.study.subject.notes;
+  if (std::string assumed = assumed_starts(result.source.study); !assumed.empty()) list.push_back(std::move(assumed));
   list.push_back(
       result.source.study.identify.elastic_tendon
           ? "Tendons stretch by the strain that the model gives them, quasi-statically."
@@ -71,10 +73,7 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
   const Study& study = result.source.study;
   list.push_back(meaning_of_strength(study, from_maximal_effort(study.emg)));
-  if (result.fit_input.nuisances_held)
-    list.push_back(
-        "The trials hold few independent rows of torque for the unknowns of the muscles: exponents of the EMG, the "
-        "joint's own torque and the shift of the optimal length with activation stay at their expected values.");
+  if (result.fit_input.nuisances_held) list.emplace_back(kFewRows);
   for (const std::string& text : result.source.model->unsupported) list.push_back("Model: " + text + ".");
   return list;
 }
@@ -87,11 +86,6 @@ std::vector<report::Answer> answers(const StudyResult& result) {
   list.push_back(
       {"Since an earlier session", "`myoid compare EARLIER THIS` compares the folders of both results.", ""});
   return list;
-}
-
-std::vector<Table> tables_with_basins(std::vector<Table> tables, const IdentificationResult& method) {
-  for (Table& table : basin_tables(method)) tables.push_back(std::move(table));
-  return tables;
 }
 
 /// Returns ", 73 kg, male" of the facts that the study gives.
@@ -127,7 +121,7 @@ Section parameters_section(const StudyResult& result, const IdentificationResult
                   torque.emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
                                         : fmt::format("{:.0f} %", 100.0 * torque.emg_cv),
                   1000.0 * torque.delay_s));
-  section.tables = tables_with_basins(estimate_tables(result, torque), torque);
+  section.tables = estimate_tables(result, torque);
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m)
     section.figures.push_back(muscle_curves(result, torque, m));
   return section;
@@ -200,9 +194,8 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   sections.push_back(recordings_section(result));
   if (torque != nullptr) sections.push_back(parameters_section(result, *torque));
   if (force != nullptr)
-    sections.push_back({.id = "force_method",
-                        .heading = "Muscle by muscle",
-                        .tables = tables_with_basins(estimate_tables(result, *force), *force)});
+    sections.push_back(
+        {.id = "force_method", .heading = "Muscle by muscle", .tables = estimate_tables(result, *force)});
   for (Section& section : validation_sections(result)) sections.push_back(std::move(section));
   if (result.next) sections.push_back(next_recording_section(*result.next));
   if (const auto* shown = torque != nullptr ? torque : paper) sections.push_back(forces_section(result, *shown));
@@ -211,7 +204,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   if (!result.fit_input.phases.empty()) sections.push_back(phases_section(result));
   sections.push_back(trials_section(result));
   sections.push_back(methods_section(methods_text(result, provenance)));
-  if (paper != nullptr) sections.push_back(paper_section(*paper));
+  if (paper != nullptr) sections.push_back(paper_section(result.fit, shares_forces(result.source.study)));
   return report;
 }
 

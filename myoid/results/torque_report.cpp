@@ -66,9 +66,9 @@ Panel torque_panel(std::string title,
 Figure folds_figure(const StudyResult& result, double delay_s) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
   Figure figure{"torque_held_out",
-                fmt::format("Joint torque predicted for {}s that took no part in the fit", left_out),
-                fmt::format("Blue: inverse dynamics. Orange dashed: muscles identified on the other {}s. Grey dotted: "
-                            "literature's muscles with one best gain. The worst predicted come first.",
+                fmt::format("The {} of {}s that took no part in the fit", predicted_by_folds(result).name, left_out),
+                fmt::format("Blue: measured. Orange dashed: muscles identified on the other {}s. Grey dotted: the "
+                            "literature's with one best gain. The worst predicted come first.",
                             left_out),
                 {},
                 2};
@@ -111,18 +111,18 @@ std::vector<Cell> score_cells(Cell name,
 
 Table folds_table(const StudyResult& result) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
+  const auto [predicted, unit] = predicted_by_folds(result);
   Table table{
       "leave_one_trial_out",
-      fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
+      fmt::format("Leave-one-{}-out prediction of the {}", left_out, predicted),
       fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
           "NRMSE is RMSE over the range. The prediction is that of a fit without this part (fold_parameters.csv); in "
-          "band: share of the samples within the prediction's 95 % band. Below 1.5 Hz both torques are compared "
-          "without faster changes, which in the "
-          "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. Baselines, RMSE in N m "
-          "and R2 in brackets: the literature's parameters with the one gain that fits the others best; torque "
-          "regressed on EMG times moment arm; the others' mean torque.",
-      {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "VAF", "in band",
-       "lag [ms]", "literature x gain", "regression", "constant"}};
+          "band: share of the samples within the prediction's 95 % band. Below 1.5 Hz both are compared without faster "
+          "changes, which in the prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. "
+          "Baselines, RMSE and R2 in brackets: the literature's parameters with the one gain that fits the others "
+          "best; a regression on EMG times moment arm; the others' mean.",
+      {std::string(left_out), fmt::format("RMSE [{}]", unit), "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz",
+       "VAF", "in band", "lag [ms]", "literature x gain", "regression", "constant"}};
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
   for (const identification::Fold& f : result.folds) {
     const bool stands_out =

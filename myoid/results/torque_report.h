@@ -7,8 +7,8 @@
 
 namespace myoid {
 
-/// Returns the sections on joint torques predicted for trials outside the fit: trials left out in turn, with every
-/// baseline, and validation trials. One row and one panel for each trial and joint; empty without such trials.
+/// Returns the sections on predictions of trials outside the fit: left out in turn, with every baseline, and held back.
+/// One row and one panel for each trial and joint; empty without such trials.
 [[nodiscard]] std::vector<report::Section> validation_sections(const StudyResult& result);
 
 /// Returns the section on the recordings: duration, held mass, range of every joint and of its torque.

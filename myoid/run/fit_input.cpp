@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "myoid/identification/nuisances.h"
+#include "myoid/methods/plain_fit.h"
 #include "myoid/run/estimator_input.h"
 #include "myoid/run/study_phases.h"
 
@@ -17,7 +18,9 @@ FitInput fit_input(const FitSource& source, const Progress& progress, std::optio
   const std::vector<identification::Method>& methods = study.identify.methods;
   const bool given = study.emg.kind == EmgKind::activation && !input.data.trials.empty() &&
                      std::ranges::find(methods, identification::Method::torque) != methods.end();
-  input.nuisances_held = hold.value_or(given && !identification::tells_nuisances(input.data, input.options));
+  // Data without noise tell everything.
+  input.nuisances_held = hold.value_or(given && !identification::tells_nuisances(input.data, input.options) &&
+                                       !identification::exact_fit(input.data, input.options));
   if (input.nuisances_held) identification::hold_nuisances(input.data);
   if (study.phases.search && !input.data.trials.empty()) {
     input.phases = study_phases(source, input.data, input.options);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "myoid/core/progress.h"
@@ -25,6 +26,12 @@ struct FitSource {
   std::vector<const TimeSeries*> activation;  ///< One per trial; empty series: no EMG.
   const EmgScale& scale;                      ///< Scale of `activation`.
 };
+
+/// Says why the nuisances are held.
+inline constexpr std::string_view kFewRows =
+    "The trials hold few independent rows of torque for the unknowns of the muscles: exponents of the EMG, the joint's "
+    "own torque and the shift of the optimal length with activation stay at their expected values. More trials would "
+    "tell them; a parameter that is free by name is identified anyway.";
 
 /// The data and the options of a fit.
 struct FitInput {

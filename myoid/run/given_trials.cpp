@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,7 +25,7 @@ bool frees_resting_torque(const Study& study) {
 
 TrialFiles files_of(const Study& study, const TrialSpec& spec) {
   const auto text = [](const std::optional<std::filesystem::path>& path) { return path ? path->string() : ""; };
-  TrialFiles files{.activations = {},
+  TrialFiles files{.activations = study.emg.kind == EmgKind::activation ? text(spec.emg) : "",
                    .lengths = text(spec.given.lengths),
                    .velocities = text(spec.given.velocities),
                    .moment_arms = {},
@@ -39,15 +42,80 @@ std::vector<std::string> doubts(const Study& study,
                                 const TrialResult& result) {
   const TrialFiles files = files_of(study, result.spec);
   std::vector<std::string> found;
-  if (const auto& torques = result.input.given.torques) {
-    for (std::size_t j = 0; j < files.moment_arms.size(); ++j)
-      found.push_back(check_joint_by_name(files.moment_arms[j], torques->channels()[j].name, *torques));
-  }
+  const std::vector<std::string>& torques = result.input.given.torque_columns;
+  for (std::size_t j = 0; j < files.moment_arms.size() && !torques.empty(); ++j)
+    found.push_back(check_joint_by_name(files.moment_arms[j], torques[j], torques));
   for (std::string& text : check_given_trial(data, trial, files)) found.push_back(std::move(text));
   if (!files.lengths.empty())
     for (std::string& text : check_joint_of_arms(data, trial, files)) found.push_back(std::move(text));
   std::erase(found, "");
   return found;
+}
+
+/// Returns true if a condition holds in all trials of the data.
+bool in_all(const identification::StudyData& data, const auto& holds) {
+  return std::ranges::all_of(data.trials, holds);
+}
+
+/// Refuses a joint whose given torques, and muscles whose given forces, are 0 in all trials.
+void require_something_to_fit(const Study& study, const identification::StudyData& data, const GivenSpec& files) {
+  const auto nothing = [](const auto& values) { return !(values.cwiseAbs().maxCoeff() > 0.0); };
+  constexpr std::string_view kRemedy =
+      "there is nothing to fit; is it the right file and column, or was the channel off?";
+  const std::vector<std::string> joints = study_coordinates(study.model);
+  for (std::size_t j = 0; files.torques && j < joints.size(); ++j) {
+    if (in_all(data, [&](const auto& trial) { return nothing(identification::of_joint(trial, j).torque_nm); }))
+      throw InvalidInput(
+          fmt::format("{}: the torque '{}' is 0 in all trials: {}", files.torques->string(), joints[j], kRemedy));
+  }
+  if (files.forces && in_all(data, [&](const auto& trial) { return nothing(trial.force_n); }))
+    throw InvalidInput(fmt::format("{}: every force is 0 in all trials: {}", files.forces->string(), kRemedy));
+}
+
+/// Warns of activations that never change or are equal: the fit would give the work of one muscle to the others.
+std::vector<Remark> compare_activations(const identification::StudyData& data, const std::string& file) {
+  std::vector<std::string> channels;
+  for (const identification::MuscleSetup& muscle : data.muscles) {
+    if (std::ranges::find(channels, muscle.emg_channel) == channels.end()) channels.push_back(muscle.emg_channel);
+  }
+  std::vector<Remark> found;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    // A table with a row for each maximal contraction has the activation 1 throughout.
+    constexpr double kEffort = 0.5;
+    const auto of = [&](const identification::TrialData& trial, std::size_t k) {
+      return trial.activation.values().col(trial.activation.index(channels[k]));
+    };
+    if (in_all(data, [&](const auto& trial) { return !(of(trial, c).maxCoeff() > of(trial, c).minCoeff()); })) {
+      if (in_all(data, [&](const auto& trial) { return of(trial, c).minCoeff() >= kEffort; })) continue;
+      found.push_back(
+          {.code = RemarkCode::channel_unusable,
+           .says = fmt::format("{}: activation '{}' never changes in any trial: was the electrode connected? The work "
+                               "of its muscles is given to the others; leave them out only if they were at rest",
+                               file, channels[c])});
+      continue;
+    }
+    for (std::size_t other = 0; other < c; ++other) {
+      if (in_all(data, [&](const auto& trial) { return of(trial, c) == of(trial, other); }))
+        found.push_back({.code = RemarkCode::shared_channel,
+                         .says = fmt::format(
+                             "{}: activations '{}' and '{}' are the same in all trials: was a column copied? If one "
+                             "electrode stands for both, name it for both muscles",
+                             file, channels[other], channels[c])});
+    }
+  }
+  return found;
+}
+
+/// Looks at all trials together, where each gives its lengths; adds remarks to the first.
+void check_together(const Study& study, const identification::StudyData& data, std::vector<TrialResult>& trials) {
+  const bool given = !data.trials.empty() && std::ranges::all_of(trials, [](const TrialResult& trial) {
+    return trial.spec.given.lengths.has_value();
+  });
+  if (!given) return;
+  TrialResult& first = trials.front();
+  require_something_to_fit(study, data, first.spec.given);
+  if (study.emg.kind != EmgKind::activation || !first.spec.emg) return;
+  for (Remark& remark : compare_activations(data, first.spec.emg->string())) first.remarks.push_back(std::move(remark));
 }
 
 }  // namespace
@@ -63,6 +131,7 @@ void check_given(const Study& study, const identification::StudyData& data, std:
       throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), trial.name));
     }
   }
+  check_together(study, data, trials);
 }
 
 }  // namespace myoid

@@ -149,12 +149,17 @@ std::string_view coordinate_in_name(std::string_view path) {
   return at == std::string::npos ? std::string_view() : path.substr(at + kMark.size());
 }
 
-std::string check_joint_by_name(const std::string& path, const std::string& torque_column, const TimeSeries& torques) {
+std::string check_joint_by_name(const std::string& path,
+                                const std::string& torque_column,
+                                const std::vector<std::string>& torque_columns) {
   const std::string_view stated = coordinate_in_name(path);
   if (stated.empty() || one_holds_the_other(stated, torque_column)) return {};
   const std::string found =
       fmt::format("by its name the moment arms about '{}', but the torque fitted is '{}'", stated, torque_column);
-  if (torques.find(stated) || torques.find(fmt::format("{}_moment", stated)))
+  const auto has = [&](std::string_view name) {
+    return std::ranges::find(torque_columns, name) != torque_columns.end();
+  };
+  if (has(stated) || has(fmt::format("{}_moment", stated)))
     throw InvalidInput(
         fmt::format("{}: {}; the torque file has both: name the coordinate {}, or the file of the other moment arms",
                     path, found, stated));

@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/core/time_series.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/run/given_check.h"
 
@@ -19,7 +18,7 @@ namespace myoid {
 /// file has this coordinate, so that the file is certainly another joint's; else returns a remark, empty if both agree.
 [[nodiscard]] std::string check_joint_by_name(const std::string& path,
                                               const std::string& torque_column,
-                                              const TimeSeries& torques);
+                                              const std::vector<std::string>& torque_columns);
 
 /// Compares one trial's moment arms with the lengths and the motion of the joint.
 ///

@@ -18,13 +18,6 @@ const TrialFiles kArmFiles{
 
 identification::StudyData elbow_data() { return test::elbow_study({.trials = 1, .seconds = 10.0}).data; }
 
-TimeSeries torque_series(const std::vector<std::string>& names) {
-  std::vector<Channel> channels;
-  for (const std::string& name : names) channels.push_back({name, Unit::newton_meter});
-  return {Eigen::VectorXd::LinSpaced(2, 0.0, 1.0), channels,
-          Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(names.size()))};
-}
-
 TEST(JointOfArms, ReadsTheCoordinateFromTheNameThatOpenSimGives) {
   EXPECT_EQ(coordinate_in_name("out/walk_MuscleAnalysis_MomentArm_knee_angle_r.sto"), "knee_angle_r");
   EXPECT_EQ(coordinate_in_name("C:\\out\\MuscleAnalysis_MomentArm_ankle.sto"), "ankle");
@@ -32,7 +25,7 @@ TEST(JointOfArms, ReadsTheCoordinateFromTheNameThatOpenSimGives) {
 }
 
 TEST(JointOfArms, TheFileOfAnotherJointOfTheTorqueFileIsRefused) {
-  const TimeSeries leg = torque_series({"knee_angle_r_moment", "ankle_angle_r_moment"});
+  const std::vector<std::string> leg{"knee_angle_r_moment", "ankle_angle_r_moment"};
   const std::string knee = "x_MuscleAnalysis_MomentArm_knee_angle_r.sto";
   EXPECT_EQ(check_joint_by_name(knee, "knee_angle_r_moment", leg), "");
   EXPECT_EQ(check_joint_by_name("arms.sto", "ankle_angle_r_moment", leg), "");
@@ -40,9 +33,8 @@ TEST(JointOfArms, TheFileOfAnotherJointOfTheTorqueFileIsRefused) {
   EXPECT_NE(error.find("knee_angle_r"), std::string::npos) << error;
   EXPECT_NE(error.find("coordinate knee_angle_r"), std::string::npos) << error;
   // A torque of another name is suspicious only, a part of the name is the same joint.
-  const TimeSeries one = torque_series({"torque"});
-  EXPECT_NE(check_joint_by_name(knee, "torque", one), "");
-  EXPECT_EQ(check_joint_by_name(knee, "knee", torque_series({"knee"})), "");
+  EXPECT_NE(check_joint_by_name(knee, "torque", {"torque"}), "");
+  EXPECT_EQ(check_joint_by_name(knee, "knee", {"knee"}), "");
 }
 
 TEST(JointOfArms, MusclesThatTheJointDoesNotMoveAreNamed) {

@@ -354,9 +354,11 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   add(model_gates(result));
   add(sharing_gates(result.source.study, result.trials));
   add(reference_gates(result.source.study, result.emg));
-  if (const IdentificationResult* torque = torque_of(result.fit)) add(parameter_gates(*torque));
-  add(fold_gates(result.folds, std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) !=
-                                   result.level_faults.end()));
+  if (const IdentificationResult* torque = torque_of(result.fit)) {
+    add(parameter_gates(*torque));
+    add(fold_gates(result.folds, std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) !=
+                                     result.level_faults.end()));
+  }
   if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
   if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   return list;

@@ -178,20 +178,21 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   const Study& study = result.source.study;
   FitInput& input = result.fit_input;
   input.options = identification::remembering_drives(std::move(input.options));
-  StudyFit fit = stages.run("fit", "fits the muscles", 0.72, 0.8,
-                            [&](const Progress& progress) { return study_fit(study, input, result.emg, progress); });
+  StudyFit fit = stages.run("fit", "fits the muscles", 0.72, 0.8, [&](const Progress& progress) {
+    return study_fit(study, input, result.emg, options.seed, progress);
+  });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
   StudyValidation validation;
-  if (study.identify.cross_validate && wants_torque(study))
-    validation =
-        stages.run("validation", "predicts parts left out of the fit", 0.85, 0.95, [&](const Progress& progress) {
-          return study_validation(fit_source(result), input, *torque_of(fit), progress);
-        });
+  const IdentificationResult* best = best_method(fit);
+  if (study.identify.cross_validate && best != nullptr && (best == torque_of(fit) || !shares_forces(study)))
+    validation = stages.run(
+        "validation", "predicts parts left out of the fit", 0.85, 0.95,
+        [&](const Progress& progress) { return study_validation(fit_source(result), input, *best, progress); });
   if (study.identify.next_movements > 0 && wants_torque(study))
     result.next = stages.run("next recording", "looks for the next recording", 0.95, 1.0,
                              [&](const Progress& progress) { return next_recording(result.source, fit, progress); });
   for (IdentificationResult& method : fit.methods) {
-    if (method.method == "torque")
+    if (&method == best)
       method.warnings.insert(method.warnings.end(), validation.warnings.begin(), validation.warnings.end());
   }
   input.options.drives.reset();

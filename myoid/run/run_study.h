@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -14,6 +15,7 @@ namespace myoid {
 
 struct RunOptions {
   std::optional<double> start_s, end_s;  ///< Times in every trial [s]; empty: as the study states.
+  std::uint64_t seed = 1;                ///< Seed of the comparison of solvers.
   Progress progress;
   /// Called at the end of each stage with its work, "reads the recordings", and its seconds; may be empty.
   std::function<void(std::string_view work, double seconds)> stage_ended = {};

@@ -42,15 +42,28 @@ bool wants_torque(const Study& study) {
 
 namespace {
 
-/// Returns true if force sharing made the forces of a fitted trial.
+/// Compares the solvers of method `paper`, whose result is the last; their minima join its basins.
+void compare_solvers(
+    std::optional<int> starts, const FitInput& input, std::uint64_t seed, const Progress& progress, StudyFit& found) {
+  identification::ContestOptions options{.seed = seed, .progress = progress};
+  options.starts = starts.value_or(options.starts);
+  found.contests = identification::solver_contests(input.data, options);
+  for (const identification::NamedContest& named : found.contests) {
+    if (named.contest.runs.empty()) continue;
+    found.methods.back().basins.push_back(named.contest.basins);
+    found.methods.back().basins.back().fit = named.fit + ", Levenberg-Marquardt";
+  }
+}
+
+}  // namespace
+
 bool shares_forces(const Study& study) {
   return std::ranges::any_of(study.trials,
                              [&](const TrialSpec& trial) { return study.fits(trial) && !trial.given.forces; });
 }
 
-}  // namespace
-
-StudyFit study_fit(const Study& study, const FitInput& input, const EmgScale& emg, const Progress& progress) {
+StudyFit study_fit(
+    const Study& study, const FitInput& input, const EmgScale& emg, std::uint64_t seed, const Progress& progress) {
   StudyFit found;
   if (wants_torque(study)) {
     const double delay_s = study.emg.delay_s.value_or(identification::TorqueOptions{}.delay_prior_mean_s);
@@ -65,9 +78,11 @@ StudyFit study_fit(const Study& study, const FitInput& input, const EmgScale& em
   for (const identification::Method method : study.identify.methods) {
     progress.check();
     if (method == identification::Method::paper) {
-      found.methods.push_back(identification::identify_paper(
-          input.data,
-          {.multistart = study.identify.starts, .muscles = study.identify.muscles, .shared_forces = shared}));
+      found.methods.push_back(
+          identification::identify_paper(input.data, {.multistart = study.identify.starts.value_or(1),
+                                                      .muscles = study.identify.muscles,
+                                                      .shared_forces = shared}));
+      if (study.identify.compare_solvers) compare_solvers(study.identify.starts, input, seed, progress, found);
     } else if (method == identification::Method::force) {
       found.methods.push_back(identification::identify_force(
           input.data, {.estimator = input.options, .shared_forces = shared, .detect_exact = !shared}));

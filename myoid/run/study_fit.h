@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/informed_forces.h"
 #include "myoid/methods/shifted_emg.h"
+#include "myoid/methods/solver_contest.h"
 #include "myoid/run/fit_input.h"
 
 namespace myoid {
@@ -20,7 +22,8 @@ struct StudyFit {
   std::vector<identification::IdentificationResult> methods;
   /// Two channels that fit better with exchanged names.
   std::optional<identification::ExchangedElectrodes> exchanged;
-  std::optional<identification::ShiftedEmg> shifted;  ///< EMG on another clock than the torque.
+  std::optional<identification::ShiftedEmg> shifted;   ///< EMG on another clock than the torque.
+  std::vector<identification::NamedContest> contests;  ///< Solvers of method `paper`, if the study compares them.
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
   std::vector<identification::InformedForces> informed;
@@ -43,11 +46,12 @@ struct StudyFit {
 /// Returns true if the study asks for method torque.
 [[nodiscard]] bool wants_torque(const Study& study);
 
-/// Computes the parameters by every method that the study names.
-[[nodiscard]] StudyFit study_fit(const Study& study,
-                                 const FitInput& input,
-                                 const EmgScale& emg,
-                                 const Progress& progress);
+/// Returns true if force sharing made the forces of a fitted trial.
+[[nodiscard]] bool shares_forces(const Study& study);
+
+/// Computes the parameters by every method that the study names. `seed` is that of the solvers' comparison.
+[[nodiscard]] StudyFit study_fit(
+    const Study& study, const FitInput& input, const EmgScale& emg, std::uint64_t seed, const Progress& progress);
 
 /// Returns the forces informed by the EMG, for `StudyFit::informed`.
 [[nodiscard]] std::vector<identification::InformedForces> informed_forces(

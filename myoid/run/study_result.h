@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/core/remark.h"
@@ -39,6 +40,15 @@ struct StudyResult {
   std::string analysed;               ///< Day of the analysis (UTC), "2026-03-01".
   std::vector<std::string> recorded;  ///< Days that the recordings state, each once, the first one first.
 };
+
+/// The quantity that is predicted for parts left out of the fit.
+struct PredictedByFolds {
+  std::string_view name, unit;
+};
+[[nodiscard]] inline PredictedByFolds predicted_by_folds(const StudyResult& result) {
+  return torque_of(result.fit) == nullptr ? PredictedByFolds{"muscle force", "N"}
+                                          : PredictedByFolds{"joint torque", "N m"};
+}
 
 /// Returns the run's own trials as the source of a fit.
 [[nodiscard]] inline FitSource fit_source(const StudyResult& result) {

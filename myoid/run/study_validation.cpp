@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "myoid/methods/force.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 
@@ -62,7 +63,10 @@ StudyValidation study_validation(const FitSource& source,
     return identification::identify_torque(split, options);
   };
   StudyValidation found;
-  found.folds = identification::cross_validate(input.data, fit, beginning_at(whole, input.options), how);
+  if (whole.method == "force" && whole.exact) return found;
+  found.folds = whole.method == "force"
+                    ? identification::cross_validate_force(input.data, input.options, how)
+                    : identification::cross_validate(input.data, fit, beginning_at(whole, input.options), how);
   std::string why_not;
   (void)identification::splits(input.data, how, &why_not);
   if (!why_not.empty()) found.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);

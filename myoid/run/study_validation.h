@@ -12,12 +12,13 @@ namespace myoid {
 /// The predictions of trials outside the fit.
 struct StudyValidation {
   std::vector<identification::Fold> folds;
-  std::vector<std::string> warnings;  ///< About method torque.
+  std::vector<std::string> warnings;  ///< About the method that predicts.
 };
 
 /// Leaves trials, conditions or blocks out (`[identify] folds`) and predicts them by the reported
 /// kind of fit to the others. From the EMG on no step uses a left-out trial; by the posterior the search for a fold's
-/// mode begins at the answer of `whole`, the fit to all trials, with its law of lag.
+/// mode begins at the answer of `whole`, the fit to all trials, with its law of lag. Method `force` predicts measured
+/// forces muscle by muscle (cross_validate_force); exact fits of it are not validated.
 [[nodiscard]] StudyValidation study_validation(const FitSource& source,
                                                const FitInput& input,
                                                const identification::IdentificationResult& whole,

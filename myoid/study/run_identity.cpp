@@ -29,7 +29,6 @@ std::string text(const json& object, const char* key) {
 RunIdentity identity_of(const json& options) {
   RunIdentity identity;
   if (!options.is_object() || !options.contains("model")) return identity;
-  identity.known = true;
   if (const auto subject = options.find("subject"); subject != options.end()) {
     identity.subject = text(*subject, "name");
     identity.sex = text(*subject, "sex");
@@ -39,6 +38,7 @@ RunIdentity identity_of(const json& options) {
   const json& model = options.at("model");
   identity.model = text(model, "file");
   if (identity.model.empty()) identity.model = text(model, "builtin");
+  identity.known = identity.model != "none";
   if (const auto names = model.find("coordinate"); names != model.end() && names->is_array())
     identity.coordinates = names->get<std::vector<std::string>>();
   if (const auto muscles = options.find("muscle"); muscles != options.end()) {
@@ -103,16 +103,6 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
       if (format && recording::is_recording(*format))
         identity.recordings.push_back(
             {std::filesystem::path(text(input, "path")).filename().string(), text(input, "sha256")});
-    }
-    // A result of `identify` has its muscles' names only in its rows.
-    if (!identity.known) {
-      for (const json& method : content.value("methods", json::array())) {
-        for (const json& e : method.value("estimates", json::array())) {
-          const std::string muscle = text(e, "muscle");
-          const bool listed = std::ranges::find(identity.muscles, muscle) != identity.muscles.end();
-          if (!listed && text(e, "parameter") == "optimal_fiber_length") identity.muscles.push_back(muscle);
-        }
-      }
     }
     return identity;
   } catch (const json::exception& error) {

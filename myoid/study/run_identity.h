@@ -16,7 +16,7 @@ struct RecordedFile {
 
 /// Person and model of a result. The numbers of two results are comparable if person and model are the same.
 struct RunIdentity {
-  bool known = false;  ///< False: a result of `myoid identify`, which has neither person nor model.
+  bool known = false;  ///< False: of a study without a body, as that of `identify`: person and model are not stated.
   std::string subject;
   std::optional<double> mass_kg;
   std::string sex;

@@ -98,12 +98,12 @@ TEST(RunIdentity, AnotherPersonAndFurtherMusclesAreRemarked) {
   EXPECT_EQ(found.other.size(), 3U);
 }
 
-TEST(RunIdentity, WhatIdentifyMadeIsNotHeldAgainstIt) {
+TEST(RunIdentity, AStudyWithoutABodyIsNotHeldAgainstOneWithABody) {
   const test::TemporaryFolder folder;
-  recording::write_file(folder / "parameters.json",
-                        R"({"provenance": {"options": {}}, "methods": [{"estimates": [
-                           {"muscle": "BIC", "parameter": "optimal_fiber_length"}]}]})");
-  const RunIdentity there = read_run_identity(folder.path());
+  Study bodiless = study_of({"BIC"});
+  bodiless.model.builtin = "none";
+  bodiless.model.coordinate = "joint";
+  const RunIdentity there = read_run_identity(folder_of(bodiless, folder.path()));
   EXPECT_FALSE(there.known);
   EXPECT_TRUE(differences(identity_of(study_of({"BIC"})), there).grave.empty());
   EXPECT_FALSE(differences(identity_of(study_of({"SOL"})), there).grave.empty());

@@ -265,7 +265,9 @@ struct IdentifySpec {
   bool cross_validate = true;
   int next_movements = 4;  ///< Movements to suggest for the next recording; 0: none.
   identification::FoldKind folds = identification::FoldKind::trial;
-  int starts = 1;  ///< Method `paper`: above 1 adds Sobol points, and the table of basins.
+  /// Method `paper`: above 1 adds Sobol points, and the table of basins; empty: 1, and 3 to compare solvers.
+  std::optional<int> starts;
+  bool compare_solvers = false;  ///< Method `paper`: every solver from the same starts.
   identification::Eccentric eccentric = identification::Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
   identification::LagChoice lag = identification::LagChoice::automatic;

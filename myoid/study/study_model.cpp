@@ -166,6 +166,30 @@ model::BodyModel prepared(const Study& study, model::BodyModel model) {
 
 }  // namespace
 
+std::string assumed_starts(const Study& study) {
+  if (!study.model.is_none()) return "";
+  std::vector<std::string> parts;
+  for (const muscle::HillField& field : muscle::kHillFields) {
+    const std::string name(field.name);
+    if (name == "tendon_slack_length") continue;  // without one the lengths are those of fibers
+    std::vector<std::string> muscles;
+    for (const MuscleSpec& muscle : study.muscles) {
+      if (!muscle.start.contains(name)) muscles.push_back(muscle.name);
+    }
+    if (muscles.empty()) continue;
+    const char* const value = name == "force_length_width"     ? "0.45 l_m0"
+                              : name == "concentric_curvature" ? "0.28"
+                              : name == "eccentric_plateau"    ? "1.4"
+                              : name == "max_shortening_speed"
+                                  ? "10 l_m0 per second"
+                                  : "by a slope in lengthening of 1.5 times that in shortening";
+    parts.push_back(fmt::format("{} = {}", name, value));
+    if (muscles.size() < study.muscles.size()) parts.back() += fmt::format(" ({})", fmt::join(muscles, ", "));
+  }
+  if (parts.empty()) return "";
+  return fmt::format("{}: start from the literature's values: {}", study.file.string(), fmt::join(parts, ", "));
+}
+
 std::vector<double> forearm_lengths_m(const recording::MarkerSeries& markers) {
   const auto find = [&](std::string_view name) -> Eigen::Index {
     const auto it = std::ranges::find(markers.names, name);

@@ -41,6 +41,10 @@ namespace myoid {
 /// as weights, and with the priors of the literature.
 [[nodiscard]] std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const model::BodyModel& model);
 
+/// Describes the starting values that a study without a body does not state and takes from the literature, in a
+/// sentence; empty: none.
+[[nodiscard]] std::string assumed_starts(const Study& study);
+
 /// Returns the model's muscles that make up each [[muscle]], weighted by their F_max.
 [[nodiscard]] std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study, const model::BodyModel& model);
 

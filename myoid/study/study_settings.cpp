@@ -252,7 +252,11 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
       {.says = "Method `paper`: above 1, searches from Sobol points over ± 2 standard deviations of the priors, too. "
                "The numbers are still those of the first start; a table of where the searches ended goes to the "
                "report and parameters.json (`searches`).",
-       .limits = within(1, 1000)});
+       .limits = within(1, 1000),
+       .otherwise = "1; of `compare_solvers` 3"});
+  v.flag("compare_solvers", identify.compare_solvers,
+         {.says = "Method `paper`: four solvers from the same starts ([which solver](identify.md#which-solver)), a "
+                  "table in the report and `solvers.csv`."});
   v.choice("eccentric", identify.eccentric,
            {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (lengthening over "
                     "shortening), `smooth` (ratio 1), `automatic` (the ratio where it has a prior)."});

@@ -78,6 +78,15 @@ void prepare_mat(const std::string& file, const std::string& input, bool overwri
   recording::check_output(file, {input}, overwrite);
 }
 
+/// The values of a run for Python.
+py::dict run_values(const commands::RunResult& run) {
+  py::dict d;
+  d["gates"] = gate_rows(run.gates);
+  d["failed"] = run.failed(false);
+  d["remarks"] = to_python(run.remarks);
+  return d;
+}
+
 py::dict run(py::dict given) {
   Keywords k("run", std::move(given));
   Work work(k);
@@ -93,25 +102,15 @@ py::dict run(py::dict given) {
   k.refuse_others();
   o.store = std::filesystem::path(out) / commands::kStageFolder;
   o.call = work.call();
-  struct Done {
-    std::vector<report::Gate> gates;
-    std::vector<Remark> remarks;
-    bool failed = false;
-  };
-  const Done done = work.run([&] {
+  return run_values(work.run([&] {
     prepare_mat(mat, o.study, overwrite);
     ResultOut folder(out, o.call, overwrite, commands::kStageFolder);
-    const commands::RunResult r = commands::run(o);
+    commands::RunResult r = commands::run(o);
     commands::write_run(r, out);
     if (!mat.empty()) write_results_mat(out, mat);
     folder.finish();
-    return Done{r.gates, r.remarks, r.failed(false)};
-  });
-  py::dict d;
-  d["gates"] = gate_rows(done.gates);
-  d["failed"] = done.failed;
-  d["remarks"] = to_python(done.remarks);
-  return d;
+    return r;
+  }));
 }
 
 /// Sets the settings of a struct from the arguments of their names, with '_' for '-'.
@@ -159,35 +158,23 @@ py::dict identify(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  struct Done {
-    std::vector<Remark> remarks;
-    std::vector<std::string> undetermined, diagnoses;
-    std::string message;
-    bool converged = false;
-    double r2 = 0.0;
-  };
-  const Done done = work.run([&] {
+  const commands::IdentifyResult done = work.run([&] {
     prepare_mat(mat, o.muscles.string(), overwrite);
     ResultOut folder(out, o.call, overwrite);
     recording::protect_files(out, commands::kIdentifyFiles, {o.muscles.string()});
-    const commands::IdentifyResult r = commands::identify(o);
+    commands::IdentifyResult r = commands::identify(o);
     commands::write_identify(r, out);
     if (!mat.empty()) write_results_mat(out, mat);
     folder.finish();
-    return Done{.remarks = r.remarks,
-                .undetermined = r.fit.undetermined,
-                .diagnoses = r.fit.diagnoses,
-                .message = r.fit.message,
-                .converged = r.fit.termination == math::Termination::converged,
-                .r2 = r.fit.r2};
+    return r;
   });
-  py::dict d;
-  d["remarks"] = to_python(done.remarks);
-  d["undetermined"] = done.undetermined;
-  d["diagnoses"] = done.diagnoses;
-  d["message"] = done.message;
-  d["converged"] = done.converged;
-  d["r2"] = done.r2;
+  py::dict d = run_values(done.run);
+  const identification::IdentificationResult& fit = done.fit();
+  d["undetermined"] = fit.undetermined;
+  d["diagnoses"] = fit.diagnoses;
+  d["message"] = fit.message;
+  d["converged"] = fit.termination == math::Termination::converged;
+  d["r2"] = fit.r2;
   return d;
 }
 

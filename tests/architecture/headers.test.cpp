@@ -44,7 +44,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/core/stretch.h", "a plain value, exercised by the estimators"},
     {"myoid/files/event.h", "a plain value, exercised by the readers"},
     {"myoid/tables/marker_file.h", "a plain value, exercised by the readers"},
-    {"myoid/identify_files/identify_trial.h", "exercised by identify_data.test"},
     {"myoid/c3d/c3d_header.h", "exercised by c3d_layout.test"},
     {"myoid/tables/storage_header.h", "exercised by storage.test"},
     {"myoid/posterior/likelihood_block.h", "a plain value, exercised by likelihood.test"},

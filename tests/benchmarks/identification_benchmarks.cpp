@@ -45,7 +45,7 @@ void identify_tendons(benchmark::State& state) {
           .data;
   for (identification::MuscleSetup& muscle : data.muscles)
     muscle.extras.tendon_strain = state.range(0) != 0 ? 0.033 : 0.0;
-  for (auto _ : state) benchmark::DoNotOptimize(identification::identify_torque_or_exact(data, {.predictions = false}));
+  for (auto _ : state) benchmark::DoNotOptimize(identification::identify_torque(data, {.predictions = false}));
 }
 BENCHMARK(identify_tendons)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 

@@ -1,5 +1,4 @@
-#include "myoid/identify_files/identify_data.h"
-
+// The data that `identify` fits: those that `run` makes of its study.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,18 +7,20 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "myoid/commands/identify_study.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
+#include "myoid/run/run_study.h"
 #include "myoid/tables/series_file.h"
 #include "myoid/tables/storage_writer.h"
 
 #include "tests/support/elbow_study.h"
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::commands {
 namespace {
 
 /// A made-up trial of four muscles, in files.
@@ -27,12 +28,16 @@ struct Written {
   test::TemporaryFolder folder;
   test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 5.0});
   MuscleTable table;
-  IdentifySources sources;
-  std::vector<std::string> remarks;
+  IdentifyOptions options;
+  IdentifySources& sources = options.files;
+  std::vector<std::string> remarks;  ///< Warnings.
+  std::vector<std::string> notes;
 
   Written() {
     table.muscles = study.data.muscles;
     const identification::TrialData& trial = study.data.trials[0];
+    options.muscles = folder / "muscles.csv";
+    recording::write_file(options.muscles, "muscle\n");
     recording::write_series(folder / "a.sto", trial.activation, "activation");
     write("l.sto", trial.length_m, Unit::meter);
     write("v.sto", trial.velocity_mps, Unit::meter_per_second);
@@ -51,9 +56,16 @@ struct Written {
     for (const auto& muscle : study.data.muscles) channels.push_back({muscle.name, unit});
     recording::write_series(folder / name, {study.data.trials[0].time_s, channels, values}, name);
   }
-  identification::TrialData read() {
-    return read_identify_data(sources, table, [&](const std::string& text) { remarks.push_back(text); }).trials.at(0);
+  identification::StudyData read_all() {
+    Remarks of_options(options.call);
+    const StudyResult result = study_data(identify_study(options, table, of_options), {.share_forces = false});
+    for (const TrialResult& trial : result.trials) {
+      for (std::string& text : sentences(trial.remarks, Severity::warning)) remarks.push_back(std::move(text));
+      for (std::string& text : sentences(trial.remarks, Severity::note)) notes.push_back(std::move(text));
+    }
+    return result.fit_input.data;
   }
+  identification::TrialData read() { return read_all().trials.at(0); }
   std::string message() {
     try {
       (void)read();
@@ -114,7 +126,7 @@ TEST(IdentifyData, OnlyTheTimeThatAllFilesCoverIsTaken) {
   EXPECT_NEAR(trial.time_s[0], 1.0, 1e-9);
   EXPECT_NEAR(trial.time_s[trial.time_s.size() - 1], 4.0, 1e-9);
   EXPECT_TRUE(files.remarks.empty());  // most of the trial is used
-  files.sources.start_s = 4.5;
+  files.options.call.start_s = 4.5;
   EXPECT_NE(files.message().find("must overlap"), std::string::npos) << files.message();
 }
 
@@ -130,7 +142,7 @@ TEST(IdentifyData, AFileThatLeavesOutMostOfATrialIsNamed) {
   EXPECT_NE(files.remarks[0].find("id.sto 0 to 1.3 s"), std::string::npos);
   // Part of a trial that is asked for is not a part that is missing.
   files.remarks.clear();
-  files.sources.end_s = 1.0;
+  files.options.call.end_s = 1.0;
   (void)files.read();
   EXPECT_TRUE(files.remarks.empty());
 }
@@ -142,7 +154,7 @@ TEST(IdentifyData, ACutOffFileIsSaidOnceWithWhatWasLeftOut) {
   recording::write_file(files.folder / "l.sto", text);
   (void)files.read();
   int said = 0;
-  for (const std::string& remark : files.remarks)
+  for (const std::string& remark : files.notes)
     said += remark.find("l.sto") != std::string::npos && remark.find(recording::kLastRowLeftOut) != std::string::npos
                 ? 1
                 : 0;
@@ -191,7 +203,8 @@ TEST(IdentifyData, ATorqueOfNothingIsRefused) {
   recording::write_series(
       files.folder / "id.sto",
       TimeSeries(time_s, {{"elbow_moment", Unit::newton_meter}}, Eigen::MatrixXd::Zero(time_s.size(), 1)), "torque");
-  EXPECT_NE(files.message().find("id.sto: the torque is 0 in all trials"), std::string::npos) << files.message();
+  EXPECT_NE(files.message().find("id.sto: the torque 'joint' is 0 in all trials"), std::string::npos)
+      << files.message();
 }
 
 TEST(IdentifyData, AnEffortThatIsAlwaysTheGreatestIsNoDeadElectrode) {
@@ -233,41 +246,7 @@ TEST(IdentifyData, ActivationsThatAreNamedTwiceAreRemarkedOf) {
     files->push_back(files->front());
   (void)twice.read();
   ASSERT_EQ(twice.remarks.size(), 1U);
-  EXPECT_NE(twice.remarks[0].find("one effort counts twice"), std::string::npos) << twice.remarks[0];
-}
-
-TEST(IdentifyData, FilesThatDoNotMatchTheTrialsOrTheMusclesAreRefused) {
-  Written two;
-  two.sources.torques.push_back(two.sources.torques[0]);
-  EXPECT_NE(two.message().find("--torques: 2 files for 1 of --lengths"), std::string::npos);
-  Written other;
-  other.table.muscles[0].name = "SOL";
-  EXPECT_NE(other.message().find("no column 'SOL'"), std::string::npos) << other.message();
-  Written joint;
-  joint.sources.coordinates = {"knee"};
-  EXPECT_NE(joint.message().find("no column 'knee' or 'knee_moment'"), std::string::npos);
-}
-
-TEST(IdentifyData, TrialsWhoseFilesHaveOneNameAreToldByTheirFolders) {
-  Written data;
-  std::filesystem::create_directories(data.folder / "slow");
-  std::filesystem::create_directories(data.folder / "fast");
-  for (const char* name : {"slow/l.sto", "fast/l.sto", "m.sto"})
-    std::filesystem::copy_file(data.folder / "l.sto", data.folder / name);
-  IdentifySources& s = data.sources;
-  const auto names = [&](const std::vector<std::string>& lengths) {
-    s.lengths.clear();
-    for (const std::string& file : lengths) s.lengths.push_back(data.path(file));
-    for (auto* list : {&s.activations, &s.velocities, &s.moment_arms, &s.torques})
-      list->assign(lengths.size(), list->front());
-    std::vector<std::string> found;
-    for (const auto& trial : read_identify_data(s, data.table, [](const std::string&) {}).trials)
-      found.push_back(trial.name);
-    return found;
-  };
-  EXPECT_EQ(names({"l.sto"}), (std::vector<std::string>{"l"}));
-  const auto three = names({"slow/l.sto", "fast/l.sto", "m.sto"});
-  EXPECT_EQ(three, (std::vector<std::string>{"1 (slow/l)", "2 (fast/l)", "3 (m)"}));
+  EXPECT_NE(twice.remarks[0].find("one effort would count twice"), std::string::npos) << twice.remarks[0];
 }
 
 TEST(IdentifyData, ViscosityInertiaAndStiffnessComeBackFromTheJointsMotion) {
@@ -324,9 +303,8 @@ TEST(IdentifyData, AMotionThatIsNotTheJointsOrNoAngleIsRefused) {
   };
   EXPECT_NE(motion({{"a", Unit::radian}, {"b", Unit::radian}}, 1.0).find("--coordinate"), std::string::npos);
   EXPECT_NE(motion({{"a", Unit::radian}}, 95.0).find("these are degrees"), std::string::npos);
+  // The only column is the only joint's angle.
   EXPECT_EQ(motion({{"a", Unit::radian}}, 1.0), "(no error)");
-  files.sources.coordinates = {"elbow"};
-  EXPECT_NE(motion({{"a", Unit::radian}}, 1.0).find("no column 'elbow'"), std::string::npos);
 }
 
 TEST(IdentifyData, AFileAtAnotherRateIsNamedWithBothDurations) {
@@ -345,19 +323,35 @@ TEST(IdentifyData, AFileAtAnotherRateIsNamedWithBothDurations) {
   }
 }
 
-TEST(IdentifyData, ExchangedElectrodesAreNamed) {
+TEST(IdentifyData, FilesThatDoNotMatchTheTrialsOrTheMusclesAreRefused) {
+  Written two;
+  two.sources.torques.push_back(two.sources.torques[0]);
+  EXPECT_NE(two.message().find("--torques: 2 files for 1 of --lengths"), std::string::npos);
+  Written other;
+  other.table.muscles[0].name = "SOL";
+  EXPECT_NE(other.message().find("no column 'SOL'"), std::string::npos) << other.message();
+  Written joint;
+  joint.sources.coordinates = {"knee", "elbow"};
+  joint.sources.moment_arms.push_back(joint.sources.moment_arms[0]);
+  EXPECT_NE(joint.message().find("no column 'knee' or 'knee_moment'"), std::string::npos) << joint.message();
+}
+
+TEST(IdentifyData, AFewRowsASecondAreData) {
   Written files;
-  const TimeSeries& a = files.study.data.trials[0].activation;
-  (void)files.read();
-  for (const std::string& remark : files.remarks) EXPECT_EQ(remark.find("exchanged"), std::string::npos) << remark;
-  files.remarks.clear();
-  std::vector<Channel> channels = a.channels();
-  std::swap(channels[0], channels[3]);
-  recording::write_series(files.folder / "a.sto", {a.time_s(), channels, a.values()}, "activation");
-  (void)files.read();
-  ASSERT_FALSE(files.remarks.empty());
-  EXPECT_NE(files.remarks.back().find("exchanged"), std::string::npos) << files.remarks.back();
+  const identification::TrialData& truth = files.study.data.trials[0];
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < truth.time_s.size(); i += 25) rows.push_back(i);  // below 5 Hz
+  const auto thin = [&](const std::string& name) {
+    const TimeSeries whole = recording::read_series(files.path(name)).data;
+    recording::write_series(files.folder / name,
+                            {whole.time_s()(rows), whole.channels(), whole.values()(rows, Eigen::all)}, name);
+  };
+  for (const char* name : {"l.sto", "v.sto", "r.sto", "id.sto"}) thin(name);
+  const identification::TrialData trial = files.read();
+  EXPECT_EQ(trial.length_m, truth.length_m(rows, Eigen::all));
+  EXPECT_EQ(trial.torque_nm, truth.torque_nm(rows));
+  EXPECT_TRUE(trial.excluded.empty());
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::commands
