@@ -10,7 +10,7 @@
 #include "myoid/identification/nuisances.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identify_files/electrode_ties.h"
-#include "myoid/intervals/verdict_cap.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/force.h"
 #include "myoid/methods/paper.h"

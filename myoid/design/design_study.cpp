@@ -258,9 +258,7 @@ struct Expected {
     std::vector<ParameterEstimate> estimates = with(prior_sd);
     for (std::size_t t = 0; t < targets.size(); ++t) {
       const ParameterEstimate* found = found_by(earlier, free[static_cast<std::size_t>(targets[t])]);
-      if (found == nullptr) continue;
-      estimates[t].verdict = found->verdict;
-      estimates[t].reason = found->reason;
+      if (found != nullptr) identification::keep_verdict(*found, estimates[t]);
     }
     return estimates;
   }

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/intervals/verdict_cap.h"
 #include "myoid/intervals/verdicts.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
@@ -150,7 +149,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     fit.score = score(measured, predicted);
   }
   if (options.shared_forces) {
-    identification::apply({{.reason = reason_of(Finding::shared_force, {}), .at_most = Verdict::prior_dominated}}, all);
+    identification::apply({{.reason = reason_of(Finding::shared_force, {}), .finding = Finding::shared_force}}, all);
     for (ParameterEstimate& e : all.estimates)
       e.std_error = e.ci_low = e.ci_high = e.given_ci_low = e.given_ci_high = std::nullopt;
   }

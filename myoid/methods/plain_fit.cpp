@@ -178,26 +178,23 @@ struct ExactRows {
   template <class Value>
   void fill(ParameterEstimate& e, Eigen::Index j, const Value& of) const {
     const Unknown& p = map.free()[static_cast<std::size_t>(j)];
-    NumberFacts facts{.determined = covariance.determined[static_cast<std::size_t>(j)], .one_reading = true};
-    facts.converged = found.termination == math::Termination::converged;
-    facts.failure = found.message;
+    NumberFacts facts{.fit = {.converged = found.termination == math::Termination::converged,
+                              .failure = found.message,
+                              .one_reading = true},
+                      .person = {.value = e.estimate},
+                      .determined = covariance.determined[static_cast<std::size_t>(j)]};
     e.at_bound = found.at_bound[static_cast<std::size_t>(j)];
     if (facts.determined) {
       const double reach = math::normal_quantile(0.975) * sd(j), z = found.x[j];
       const double one = of(std::max(z - reach, p.bounds.lower)), other = of(std::min(z + reach, p.bounds.upper));
-      e.ci_low = std::min({one, other, e.estimate});
-      e.ci_high = std::max({one, other, e.estimate});
-      e.std_error = 0.5 * std::abs(of(z + sd(j)) - of(z - sd(j)));
+      facts.person.low = std::min({one, other, e.estimate});
+      facts.person.high = std::max({one, other, e.estimate});
+      facts.person.sd = 0.5 * std::abs(of(z + sd(j)) - of(z - sd(j)));
     }
-    e.given_estimate = e.estimate;
-    e.given_ci_low = e.ci_low;
-    e.given_ci_high = e.ci_high;
-    facts.value = facts.given = e.estimate;
-    facts.low = facts.low_given = e.ci_low.value_or(e.estimate);
-    facts.high = facts.high_given = e.ci_high.value_or(e.estimate);
-    facts.is_delay = p.is(Scope::channel, kDelay);
+    facts.given = facts.person;
+    if (p.is(Scope::channel, kDelay)) facts.scale = Scale::delay;
     if (zero_by_nature(e.parameter)) facts.usual_size = 1.0;
-    facts.at_bound = e.at_bound && !facts.is_delay && !zero_by_nature(e.parameter);
+    facts.at_bound = e.at_bound && facts.scale != Scale::delay && !zero_by_nature(e.parameter);
     judge(e, facts);
   }
 

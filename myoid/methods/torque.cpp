@@ -62,7 +62,7 @@ std::vector<VerdictCap> caps_of_torque(const StudyData& data,
   if (!options.predictions) return caps;
   if (const std::optional<LateEmg> late = late_emg_of_no_delay(data, options, result)) {
     result.warnings.push_back("emg_delay: " + late->sentence());
-    caps.push_back({.reason = late->sentence(), .parameters = {"emg_delay"}, .at_most = Verdict::not_identifiable});
+    caps.push_back({.reason = late->sentence(), .parameters = {"emg_delay"}, .finding = Finding::late_emg});
   }
   return caps;
 }

@@ -7,7 +7,7 @@
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
-#include "myoid/intervals/verdict_cap.h"
+#include "myoid/intervals/verdicts.h"
 
 namespace myoid::identification {
 

@@ -41,12 +41,11 @@ struct VoluntaryTorques {
 ///   T - T^ = (dT/dz + S W dx^/dz) (z - z^) + S W (x - x^(z)),
 ///
 /// only its size at the peak is taken to be log-normal, as F_max is. Maxima and their angles are those of draws of T.
-/// `fit` holds the facts about the whole fit: convergence, R2, the model's error.
 [[nodiscard]] VoluntaryTorques voluntary_torques(const StudyData& data,
                                                  const EstimatorOptions& options,
                                                  const VoluntaryReading& of_person,
                                                  const VoluntaryReading& given,
-                                                 const NumberFacts& fit);
+                                                 const FitFacts& fit);
 
 /// Speeds of a joint at which power is reported, as of isokinetic dynamometers [deg/s].
 inline constexpr int kVoluntarySpeeds_degps[] = {60, 120, 180};

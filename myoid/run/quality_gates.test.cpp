@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
-#include "myoid/intervals/verdict_cap.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/run/verdict_caps.h"
 
 namespace myoid {
