@@ -37,7 +37,7 @@ void print_result(const identification::IdentificationResult& result, bool freed
             : "-",
         identification::name(e.verdict), e.reason);
   }
-  if (result.method == "paper")
+  if (result.method == identification::Method::paper)
     say("Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other number.\n");
   for (const identification::PublishedSearch& search : result.published) say("{}\n", published_sentence(search));
   if (freed_speeds)
@@ -103,7 +103,8 @@ void print_errors(const identification::IdentificationResult& result,
 
 void print_fit(const identification::IdentificationResult& result, const StudyData& data, bool torque) {
   print_errors(result, data, torque, true, "fitted");
-  say("{:<34}{:>12}{:>10}\n", result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least", "",
+  say("{:<34}{:>12}{:>10}\n",
+      result.method == identification::Method::paper ? "all, the least" : "all, below the fit's cut-off, least", "",
       identification::r2_text(result.r2));
   if (any_held_back(data)) print_errors(result, data, torque, false, "held back, then predicted");
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "myoid/commands/call.h"
-#include "myoid/identification/estimator_settings.h"
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/identify_files/identify_data.h"

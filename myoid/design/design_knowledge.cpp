@@ -137,8 +137,6 @@ ParameterEstimate expected_estimate(const Unknown& f, const Expectation& expecta
   ParameterEstimate e;
   std::tie(e.muscle, e.parameter) = split_label(f.label);
   e.unit = f.field->unit;
-  e.method = "torque";
-  e.fit_case = "both";
   e.initial = e.estimate = f.to_value(mean);
   double below = math::normal_quantile(0.975) * sd, above = below;
   if (found != nullptr) {

@@ -261,7 +261,7 @@ class TrialReader {
         trial.torque_nm = std::move(torque_nm);
         if (!sources_.coordinates.empty()) trial.joint = sources_.coordinates[0];
       } else {
-        trial.more_joints.push_back({.name = sources_.coordinates[j],
+        trial.more_joints.push_back({.joint = sources_.coordinates[j],
                                      .torque_nm = std::move(torque_nm),
                                      .moment_arm_m = columns_of(files.moment_arms[j], trial.time_s)});
       }
@@ -294,7 +294,7 @@ class TrialReader {
       joint.acceleration_radps2 = std::move(at.second);
     };
     set(trial, trial.joint);
-    for (identification::JointData& joint : trial.more_joints) set(joint, joint.name);
+    for (identification::JointData& joint : trial.more_joints) set(joint, joint.joint);
   }
 
   /// Returns the angles of a file in radians.

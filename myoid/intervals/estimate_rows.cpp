@@ -35,8 +35,6 @@ double span_but_for(double time_s, LengthsInTime lengths) {
 ParameterEstimate row_of(const Unknown& p, const Unknown::Target& target, const ParameterMap& map, double z) {
   const auto value = [&](double of) { return target.ratio * p.to_value(of); };
   ParameterEstimate e;
-  e.method = "torque";
-  e.fit_case = "both";
   e.muscle = map.owner_name(p, target.owner);
   if (&target != &p.targets.front()) e.tied_to = map.owner_name(p, p.targets.front().owner);
   e.parameter = std::string(p.field->name);
@@ -53,8 +51,6 @@ ParameterEstimate row_of(const Unknown& p, const Unknown::Target& target, const 
 
 ParameterEstimate product_row_of(const MuscleSetup& muscle) {
   ParameterEstimate e;
-  e.method = "torque";
-  e.fit_case = "both";
   e.muscle = muscle.name;
   e.parameter = "eccentric_curvature_product";
   e.initial = muscle.start.eccentric_curvature_product;
@@ -74,7 +70,7 @@ std::vector<double> active_length_spans_m(const StudyData& data, double delay_s)
   for (const TrialData& trial : data.trials) {
     const Eigen::Index n = trial.time_s.size();
     if (!trial.calibration || n < 2) continue;
-    const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, delay_s);
+    const Eigen::MatrixXd activation = muscle_activation(data, trial, delay_s);
     const double step_s = (trial.time_s[n - 1] - trial.time_s[0]) / static_cast<double>(n - 1);
     for (const Eigen::Index i : included_rows(trial)) {
       for (std::size_t k = 0; k < lengths.size(); ++k) {

@@ -261,8 +261,8 @@ void apply(const std::vector<VerdictCap>& caps, IdentificationResult& result) {
   for (ParameterEstimate& e : result.estimates) {
     const std::vector<std::string> owners = owners_of(e, result);
     const auto cap = std::ranges::find_if(caps, [&](const VerdictCap& c) {
-      return severity(e.verdict) < severity(verdict_of(c.finding)) && covers(c.methods, result.method) &&
-             is_of(c, e.parameter) &&
+      return severity(e.verdict) < severity(verdict_of(c.finding)) &&
+             c.method.value_or(result.method) == result.method && is_of(c, e.parameter) &&
              std::ranges::any_of(owners, [&](const std::string& owner) { return covers(c.owners, owner); });
     });
     if (cap == caps.end()) continue;

@@ -112,7 +112,7 @@ struct VerdictCap {
   std::string reason;                        ///< A sentence.
   std::vector<std::string> owners = {};      ///< Muscles and EMG channels whose numbers rest on it; empty: all.
   std::vector<std::string> parameters = {};  ///< Their parameters that rest on it; empty: all.
-  std::vector<std::string> methods = {};     ///< Empty: all.
+  std::optional<Method> method = {};         ///< Empty: all.
   Finding finding = Finding::fault;
 };
 

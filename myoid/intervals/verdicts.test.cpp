@@ -262,7 +262,7 @@ TEST(Verdicts, AForceThatAnOptimizerSharedIsNoMeasurement) {
 
 IdentificationResult three_numbers() {
   IdentificationResult result;
-  result.method = "torque";
+  result.method = Method::torque;
   result.estimates = {
       {.muscle = "BIC", .parameter = "max_isometric_force", .verdict = Verdict::identified, .reason = "a"},
       {.muscle = "BIC", .parameter = "optimal_fiber_length", .verdict = Verdict::identified},
@@ -286,7 +286,7 @@ TEST(VerdictCap, LowersWhatItNamesAndNeverRaises) {
   EXPECT_EQ(after({{.reason = "r", .owners = {"TRI"}}}), (std::vector{kYes, kYes, kNo}));
   EXPECT_EQ(after({{.reason = "r", .owners = {"BIC"}, .parameters = {"max_isometric_force"}}}),
             (std::vector{kWeak, kYes, kNo}));
-  EXPECT_EQ(after({{.reason = "r", .methods = {"paper"}}}), (std::vector{kYes, kYes, kNo}));
+  EXPECT_EQ(after({{.reason = "r", .method = Method::paper}}), (std::vector{kYes, kYes, kNo}));
 }
 
 TEST(VerdictCap, TheFirstReasonStands) {
@@ -298,7 +298,7 @@ TEST(VerdictCap, TheFirstReasonStands) {
 
 TEST(VerdictCap, OfAStrengthIsOfTheTorquesThatItMakes) {
   IdentificationResult result;
-  result.method = "torque";
+  result.method = Method::torque;
   VoluntaryCurve joint{.owner = "elbow", .joint = "elbow", .of_joint = true, .direction = 1, .muscles = {"BIC", "BRA"}};
   joint.ending = "_positive";
   result.voluntary = {joint};

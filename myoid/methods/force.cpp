@@ -82,7 +82,7 @@ void take_over(IdentificationResult fit, const StudyData& data, std::size_t k, I
     all.message += fmt::format("{}: {}. ", name, fit.message);
   }
   for (ParameterEstimate& e : fit.estimates) {
-    e.method = "force";
+    e.method = Method::force;
     if (e.muscle == "subject" || e.muscle == data.muscles[k].emg_channel) e.muscle = name;
   }
   const auto append = [](auto& to, auto& from) {
@@ -119,10 +119,10 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
   IdentificationResult all;
-  all.method = "force";
+  all.method = Method::force;
   all.termination = math::Termination::converged;
   all.exact = true;
-  all.lag = options.estimator.lag;
+  all.lag = options.estimator.law;
   for (const TrialData& trial : data.trials) {
     TrialFit fit = unfitted_trial(trial);
     fit.literature_force_n = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());

@@ -14,7 +14,6 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
-#include "myoid/intervals/score.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/intervals/verdicts.h"
@@ -91,7 +90,7 @@ void add_statistics(CaseFit& fit) {
   fit.widen = static_cast<double>(n) / std::max(fit.effective_samples, 1.0);
   Eigen::VectorXd force(n);
   for (Eigen::Index i = 0; i < n; ++i) force[i] = fit.samples.samples[static_cast<std::size_t>(i)].force_n;
-  fit.r2 = coefficient_of_determination(force, force + search.residual);
+  fit.r2 = math::explained_share(force + search.residual, force);
   fit.exact = search.residual.norm() <= kExact * force.norm();
 }
 
@@ -185,7 +184,7 @@ ParameterEstimate estimate_of(const CaseFit& fit, Eigen::Index j, bool shared_fo
   e.muscle = fit.samples.muscle;
   e.parameter = std::string(field.name);
   e.unit = field.unit;
-  e.method = "paper";
+  e.method = Method::paper;
   e.fit_case = fit.told.fit_case;
   e.initial = start[j];
   e.estimate = std::abs(x[j]) <= 1e3 * std::abs(start[j]) ? x[j] : std::numeric_limits<double>::quiet_NaN();
@@ -343,7 +342,7 @@ std::array<muscle::HillParameters<double>, 2> by_branch(const IdentificationResu
 /// Predicts forces and torques of a trial by the starting and the identified numbers.
 TrialFit predicted(const StudyData& data, const TrialData& trial, const IdentificationResult& result) {
   TrialFit fit = unfitted_trial(trial);
-  const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
+  const Eigen::MatrixXd activation = muscle_activation(data, trial, 0.0);
   fit.literature_force_n.resize(trial.time_s.size(), trial.length_m.cols());
   fit.force_fit_n = fit.literature_force_n;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
@@ -369,7 +368,7 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
   const auto begin = std::chrono::steady_clock::now();
   PaperFit fit;
   IdentificationResult& result = fit.result;
-  result.method = "paper";
+  result.method = Method::paper;
   result.termination = math::Termination::converged;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     result.muscles.push_back(data.muscles[k].start);

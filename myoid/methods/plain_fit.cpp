@@ -39,7 +39,7 @@ constexpr double kNamed = 0.05;  ///< Share of an open direction from which it n
 class PlainFit {
  public:
   PlainFit(const StudyData& data, const EstimatorOptions& options)
-      : map_(data, options), runs_(trial_runs(data, options, map_)), lag_(options.lag), progress_(options.progress) {
+      : map_(data, options), runs_(trial_runs(data, options, map_)), lag_(options.law), progress_(options.progress) {
     for (const TrialRun& run : runs_) rows_ += run.row_count();
     measured_nm_.resize(rows_);
     Eigen::Index first = 0;
@@ -139,10 +139,9 @@ std::vector<Eigen::Index> irregular_rows(Eigen::Index count, double apart) {
   return rows;
 }
 
-/// Returns the options without priors, gains and low-pass, whose envelopes are the drives.
+/// Returns the options without priors, and so without gains, and without low-pass, whose envelopes are the drives.
 EstimatorOptions plain(EstimatorOptions options) {
   options.priors = false;
-  options.gain_prior_sd.clear();
   options.residual_cutoff_hz.reset();
   options.max_rate_hz = std::max(options.max_rate_hz, kNoiseFreeRate_hz);
   options.drives = std::make_shared<DriveMemory>(0.0);
@@ -264,7 +263,6 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
   if (!found) return std::nullopt;
   const math::CovarianceResult covariance = math::covariance(found->jacobian, found->residual);
   IdentificationResult result;
-  result.method = "torque";
   result.exact = true;
   result.termination = found->termination;
   result.message = found->message;
@@ -275,7 +273,7 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
   result.covariance = covariance.residual_variance * covariance.unscaled;
   result.values = whole.map().values(found->x);
   for (const MuscleValues& values : result.values.muscles) result.muscles.push_back(hill_parameters(values));
-  result.lag = as_it_is.lag;
+  result.lag = as_it_is.law;
   result.delay_s = result.values.channels.front()[kDelay];
   result.r2 = math::explained_share(whole.measured_nm() + found->residual, whole.measured_nm());
   result.torque_sd_nm = std::sqrt(covariance.residual_variance);

@@ -17,7 +17,7 @@
 namespace myoid::identification {
 namespace {
 
-void add_predictions(const StudyData& data, const TorqueOptions& options, IdentificationResult& result) {
+void add_predictions(const StudyData& data, const EstimatorOptions& options, IdentificationResult& result) {
   ModelValues literature = result.values;
   for (std::size_t k = 0; k < data.muscles.size(); ++k)
     literature.muscles[k] = muscle_values(data.muscles[k].start, data.muscles[k].extras);
@@ -32,7 +32,7 @@ void add_predictions(const StudyData& data, const TorqueOptions& options, Identi
     for (std::size_t j = 0; j < joint_count(whole); ++j) {
       const TrialData trial = of_joint(whole, j);
       TrialFit& fit = result.trials.emplace_back(predictions.of(trial));
-      Prediction before = predict(data, trial, literature, options.lag);
+      Prediction before = predict(data, trial, literature, options.law);
       fit.literature_force_n = std::move(before.force_n);
       fit.literature_torque_nm = std::move(before.torque_nm);
     }
@@ -47,7 +47,7 @@ EstimatorOptions remembering_drives(EstimatorOptions options) {
 }
 
 std::vector<VerdictCap> caps_of_torque(const StudyData& data,
-                                       const TorqueOptions& options,
+                                       const EstimatorOptions& options,
                                        IdentificationResult& result) {
   std::vector<VerdictCap> caps;
   const std::optional<double> share = told_by_motion_alone(data);
@@ -67,8 +67,8 @@ std::vector<VerdictCap> caps_of_torque(const StudyData& data,
   return caps;
 }
 
-IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
-  const TorqueOptions remembering = remembering_drives(options);
+IdentificationResult identify_torque(const StudyData& data, const EstimatorOptions& options) {
+  const EstimatorOptions remembering = remembering_drives(options);
   IdentificationResult result = identify_by_posterior(data, remembering);
   if (options.predictions) add_predictions(data, remembering, result);
   if (!options.measured_is_force) identification::apply(caps_of_torque(data, options, result), result);
@@ -76,7 +76,7 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
 }
 
 std::optional<IdentificationResult> identify_exactly(const StudyData& data,
-                                                     const TorqueOptions& options,
+                                                     const EstimatorOptions& options,
                                                      const std::vector<std::string>& speed_may_be_free) {
   std::optional<IdentificationResult> exact = exact_fit(data, options, speed_may_be_free);
   if (exact && options.predictions) add_predictions(data, options, *exact);
@@ -84,7 +84,7 @@ std::optional<IdentificationResult> identify_exactly(const StudyData& data,
 }
 
 IdentificationResult identify_torque_or_exact(const StudyData& data,
-                                              const TorqueOptions& options,
+                                              const EstimatorOptions& options,
                                               const std::vector<std::string>& speed_may_be_free) {
   if (std::optional<IdentificationResult> exact = identify_exactly(data, options, speed_may_be_free))
     return std::move(*exact);

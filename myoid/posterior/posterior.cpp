@@ -118,9 +118,9 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   };
   given.low = end(0.025).cwiseMin(given.value);
   given.high = end(0.975).cwiseMax(given.value);
-  const Draws draws = draw_normal(mode.x, covariance, kGivenDraws, kGivenSeed);
+  const Eigen::MatrixXd draws = draw_normal(mode.x, covariance, kGivenDraws, kGivenSeed);
   given.z.resize(p, kGivenDraws);
-  for (Eigen::Index i = 0; i < kGivenDraws; ++i) given.z.col(i) = density.z_of(draws.x.col(i));
+  for (Eigen::Index i = 0; i < kGivenDraws; ++i) given.z.col(i) = density.z_of(draws.col(i));
   return given;
 }
 
@@ -288,7 +288,6 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
   const Density& density = *best.density;
   const ParameterMap& map = density.parameters();
   const NoiseValues noise = density.noise_of(best.mode.x);
-  result.method = "torque";
   result.termination = best.mode.converged ? math::Termination::converged : math::Termination::no_descent;
   result.message = best.mode.message;
   result.iterations = best.mode.iterations;

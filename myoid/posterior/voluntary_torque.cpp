@@ -9,7 +9,6 @@
 
 #include "myoid/core/units.h"
 #include "myoid/posterior/draws.h"
-#include "myoid/posterior/voluntary_states.h"
 
 namespace myoid::identification {
 namespace {
@@ -113,8 +112,6 @@ class Rows {
   /// Returns a row with both readings and its verdict.
   [[nodiscard]] ParameterEstimate row(const std::string& name, Unit unit, const NumberFacts& facts) const {
     ParameterEstimate e{.muscle = curve_.owner, .tied_to = {}, .parameter = name + curve_.ending, .unit = unit};
-    e.method = "torque";
-    e.fit_case = "both";
     judge(e, facts);
     if (!curve_.from_mvc)
       e.reason +=
@@ -180,7 +177,7 @@ struct OwnerTorques {
   const ParameterMap& map;
   const JointParts& parts;
   const FitFacts& fit;
-  LinearReading of_person, given;
+  const LinearReading &of_person, &given;
   Eigen::VectorXd greatest_envelope;
   VoluntaryTorques all = {};
 
@@ -240,17 +237,17 @@ struct OwnerTorques {
 
 VoluntaryTorques voluntary_torques(const StudyData& data,
                                    const EstimatorOptions& options,
-                                   const VoluntaryReading& of_person,
-                                   const VoluntaryReading& given,
+                                   const LinearReading& of_person,
+                                   const LinearReading& given,
                                    const FitFacts& fit) {
-  const Likelihood& likelihood = of_person.likelihood;
+  const Likelihood& likelihood = of_person.likelihood();
   OwnerTorques torques{data,
                        options,
                        likelihood.parameters(),
                        likelihood.recorded().parts,
                        fit,
-                       {likelihood, of_person.z, of_person.noise, of_person.of_widths, of_person.covariance},
-                       {given.likelihood, given.z, given.noise, given.of_widths, given.covariance},
+                       of_person,
+                       given,
                        greatest_envelopes(likelihood, options.from_mvc)};
   for (int joint = 0; joint < static_cast<int>(likelihood.parameters().joints().size()); ++joint)
     torques.add_joint(joint);

@@ -179,7 +179,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   FitInput& input = result.fit_input;
   input.options = identification::remembering_drives(std::move(input.options));
   StudyFit fit = stages.run("fit", "fits the muscles", 0.72, 0.8,
-                            [&](const Progress& progress) { return study_fit(study, input, result.emg, progress); });
+                            [&](const Progress& progress) { return study_fit(study, input, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
   StudyValidation validation;
   if (study.identify.cross_validate && wants_torque(study))
@@ -191,7 +191,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
     result.next = stages.run("next recording", "looks for the next recording", 0.95, 1.0,
                              [&](const Progress& progress) { return next_recording(result.source, fit, progress); });
   for (IdentificationResult& method : fit.methods) {
-    if (method.method == "torque")
+    if (method.method == identification::Method::torque)
       method.warnings.insert(method.warnings.end(), validation.warnings.begin(), validation.warnings.end());
   }
   input.options.drives.reset();

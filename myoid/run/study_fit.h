@@ -2,11 +2,9 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "myoid/core/progress.h"
-#include "myoid/intake/study_activation.h"
 #include "myoid/intervals/result.h"
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/informed_forces.h"
@@ -27,7 +25,7 @@ struct StudyFit {
 };
 
 /// Returns the result of the method of this name; nullptr if there is none.
-[[nodiscard]] const identification::IdentificationResult* method_of(const StudyFit& fit, std::string_view name);
+[[nodiscard]] const identification::IdentificationResult* method_of(const StudyFit& fit, identification::Method method);
 
 /// Returns the method by which a reader judges the muscles: torque, else force; null: only method `paper` was asked
 /// for.
@@ -44,10 +42,7 @@ struct StudyFit {
 [[nodiscard]] bool wants_torque(const Study& study);
 
 /// Computes the parameters by every method that the study names.
-[[nodiscard]] StudyFit study_fit(const Study& study,
-                                 const FitInput& input,
-                                 const EmgScale& emg,
-                                 const Progress& progress);
+[[nodiscard]] StudyFit study_fit(const Study& study, const FitInput& input, const Progress& progress);
 
 /// Returns the forces informed by the EMG, for `StudyFit::informed`.
 [[nodiscard]] std::vector<identification::InformedForces> informed_forces(
