@@ -32,7 +32,7 @@ set(MYOID_LAYER_intake core math files tables recording signals model osim kinem
 set(MYOID_LAYER_checks core math files tables recording signals model osim kinematics dynamics study
     intake)
 set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs identification
-    intervals posterior methods report study)
+    intervals posterior report study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
     identification intervals methods report phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim report)

@@ -27,7 +27,7 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
         {{"muscle", p.muscle},
          {"parameter", p.first.parameter},
          {"unit", std::string(symbol(p.first.unit))},
-         {"method", p.first.method},
+         {"method", std::string(name(p.first.method))},
          {"case", p.first.fit_case},
          {"first", p.of_first.value},
          {"second", p.of_second.value},

@@ -39,7 +39,7 @@ void print_method(const identification::IdentificationResult& method, std::size_
   }
   const bool readings = std::ranges::any_of(method.estimates, [](const auto& e) { return e.given_ci_low.has_value(); });
   const auto given = [&](const std::string& text) { return readings ? fmt::format(" {:>24}", text) : std::string(); };
-  say("\nmethod {}: {}\n", method.method, method.message);
+  say("\nmethod {}: {}\n", name(method.method), method.message);
   for (const std::string& text : voluntary_sentences(method)) say("greatest voluntary torque of {}\n", text);
   if (readings)
     say("95 % interval: of the person. Given: if geometry and sensors were exact, to compare sessions of the "
@@ -87,7 +87,7 @@ void print_predictions(const StudyResult& result) {
     }
   }
   for (const identification::IdentificationResult& method : result.fit.methods) {
-    if (method.method != "torque") continue;
+    if (method.method != identification::Method::torque) continue;
     bool first = true;
     for (const identification::TrialFit& t : method.trials) {
       if (t.calibration) continue;
@@ -153,7 +153,7 @@ void print_paper(const StudyResult& result, const identification::Identification
 /// Prints all numbers of the methods with intervals, their predictions, the next movements and the quality gates.
 void print_everything(const StudyResult& result, const std::vector<report::Gate>& gates) {
   for (const identification::IdentificationResult& method : result.fit.methods) {
-    if (method.method != "paper") print_method(method, result.fit_input.data.muscles.size());
+    if (method.method != identification::Method::paper) print_method(method, result.fit_input.data.muscles.size());
   }
   print_predictions(result);
   print_next(result);
@@ -163,7 +163,7 @@ void print_everything(const StudyResult& result, const std::vector<report::Gate>
 /// Prints the answer, then method `paper` where it was asked for, by the command or as the study's only one.
 void print_answer(const StudyResult& result, const std::vector<report::Gate>& gates, bool with_paper) {
   say("{}", answer_text(result, gates, std::min(help_width(), kAnswerColumns)));
-  const identification::IdentificationResult* paper = method_of(result.fit, "paper");
+  const identification::IdentificationResult* paper = method_of(result.fit, identification::Method::paper);
   if (paper != nullptr && (with_paper || result.fit.methods.size() == 1)) print_paper(result, *paper);
 }
 

@@ -54,8 +54,7 @@ DesignResult design(const DesignOptions& o) {
   Remarks remarks(o.call);
   Study study = study_of(o);
   DesignStudyOptions choice = o.design;
-  choice.choice.criterion =
-      o.criterion == "A" ? identification::DesignCriterion::a_optimal : identification::DesignCriterion::d_optimal;
+  choice.choice.criterion = o.criterion == "A" ? DesignCriterion::a_optimal : DesignCriterion::d_optimal;
   choice.catalogue.dynamometer = o.dynamometer;
   choice.seed = o.call.seed;
   choice.progress = o.call.progress;

@@ -111,8 +111,8 @@ TEST(IdentifyStudy, RunFitsGivenForcesAsIdentifyDoes) {
   o.files.moment_arms.clear();
   IdentifyResult result = identify(o);
   const RunResult same = run_of(result, files.folder / "results");
-  ASSERT_NE(method_of(same.study.fit, "force"), nullptr);
-  expect_same(result.fit(), *method_of(same.study.fit, "force"));
+  ASSERT_NE(method_of(same.study.fit, identification::Method::force), nullptr);
+  expect_same(result.fit(), *method_of(same.study.fit, identification::Method::force));
   EXPECT_TRUE(same.study.trials[0].forces.generalized.empty());
 }
 

@@ -48,7 +48,7 @@ bool RunResult::failed(bool strict) const {
   bool failed =
       std::ranges::any_of(gates, [](const report::Gate& gate) { return gate.status == report::GateStatus::fail; });
   for (const identification::IdentificationResult& method : study.fit.methods) {
-    if (method.method == "paper") continue;
+    if (method.method == identification::Method::paper) continue;
     failed = failed || method.termination != math::Termination::converged;
     for (const identification::ParameterEstimate& e : method.estimates)
       failed = failed || (strict && e.verdict == identification::Verdict::not_identifiable);

@@ -137,8 +137,6 @@ ParameterEstimate expected_estimate(const Unknown& f, const Expectation& expecta
   ParameterEstimate e;
   std::tie(e.muscle, e.parameter) = split_label(f.label);
   e.unit = f.field->unit;
-  e.method = "torque";
-  e.fit_case = "both";
   e.initial = e.estimate = f.to_value(mean);
   double below = math::normal_quantile(0.975) * sd, above = below;
   if (found != nullptr) {
@@ -148,18 +146,17 @@ ParameterEstimate expected_estimate(const Unknown& f, const Expectation& expecta
     below = expectation.ratio * (scaled(found->estimate) - scaled(*found->ci_low));
     above = expectation.ratio * (scaled(*found->ci_high) - scaled(found->estimate));
   }
-  e.ci_low = f.to_value(std::max(mean - below, f.bounds.lower));
-  e.ci_high = f.to_value(std::min(mean + above, f.bounds.upper));
-  e.std_error = f.field->logarithmic ? e.estimate * sd : sd;
   e.prior_mean = e.estimate;
   e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;
   e.shrinkage = 1.0 - sd * sd / (prior_sd * prior_sd);
-  identification::NumberFacts facts{.one_reading = true, .contraction = e.shrinkage, .model_error = model_error};
-  facts.value = facts.given = e.estimate;
-  facts.low = facts.low_given = *e.ci_low;
-  facts.high = facts.high_given = *e.ci_high;
-  facts.nuisance_gain = f.is(identification::Scope::channel, identification::kGain);
-  facts.is_delay = f.is(identification::Scope::channel, identification::kDelay);
+  identification::NumberFacts facts{.fit = {.one_reading = true, .model_error = model_error},
+                                    .person = {.value = e.estimate,
+                                               .low = f.to_value(std::max(mean - below, f.bounds.lower)),
+                                               .high = f.to_value(std::min(mean + above, f.bounds.upper)),
+                                               .sd = f.field->logarithmic ? e.estimate * sd : sd},
+                                    .nuisance_gain = f.is(identification::Scope::channel, identification::kGain),
+                                    .contraction = e.shrinkage};
+  if (f.is(identification::Scope::channel, identification::kDelay)) facts.scale = identification::Scale::delay;
   if (identification::zero_by_nature(e.parameter)) facts.usual_size = math::normal_quantile(0.975) * *e.prior_sd;
   identification::judge(e, facts);
   return e;

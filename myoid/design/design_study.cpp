@@ -56,7 +56,7 @@ EstimatorOptions estimator_of(const Study& study, const StudyData& data, double 
   torque.delay_s = study.emg.delay_s;
   torque.max_rate_hz = 25.0;
   torque.unseen = study.beliefs;
-  for (const identification::MuscleSetup& m : data.muscles) torque.gain_prior_sd[m.emg_channel] = gain_sd;
+  for (const identification::MuscleSetup& m : data.muscles) torque.state(m.emg_channel).gain_sd = gain_sd;
   return torque;
 }
 
@@ -141,7 +141,7 @@ PlannedErrors planned_errors(const DesignStudyOptions& options, const EstimatorO
 
 /// One movement as every person performs it.
 struct Performance {
-  identification::MovementInformation information;
+  MovementInformation information;
   Effort effort;
 };
 
@@ -200,11 +200,11 @@ Teller teller_of(const StudyData& muscles,
 }
 
 /// Returns the choice of movements: unknowns, then quantities of precision 1.
-identification::DesignProblem problem_of(const std::vector<Unknown>& free,
-                                         const Knowledge& known,
-                                         const std::vector<std::string>& quantities,
-                                         const std::vector<std::string>& targets) {
-  identification::DesignProblem problem;
+DesignProblem problem_of(const std::vector<Unknown>& free,
+                         const Knowledge& known,
+                         const std::vector<std::string>& quantities,
+                         const std::vector<std::string>& targets) {
+  DesignProblem problem;
   for (const Unknown& f : free) problem.parameters.push_back(f.label);
   problem.parameters.insert(problem.parameters.end(), quantities.begin(), quantities.end());
   const auto size = static_cast<Eigen::Index>(problem.parameters.size());
@@ -258,9 +258,7 @@ struct Expected {
     std::vector<ParameterEstimate> estimates = with(prior_sd);
     for (std::size_t t = 0; t < targets.size(); ++t) {
       const ParameterEstimate* found = found_by(earlier, free[static_cast<std::size_t>(targets[t])]);
-      if (found == nullptr) continue;
-      estimates[t].verdict = found->verdict;
-      estimates[t].reason = found->reason;
+      if (found != nullptr) identification::keep_verdict(*found, estimates[t]);
     }
     return estimates;
   }
@@ -319,7 +317,7 @@ DesignStudyResult design_study(const Study& study, const model::BodyModel& model
 
   options.progress.tell(0.2, "information");
   const Teller teller = teller_of(data, torque, courses, parameters->values(known.mean), options);
-  identification::DesignProblem problem = problem_of(free, known, teller.quantities, options.targets);
+  DesignProblem problem = problem_of(free, known, teller.quantities, options.targets);
   problem.catalogue.resize(movements.size());
   std::vector<Effort> efforts(movements.size());
   const muscle::FatigueRates<double> rates = muscle::published_fatigue_rates("elbow_rest");
@@ -336,14 +334,14 @@ DesignStudyResult design_study(const Study& study, const model::BodyModel& model
   });
 
   options.progress.tell(0.6, "choice");
-  const identification::DesignResult choice = identification::choose_movements(problem, options.choice);
+  const DesignResult choice = choose_movements(problem, options.choice);
   result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
   const Expected expected{free, known, problem.targets, choice.prior_sd, torque.unseen.strength, options.earlier};
   result.beforehand = expected.beforehand();
   std::vector<const Effort*> chosen;
-  for (const identification::DesignStep& step : choice.steps) {
+  for (const DesignStep& step : choice.steps) {
     result.plan.push_back({movements[step.movement], 0.0, 0.0, expected.with(step.sd)});
     chosen.push_back(&efforts[step.movement]);
   }

@@ -7,8 +7,8 @@
 #include "myoid/core/progress.h"
 #include "myoid/design/earlier_run.h"
 #include "myoid/design/movement.h"
+#include "myoid/design/movement_choice.h"
 #include "myoid/intervals/result.h"
-#include "myoid/methods/design.h"
 
 namespace myoid {
 
@@ -21,7 +21,7 @@ namespace myoid {
 [[nodiscard]] int identified_count(const std::vector<identification::ParameterEstimate>& estimates);
 
 struct DesignStudyOptions {
-  identification::DesignOptions choice;
+  DesignOptions choice;
   CatalogueOptions catalogue;
   /// "all", a parameter ("max_isometric_force"), a muscle ("BIC") or both
   /// ("BIC.force_length_width").

@@ -146,11 +146,10 @@ TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsH
     for (identification::TrialData& trial : performed(study, design, data.muscles, person)) {
       data.trials.push_back(recorded(std::move(trial), options.torque_sd_nm, random));
     }
-    const auto found = identification::identify_torque(
-        data, {.gain_prior_sd = {{"BIC", 0.05}, {"BRA", 0.05}, {"BRD", 0.05}, {"TRI", 0.05}},
-               .max_rate_hz = 25.0,
-               .predictions = false,
-               .unseen = study.beliefs});
+    identification::EstimatorOptions how{.max_rate_hz = 25.0, .predictions = false};
+    for (const char* channel : {"BIC", "BRA", "BRD", "TRI"}) how.state(channel).gain_sd = 0.05;
+    how.unseen = study.beliefs;
+    const auto found = identification::identify_torque(data, how);
     for (const auto& e : found.estimates) {
       for (const auto& expected : design.plan.back().expected) {
         if (e.muscle == expected.muscle && e.parameter == expected.parameter)

@@ -16,7 +16,7 @@ namespace {
 
 identification::IdentificationResult finished() {
   identification::IdentificationResult fit;
-  fit.method = "torque";
+  fit.method = identification::Method::torque;
   fit.free_parameters = {"BIC.max_isometric_force", "BIC.optimal_fiber_length"};
   fit.covariance = (Eigen::Matrix2d() << 0.04, -0.001, -0.001, 1e-4).finished();
   fit.torque_sd_nm = 0.3;

@@ -42,7 +42,8 @@ Eigen::MatrixXd PosteriorInformation::of(const TrialData& trial, const Eigen::Ve
   StudyData one = muscles_;
   one.trials = {trial};
   EstimatorOptions at = options_;
-  at.begin_at = std::make_shared<const identification::FitStart>(identification::FitStart{unknowns_, z, {}, at.lag});
+  at.begin_at = std::make_shared<const identification::FittedUnknowns>(
+      identification::FittedUnknowns{.free_parameters = unknowns_, .solution = z, .lag = at.law});
   Likelihood likelihood(one, at, identification::Columns::at_reference, &session_);
   likelihood.believe(believed_);
   return likelihood.information_by_trial(z, noise_).front();

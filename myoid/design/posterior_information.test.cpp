@@ -18,7 +18,7 @@ using identification::StudyData;
 
 EstimatorOptions options_of(const StudyData& data) {
   EstimatorOptions options;
-  for (const identification::MuscleSetup& muscle : data.muscles) options.gain_prior_sd[muscle.emg_channel] = 0.05;
+  for (const identification::MuscleSetup& muscle : data.muscles) options.state(muscle.emg_channel).gain_sd = 0.05;
   return options;
 }
 

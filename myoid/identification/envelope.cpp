@@ -145,16 +145,10 @@ void shape(double u, double A, double& value, double& by_u, double& by_a) {
   by_a = (u * (above + 1.0) * below - above * (below + 1.0)) / (below * below);
 }
 
-/// Computes u^p and its slopes in u and, if `with_exponent`, in p. Below 1e-4 of the maximum a
+/// Computes u^p and its slopes in u and in p. Below 1e-4 of the maximum a
 /// straight line replaces u^p, whose slope is unbounded where p < 1.
-void power(double u, double p, bool with_exponent, double& value, double& by_u, double& by_p) {
+void power(double u, double p, double& value, double& by_u, double& by_p) {
   constexpr double kLeast = 1e-4;
-  if (p == 1.0 && !with_exponent) {
-    value = u;
-    by_u = 1.0;
-    by_p = 0.0;
-    return;
-  }
   const double log_u = std::log(std::max(u, kLeast));
   const double ratio = p == 1.0 ? 1.0 : std::exp((p - 1.0) * log_u);
   value = u * ratio;
@@ -271,9 +265,9 @@ namespace {
 
 /// Fills the activation and all derivatives except by the lags from the delayed and lagged
 /// envelope; returns d activation / d envelope.
-inline double fill(Activation& a, double value, double slope, const ChannelValues& c, bool with_exponent) {
+inline double fill(Activation& a, double value, double slope, const ChannelValues& c) {
   double raised = value, by_value = 1.0, by_exponent = 0.0;
-  power(value, c[kExponent], with_exponent, raised, by_value, by_exponent);
+  power(value, c[kExponent], raised, by_value, by_exponent);
   const double u = c[kGain] * raised;
   double by_u = 1.0, by_shape = 0.5 * u * (u - 1.0);
   a.value = u;
@@ -292,9 +286,8 @@ inline double fill(Activation& a, double value, double slope, const ChannelValue
 std::vector<Activation> activation(const Envelope& envelope,
                                    const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                    const ChannelValues& channel,
-                                   EmgLag lag,
-                                   bool with_exponent) {
-  if (lag == EmgLag::delay) return activation(envelope.at(time_s, channel[kDelay]), channel, with_exponent);
+                                   EmgLag lag) {
+  if (lag == EmgLag::delay) return activation(envelope.at(time_s, channel[kDelay]), channel);
   std::vector<Activation> result(static_cast<std::size_t>(time_s.size()));
   std::size_t i = 0;
   if (lag == EmgLag::shared) {
@@ -304,7 +297,7 @@ std::vector<Activation> activation(const Envelope& envelope,
     for (const double t : time_s) {
       const Read<1> r = reader.at(t - c[kDelay]);
       Activation& a = result[i++];
-      const double by_envelope = fill(a, r.value, r.slope, c, with_exponent);
+      const double by_envelope = fill(a, r.value, r.slope, c);
       a.by_field[kDelay] = kShare.pure * a.by_field[kDelay] + by_envelope * r.by[0];
     }
   } else {
@@ -312,19 +305,16 @@ std::vector<Activation> activation(const Envelope& envelope,
     for (const double t : time_s) {
       const Read<3> r = reader.at(t - channel[kDelay]);
       Activation& a = result[i++];
-      const double by_envelope = fill(a, r.value, r.slope, channel, with_exponent);
+      const double by_envelope = fill(a, r.value, r.slope, channel);
       for (int k = 0; k < 3; ++k) a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * r.by[k];
     }
   }
   return result;
 }
 
-std::vector<Activation> activation(const std::vector<Envelope::Value>& delayed,
-                                   const ChannelValues& channel,
-                                   bool with_exponent) {
+std::vector<Activation> activation(const std::vector<Envelope::Value>& delayed, const ChannelValues& channel) {
   std::vector<Activation> result(delayed.size());
-  for (std::size_t i = 0; i < delayed.size(); ++i)
-    fill(result[i], delayed[i].value, delayed[i].slope, channel, with_exponent);
+  for (std::size_t i = 0; i < delayed.size(); ++i) fill(result[i], delayed[i].value, delayed[i].slope, channel);
   return result;
 }
 

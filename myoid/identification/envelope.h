@@ -71,16 +71,13 @@ struct Activation {
 ///
 /// integrated exactly for an input that is constant between the samples of the envelope. With
 /// `EmgLag::shared` the time constants and the remaining delay are shares of the channel's d.
-/// Without `with_exponent` the derivative by p is left out (0 where p = 1).
 [[nodiscard]] std::vector<Activation> activation(const Envelope& envelope,
                                                  const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                                  const ChannelValues& channel,
-                                                 EmgLag lag,
-                                                 bool with_exponent = true);
+                                                 EmgLag lag);
 
 /// Returns the activation without lags, from the envelope env(t - d) at the instants.
 [[nodiscard]] std::vector<Activation> activation(const std::vector<Envelope::Value>& delayed,
-                                                 const ChannelValues& channel,
-                                                 bool with_exponent = true);
+                                                 const ChannelValues& channel);
 
 }  // namespace myoid::identification

@@ -6,12 +6,8 @@
 
 namespace myoid::identification {
 
-/// Returns the activation of every muscle of a trial at `time_s - delay_s`, n x m, with the end
-/// value beyond the recording. `slope`, if not null, receives d activation / dt.
-[[nodiscard]] Eigen::MatrixXd muscle_activation(const StudyData& data,
-                                                const TrialData& trial,
-                                                const Eigen::VectorXd& time_s,
-                                                double delay_s,
-                                                Eigen::MatrixXd* slope = nullptr);
+/// Returns the activation of every muscle at the trial's samples, `delay_s` after its EMG, n x m, with the end value
+/// beyond the recording.
+[[nodiscard]] Eigen::MatrixXd muscle_activation(const StudyData& data, const TrialData& trial, double delay_s);
 
 }  // namespace myoid::identification

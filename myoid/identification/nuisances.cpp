@@ -34,16 +34,10 @@ struct JointReach {
   bool motion = true;
 };
 
-void widen(const Eigen::MatrixXd& arm_m,
-           const Eigen::VectorXd& angle_rad,
-           const Eigen::VectorXd& velocity_radps,
-           const Eigen::VectorXd& acceleration_radps2,
-           Eigen::Index samples,
-           JointReach& joint) {
-  joint.motion = joint.motion && angle_rad.size() == samples && velocity_radps.size() == samples &&
-                 acceleration_radps2.size() == samples;
-  if (arm_m.rows() == 0) return;
-  const Eigen::VectorXd here = arm_m.cwiseAbs().colwise().maxCoeff().transpose();
+void widen(const JointData& of, Eigen::Index samples, JointReach& joint) {
+  joint.motion = joint.motion && motion_of(of, samples).size() > 0;
+  if (of.moment_arm_m.rows() == 0) return;
+  const Eigen::VectorXd here = of.moment_arm_m.cwiseAbs().colwise().maxCoeff().transpose();
   joint.arm_m = joint.arm_m.size() == 0 ? here : Eigen::VectorXd(joint.arm_m.cwiseMax(here));
 }
 
@@ -75,10 +69,8 @@ std::vector<ParameterRule> nuisance_rules(const StudyData& data, bool exponents)
   std::map<std::string, JointReach> joints;
   for (const TrialData& trial : data.trials) {
     if (!trial.calibration) continue;
-    const Eigen::Index n = trial.time_s.size();
-    widen(trial.moment_arm_m, trial.angle_rad, trial.velocity_radps, trial.acceleration_radps2, n, joints[trial.joint]);
-    for (const JointData& more : trial.more_joints)
-      widen(more.moment_arm_m, more.angle_rad, more.velocity_radps, more.acceleration_radps2, n, joints[more.name]);
+    for (std::size_t j = 0; j < joint_count(trial); ++j)
+      widen(joint_at(trial, j), trial.time_s.size(), joints[joint_at(trial, j).joint]);
   }
   for (const auto& [name, joint] : joints) {
     if (joint.arm_m.size() != static_cast<Eigen::Index>(data.muscles.size())) continue;

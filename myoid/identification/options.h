@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,68 +68,111 @@ enum class Method {
 };
 inline constexpr std::string_view kMethodNames[] = {"paper", "force", "torque"};
 constexpr ChoiceNames choice_names(Method) { return kMethodNames; }
+[[nodiscard]] constexpr std::string_view name(Method method) { return choice_name(method); }
 
 class DriveMemory;  // posterior/drive.h
 
-/// Another fit's answer, next to which a search begins: the folds of a cross-validation begin at the whole fit's.
-struct FitStart {
-  std::vector<std::string> unknowns;  ///< IdentificationResult::free_parameters
-  Eigen::VectorXd z;                  ///< IdentificationResult::solution
-  Eigen::VectorXd noise;              ///< IdentificationResult::noise
-  EmgLag lag = EmgLag::delay;
+/// The answer of a fit: what a prediction rests on, and next to which another search may begin, as those of the folds
+/// of a cross-validation do.
+struct FittedUnknowns {
+  std::vector<std::string> free_parameters;  ///< Names of the unknowns.
+  Eigen::VectorXd solution;                  ///< In the solver's scale (logarithms where logarithmic).
+  Eigen::MatrixXd covariance;                ///< In the solver's scale.
+  /// Draws of the values of `free_parameters` (SI) from the posterior, one column each, and their
+  /// weights, which add to 1; else empty.
+  Eigen::MatrixXd draws;
+  Eigen::VectorXd draw_weights;
+  /// Hyperparameters of the errors (posterior/noise_model.h) of the posterior; else empty.
+  Eigen::VectorXd noise;
+  EmgLag lag = EmgLag::delay;  ///< The law by which the muscles follow their EMG.
 };
 
-/// Options of methods `torque` and `force`.
-struct EstimatorOptions {
-  /// Muscles to identify; the others keep their start. Empty: all.
-  std::vector<std::string> muscles;
-  bool priors = true;             ///< False: bounds alone (plain_fit.h). The posterior needs priors.
-  std::optional<double> delay_s;  ///< Fixed delay; empty: estimated, with a prior.
+/// A person's choice of how muscles follow their EMG.
+enum class LagChoice {
+  automatic,   ///< Method `torque`: both lags by their evidence; other methods: `delay`.
+  delay,       ///< EmgLag::delay
+  shared,      ///< EmgLag::shared
+  equation_1,  ///< EmgLag::equation_1: the delay is the time beside the lags.
+};
+inline constexpr std::string_view kLagNames[] = {"automatic", "delay", "shared", "equation_1"};
+constexpr ChoiceNames choice_names(LagChoice) { return kLagNames; }
+
+/// A person's choices about a fit, in a study file or on a command line.
+struct EstimatorSettings {
+  std::vector<std::string> muscles;  ///< Muscles to identify; the others keep their start. Empty: all.
+  UnseenSpreads unseen;
+  LagChoice lag = LagChoice::automatic;
+  std::optional<double> delay_s;     ///< Fixed delay; empty: estimated, with a prior.
+  bool delay_per_channel = false;    ///< One delay for each EMG channel; false: one for all.
+  double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample.
+  double angle_rate_sd_radps = 0.0;  ///< Error of the joint angle's rate.
+  Eccentric eccentric = Eccentric::automatic;
+  bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
+  int posterior_draws = 0;  ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
+};
+
+/// The facts about one EMG channel that determine its noise and its gain.
+struct ChannelSource {
+  std::string channel;
+  /// Standard deviation of the gain's logarithm: the relative error of the level that counts as 1, which F_max
+  /// inherits. Empty: the gain is no unknown.
+  std::optional<double> gain_sd;
+  double gain_mean = 1.0;  ///< Activation 1 as a share of the maximum.
+  /// Statistical bandwidth of the raw EMG (signals::statistical_bandwidth_hz), which determines an envelope's noise
+  /// (`envelope_spread`). 0: not known, because another program made the envelope.
+  double bandwidth_hz = 0.0;
+  /// Resting level over the level that counts as 1: the electrode's noise, whose power is subtracted from the
+  /// envelope's. Its spread remains and enlarges the relative spread of a small envelope u by the factor 1 + (rest /
+  /// u)^2. It counts where the bandwidth is known.
+  double rest = 0.0;
+};
+
+/// The facts about the activations that a fit receives. The defaults describe activations of unknown origin.
+struct ActivationSource {
+  bool from_mvc = true;             ///< Activation 1 is a maximal effort; verdicts use this.
+  double envelope_cutoff_hz = 6.0;  ///< Cut-off of the rectified EMG's smoothing.
+  std::vector<ChannelSource> channels;
+
+  /// Returns the facts about a channel; the defaults where none were stated.
+  [[nodiscard]] ChannelSource of(std::string_view channel) const;
+  /// Returns the facts about a channel, stated anew where none were.
+  [[nodiscard]] ChannelSource& state(const std::string& channel);
+  /// Returns ChannelSource::rest; 0 where what was subtracted from the envelope is not known.
+  [[nodiscard]] double rest_level(const std::string& channel) const;
+};
+
+/// Options of methods `torque` and `force`: a person's choices, the facts about the activations, and what the program
+/// adds.
+struct EstimatorOptions : EstimatorSettings, ActivationSource {
+  bool priors = true;  ///< False: bounds alone (plain_fit.h). The posterior needs priors.
   double delay_prior_mean_s = beliefs::kEmgDelay.value;
   double delay_prior_sd_s = beliefs::kEmgDelay.sd;
-  bool delay_per_channel = false;  ///< One delay for each EMG channel; false: one for all.
-  /// EMG channels whose gain is a nuisance about 1, with the standard deviation of its logarithm:
-  /// the uncertainty of the normalisation, which F_max inherits. Empty: no gains.
-  std::map<std::string, double> gain_prior_sd;
-  std::map<std::string, double> gain_prior_mean;  ///< In place of 1.
-  /// Statistical bandwidth [Hz] of the raw EMG by channel (signals::statistical_bandwidth_hz). It determines an
-  /// envelope's noise (`envelope_spread`).
-  std::map<std::string, double> emg_bandwidth_hz;
-  /// Resting level of each channel over the level that counts as 1: the electrode's noise, whose
-  /// power is subtracted from the envelope's. Its spread remains and enlarges the relative spread
-  /// of a small envelope u by the factor 1 + (rest / u)^2.
-  std::map<std::string, double> emg_rest;
-  double envelope_cutoff_hz = 6.0;  ///< Cut-off of the rectified EMG's smoothing.
   /// Highest rate after thinning. EMG and motion reach 6 Hz, but a power of the envelope reaches
   /// further, and at 12 Hz folds to frequencies that tell lags and delay apart.
   double max_rate_hz = 20.0;
   /// Low-pass L of both sides of the residual (two passes, -3 dB). The noise of an envelope reaches higher frequencies
   /// than the differences between muscles do. Empty: no low-pass.
   std::optional<double> residual_cutoff_hz = 1.5;
-  double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample.
-  double angle_rate_sd_radps = 0.0;  ///< Error of the joint angle's rate.
-  Eccentric eccentric = Eccentric::automatic;
-  bool normalised = false;     ///< l_sh and v_max keep their ratio to l0.
-  EmgLag lag = EmgLag::delay;  ///< The law by which a muscle follows its EMG.
+  EmgLag law = EmgLag::delay;  ///< The law by which a muscle follows its EMG.
   /// Method `torque`: `delay` and `shared`, each by its evidence.
   bool choose_lag = false;
   bool measured_is_force = false;  ///< The fit is to the force of one muscle, not to a torque.
-  bool from_mvc = true;            ///< Activation 1 is a maximal effort; verdicts use this.
   bool predictions = true;         ///< Fills IdentificationResult::trials.
+  bool marginals = true;           ///< The approximation includes the skewness of each unknown.
   Progress progress;
-  UnseenSpreads unseen;
-  int posterior_draws = 0;                   ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
-  bool marginals = true;                     ///< The approximation includes the skewness of each unknown.
-  std::shared_ptr<DriveMemory> drives;       ///< Drives that fits of one recording share.
-  std::shared_ptr<const FitStart> begin_at;  ///< Null: the posterior's own starts and both laws of lag.
+  std::shared_ptr<DriveMemory> drives;             ///< Drives that fits of one recording share.
+  std::shared_ptr<const FittedUnknowns> begin_at;  ///< Null: the posterior's own starts and both laws of lag.
 
   /// Returns the held delay, else the expected one.
   [[nodiscard]] double usual_delay_s() const { return delay_s.value_or(delay_prior_mean_s); }
-  /// Returns `emg_bandwidth_hz` of the channel; 0: not known, because another program made the envelope.
-  [[nodiscard]] double bandwidth_hz(const std::string& channel) const;
-  /// Returns `emg_rest` of the channel; 0 where not known, or where what was subtracted from the envelope is not known.
-  [[nodiscard]] double rest_level(const std::string& channel) const;
 };
+
+/// Returns the options of methods `force` and `torque`, for `run` and `identify`. With
+/// LagChoice::equation_1 the prior of the delay is 10 +- 10 ms in place of 60 +- 20 ms: the latter
+/// comes from cross-correlation of EMG and force and includes tau_ne + tau_ac of some 55 ms.
+[[nodiscard]] EstimatorOptions estimator_options(const EstimatorSettings& settings,
+                                                 const ActivationSource& source,
+                                                 const Progress& progress);
 
 /// Returns an envelope's relative spread without electrode noise: that of rectified Gaussian noise
 /// with the EMG's bandwidth, averaged over the filters' time (0.4815 / cut-off of two passes of

@@ -89,12 +89,11 @@ void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::siz
 
 /// Makes a gain an unknown if it has a prior.
 void decide_gain(ParameterSlot& slot, const EstimatorOptions& options, const std::string& channel) {
-  const auto sd = options.gain_prior_sd.find(channel);
-  if (!options.priors || sd == options.gain_prior_sd.end() || !(sd->second > 0.0)) return;
-  const auto mean = options.gain_prior_mean.find(channel);
+  const ChannelSource source = options.of(channel);
+  if (!options.priors || !(source.gain_sd.value_or(0.0) > 0.0)) return;
   slot.free = true;
-  slot.value = mean != options.gain_prior_mean.end() ? mean->second : 1.0;
-  slot.prior = Prior{.mean = slot.value, .sd = sd->second, .logarithmic = true};
+  slot.value = source.gain_mean;
+  slot.prior = Prior{.mean = slot.value, .sd = *source.gain_sd, .logarithmic = true};
 }
 
 /// Returns the positions of the owners that a rule names; of all if it names none.

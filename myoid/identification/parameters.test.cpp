@@ -50,8 +50,9 @@ TEST(Rules, TieFixBoundAndFreeWhatTheyName) {
   fix.value = 0.33;
   study.data.rules = {tie, fix, freed("max_shortening_speed", {"BRD"})};
   study.data.rules.back().upper = 3.0;
-  const IdentificationResult r =
-      identify_torque(study.data, {.delay_s = 0.05, .predictions = false, .marginals = false});
+  EstimatorOptions options{.predictions = false, .marginals = false};
+  options.delay_s = 0.05;
+  const IdentificationResult r = identify_torque(study.data, options);
   const auto& start = study.data.muscles;
   EXPECT_NEAR(r.muscles[0].max_isometric_force_n / start[0].start.max_isometric_force_n,
               r.muscles[1].max_isometric_force_n / start[1].start.max_isometric_force_n, 1e-12);

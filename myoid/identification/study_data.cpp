@@ -70,18 +70,14 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
 
 std::size_t joint_count(const TrialData& trial) { return 1 + trial.more_joints.size(); }
 
+const JointData& joint_at(const TrialData& trial, std::size_t joint) {
+  return joint == 0 ? static_cast<const JointData&>(trial) : trial.more_joints[joint - 1];
+}
+
 TrialData of_joint(const TrialData& trial, std::size_t joint) {
   TrialData one = trial;
   one.more_joints.clear();
-  if (joint == 0) return one;
-  const JointData& of = trial.more_joints[joint - 1];
-  one.joint = of.name;
-  one.torque_nm = of.torque_nm;
-  one.moment_arm_m = of.moment_arm_m;
-  one.angle_rad = of.angle_rad;
-  one.velocity_radps = of.velocity_radps;
-  one.acceleration_radps2 = of.acceleration_radps2;
-  one.resting_nm = of.resting_nm;
+  static_cast<JointData&>(one) = joint_at(trial, joint);
   return one;
 }
 
@@ -91,15 +87,14 @@ TrialData at_rows(const TrialData& trial, const std::vector<Eigen::Index>& rows)
   const auto pick = [&](auto& x) {
     if (x.rows() == trial.time_s.size()) x = x(rows, Eigen::all).eval();
   };
-  for (Eigen::MatrixXd* x : {&t.length_m, &t.velocity_mps, &t.moment_arm_m, &t.force_n}) pick(*x);
-  for (Eigen::VectorXd* x : {&t.torque_nm, &t.angle_rad, &t.velocity_radps, &t.acceleration_radps2, &t.resting_nm})
-    pick(*x);
-  for (JointData& joint : t.more_joints) {
-    pick(joint.moment_arm_m);
-    for (Eigen::VectorXd* x :
-         {&joint.torque_nm, &joint.angle_rad, &joint.velocity_radps, &joint.acceleration_radps2, &joint.resting_nm})
+  const auto pick_joint = [&](JointData& of) {
+    pick(of.moment_arm_m);
+    for (auto* x : {&of.torque_nm, &of.angle_rad, &of.velocity_radps, &of.acceleration_radps2, &of.resting_nm})
       pick(*x);
-  }
+  };
+  for (Eigen::MatrixXd* x : {&t.length_m, &t.velocity_mps, &t.force_n}) pick(*x);
+  pick_joint(t);
+  for (JointData& joint : t.more_joints) pick_joint(joint);
   return t;
 }
 
@@ -116,12 +111,9 @@ Eigen::VectorXd resting_torque_nm(const TrialData& trial) {
 
 std::vector<std::string> joint_names(const StudyData& data) {
   std::vector<std::string> names;
-  const auto add = [&](const std::string& name) {
-    if (!contains(names, name)) names.push_back(name);
-  };
   for (const TrialData& trial : data.trials) {
-    add(trial.joint);
-    for (const JointData& joint : trial.more_joints) add(joint.name);
+    for (std::size_t j = 0; j < joint_count(trial); ++j)
+      if (!contains(names, joint_at(trial, j).joint)) names.push_back(joint_at(trial, j).joint);
   }
   return names;
 }
@@ -137,13 +129,11 @@ std::vector<Eigen::Index> included_rows(const TrialData& trial) {
   return rows;
 }
 
-Eigen::MatrixXd motion_of(const TrialData& trial) {
-  const Eigen::Index n = trial.time_s.size();
-  Eigen::MatrixXd motion;
-  if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n && trial.acceleration_radps2.size() == n) {
-    motion.resize(n, 3);
-    motion << trial.angle_rad, trial.velocity_radps, trial.acceleration_radps2;
-  }
+Eigen::MatrixXd motion_of(const JointData& joint, Eigen::Index n) {
+  if (joint.angle_rad.size() != n || joint.velocity_radps.size() != n || joint.acceleration_radps2.size() != n)
+    return {};
+  Eigen::MatrixXd motion(n, 3);
+  motion << joint.angle_rad, joint.velocity_radps, joint.acceleration_radps2;
   return motion;
 }
 
@@ -208,7 +198,7 @@ void validate(const StudyData& data) {
           !joint.moment_arm_m.allFinite() || !resting_or_none(joint.resting_nm)) {
         throw InvalidInput(
             fmt::format("trial '{}', joint '{}': torque and moment arms must be {} finite samples x {} muscles",
-                        trial.name, joint.name, n, m));
+                        trial.name, joint.joint, n, m));
       }
     }
     require_finite(trial.activation, fmt::format("trial '{}': activation", trial.name));

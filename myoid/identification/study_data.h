@@ -49,34 +49,28 @@ struct ParameterRule {
   bool operator==(const ParameterRule&) const = default;
 };
 
-/// A further joint of a trial, n samples. Joint viscosity, stiffness and inertia need the motion.
+/// One joint of a trial, n samples. Joint viscosity, stiffness and inertia need the motion.
 struct JointData {
-  std::string name;
-  Eigen::VectorXd torque_nm;
-  Eigen::MatrixXd moment_arm_m;                                    ///< n x m
+  std::string joint = "joint";                                     ///< Its name.
+  Eigen::VectorXd torque_nm;                                       ///< n: the sum that the muscles must provide.
+  Eigen::MatrixXd moment_arm_m;                                    ///< n x m: r = -dl/dq.
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Empty, or n.
-  Eigen::VectorXd resting_nm;                                      ///< As TrialData::resting_nm.
-};
-
-/// One trial on the clock of the motion: n samples, m muscles.
-struct TrialData {
-  std::string name;
-  bool calibration = true;       ///< False: only predicted (validation).
-  bool reference = false;        ///< A maximal contraction: its greatest effort is activation 1.
-  std::string condition;         ///< Name shared by trials of one condition (load, speed); may be empty.
-  Eigen::VectorXd time_s;        ///< n
-  Eigen::MatrixXd length_m;      ///< n x m: musculotendon length; fiber length = this - tendon slack
-                                 ///< length (rigid tendon).
-  Eigen::MatrixXd velocity_mps;  ///< n x m
-  Eigen::MatrixXd moment_arm_m;  ///< n x m: r = -dl/dq.
-  Eigen::VectorXd torque_nm;     ///< n: the sum that the muscles must provide.
-  Eigen::MatrixXd force_n;       ///< n x m: from force sharing, for `paper` and `force`; may be empty.
-  TimeSeries activation;         ///< Envelope of each EMG channel, 0..1, on its own clock.
-  std::string joint = "joint";   ///< Name of the joint of `torque_nm`.
-  /// Motion of `joint`: empty, or n.
-  Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;
   /// Measured passive part of `torque_nm` (RestingTorque): empty for none, or n. The muscles' activity makes the rest.
   Eigen::VectorXd resting_nm;
+};
+
+/// One trial on the clock of the motion, with its first joint: n samples, m muscles.
+struct TrialData : JointData {
+  std::string name;
+  bool calibration = true;             ///< False: only predicted (validation).
+  bool reference = false;              ///< A maximal contraction: its greatest effort is activation 1.
+  std::string condition;               ///< Name shared by trials of one condition (load, speed); may be empty.
+  Eigen::VectorXd time_s;              ///< n
+  Eigen::MatrixXd length_m;            ///< n x m: musculotendon length; fiber length = this - tendon slack
+                                       ///< length (rigid tendon).
+  Eigen::MatrixXd velocity_mps;        ///< n x m
+  Eigen::MatrixXd force_n;             ///< n x m: from force sharing, for `paper` and `force`; may be empty.
+  TimeSeries activation;               ///< Envelope of each EMG channel, 0..1, on its own clock.
   std::vector<JointData> more_joints;  ///< Further joints, which method `torque` fits too.
   /// Stretches that are predicted, but neither fitted nor scored: warm-up, fatigue, exclusions of the study.
   std::vector<Stretch> excluded;
@@ -106,8 +100,10 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 /// Returns the number of a trial's joints: its own and `more_joints`.
 [[nodiscard]] std::size_t joint_count(const TrialData& trial);
 
-/// Returns the trial with one joint alone: its torque, moment arms and motion. 0 is the trial's own
-/// joint, then follow `more_joints` in order.
+/// Returns a joint of the trial: 0 is the trial's own, then follow `more_joints` in order.
+[[nodiscard]] const JointData& joint_at(const TrialData& trial, std::size_t joint);
+
+/// Returns the trial with one joint alone.
 [[nodiscard]] TrialData of_joint(const TrialData& trial, std::size_t joint);
 
 /// Returns these samples of a trial, in rising order, as a trial of their own with the whole EMG.
@@ -122,8 +118,8 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 /// Returns the names of all joints of all trials, in order of appearance.
 [[nodiscard]] std::vector<std::string> joint_names(const StudyData& data);
 
-/// Returns angle, rate and acceleration of the trial's own joint, n x 3; empty: not all are known.
-[[nodiscard]] Eigen::MatrixXd motion_of(const TrialData& trial);
+/// Returns angle, rate and acceleration of a joint at its n samples, n x 3; empty: not all are known.
+[[nodiscard]] Eigen::MatrixXd motion_of(const JointData& joint, Eigen::Index n);
 
 /// Returns the samples of a trial outside all excluded stretches, in order.
 [[nodiscard]] std::vector<Eigen::Index> included_rows(const TrialData& trial);

@@ -97,7 +97,7 @@ TEST(FreeSpeeds, CarryIntoTheIntervalsWhatIsNotKnownOfVmax) {
   const double shape = held.muscles[0].start.concentric_curvature;
   EXPECT_NEAR(freed.muscles[0].priors.at("concentric_curvature").sd, std::hypot(0.3, 0.2 * (1.0 + shape)), 1e-12);
   const double truth = study.truth[0].concentric_curvature;
-  const TorqueOptions options{.predictions = false};
+  const EstimatorOptions options{.predictions = false};
   // Held, its error goes into V_sh, which is then claimed to be known better.
   const ParameterEstimate wrong = of(identify_torque(held, options), "concentric_curvature");
   const IdentificationResult fit = identify_torque(freed, options);

@@ -22,14 +22,12 @@ struct Moved {
 };
 
 /// Returns nothing where the data have no motion or the joint is held.
-template <typename Joint>
-std::optional<Moved> moved(const Joint& joint) {
+std::optional<Moved> moved(const JointData& joint) {
   const Eigen::Index n = joint.torque_nm.size();
-  if (n == 0 || joint.angle_rad.size() != n || joint.velocity_radps.size() != n ||
-      joint.acceleration_radps2.size() != n || joint.angle_rad.maxCoeff() - joint.angle_rad.minCoeff() < kMoves_rad)
-    return std::nullopt;
+  const Eigen::MatrixXd motion = motion_of(joint, n);
+  if (motion.size() == 0 || motion.col(0).maxCoeff() - motion.col(0).minCoeff() < kMoves_rad) return std::nullopt;
   Moved found{joint.torque_nm, Eigen::MatrixXd(n, kMotionCoefficients)};
-  found.motion << Eigen::VectorXd::Ones(n), joint.angle_rad, joint.velocity_radps, joint.acceleration_radps2;
+  found.motion << Eigen::VectorXd::Ones(n), motion;
   return found;
 }
 
@@ -56,15 +54,12 @@ double told(const std::vector<Moved>& trials) {
 
 std::optional<double> told_by_motion_alone(const StudyData& data) {
   std::map<std::string, std::vector<Moved>> by_joint;
-  const auto add = [&](const std::string& name, std::optional<Moved> trial) {
-    if (trial) by_joint[name].push_back(std::move(*trial));
-    return trial.has_value();
-  };
   for (const TrialData& trial : data.trials) {
-    if (!trial.calibration) continue;
-    if (!add(trial.joint, moved(trial))) return std::nullopt;
-    for (const JointData& joint : trial.more_joints)
-      if (!add(joint.name, moved(joint))) return std::nullopt;
+    for (std::size_t j = 0; trial.calibration && j < joint_count(trial); ++j) {
+      std::optional<Moved> of_joint = moved(joint_at(trial, j));
+      if (!of_joint) return std::nullopt;
+      by_joint[joint_at(trial, j).joint].push_back(std::move(*of_joint));
+    }
   }
   std::optional<double> least;
   for (const auto& [name, trials] : by_joint) least = std::min(least.value_or(1.0), told(trials));

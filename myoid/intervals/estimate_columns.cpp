@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
@@ -52,8 +53,10 @@ void read(const nlohmann::json& cell, Unit& value) {
   }
 }
 
-void read(const nlohmann::json& cell, Verdict& value) {
-  if (const auto verdict = choice_named<Verdict>(cell.get<std::string>())) value = *verdict;
+template <typename Enumeration>
+requires std::is_enum_v<Enumeration>
+void read(const nlohmann::json& cell, Enumeration& value) {
+  if (const auto named = choice_named<Enumeration>(cell.get<std::string>())) value = *named;
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct EstimateColumn {
                               std::optional<double> ParameterEstimate::*,
                               bool ParameterEstimate::*,
                               Unit ParameterEstimate::*,
+                              Method ParameterEstimate::*,
                               Verdict ParameterEstimate::*>;
   std::string_view name;
   Member member;

@@ -47,14 +47,22 @@ constexpr ChoiceNames choice_names(Verdict) { return kVerdictNames; }
 /// Returns the rank of a verdict; a greater rank is worse.
 [[nodiscard]] constexpr int severity(Verdict verdict) { return static_cast<int>(verdict); }
 
+/// A number's prior, and the estimate's distance from it.
+struct PriorOfEstimate {
+  std::optional<double> prior_mean, prior_sd;
+  std::optional<double> prior_distance;  ///< Of the estimate from the prior's mean, in prior spreads (in its scale).
+  /// 1 - posterior variance / prior variance; negative if the model's error exceeds the prior.
+  std::optional<double> shrinkage;
+};
+
 /// One row of parameters.csv.
-struct ParameterEstimate {
+struct ParameterEstimate : PriorOfEstimate {
   std::string muscle;   ///< Muscle, EMG channel, or "subject".
   std::string tied_to;  ///< The first owner of the same unknown; empty: no tie.
   std::string parameter;
   Unit unit = Unit::dimensionless;
-  std::string method;    ///< paper | force | torque
-  std::string fit_case;  ///< shortening | lengthening | both
+  Method method = Method::torque;
+  std::string fit_case = "both";  ///< shortening | lengthening | both
   double initial = 0.0;
   double estimate = 0.0;
   std::optional<double> std_error;
@@ -62,11 +70,6 @@ struct ParameterEstimate {
   /// The second reading: value and 95 % interval if moment arms, tendons and the sensors' scales were exact. Sessions
   /// of one person are compared by it. Empty for method `paper`.
   std::optional<double> given_estimate, given_ci_low, given_ci_high;
-  std::optional<double> prior_mean, prior_sd;
-  std::optional<double> prior_distance;         ///< Distance of the estimate from the prior's mean, in
-                                                ///< prior spreads (in the prior's scale).
-  std::optional<double> shrinkage;              ///< 1 - posterior variance / prior variance; negative if the
-                                                ///< model's error exceeds the prior.
   std::optional<SourceShares> variance_shares;  ///< By the posterior; else empty.
   bool at_bound = false;
   Verdict verdict = Verdict::not_identifiable;
@@ -104,7 +107,7 @@ struct BasinRow {
   int starts = 0;         ///< Number of starts that ended here.
   int converged = 0;      ///< Number of these starts that converged.
   double distance = 0.0;  ///< Root mean square distance from the best over the unknowns, in prior
-                          ///< spreads (start_box.h).
+                          ///< spreads (basins.h).
   bool rival = false;     ///< Almost as good as the best: at most a chi-square of 4 worse.
   bool given = false;     ///< The given start ended here.
 };
@@ -167,39 +170,24 @@ struct PriorDistance {
          estimate.parameter.starts_with("joint_");
 }
 
-struct IdentificationResult {
-  std::string method;
-  math::Termination termination = math::Termination::no_descent;
-  std::string message;
-  std::vector<ParameterEstimate> estimates;
-  /// With the estimates (methods force, torque).
-  std::vector<muscle::HillParameters<double>> muscles;
-  ModelValues values;          ///< All numbers of the model with the estimates (methods force, torque).
-  EmgLag lag = EmgLag::delay;  ///< The law by which the muscles follow their EMG.
-  double delay_s = 0.0;        ///< Delay of the first channel.
-  Eigen::VectorXd solution;    ///< In the solver's scale (method torque).
-  /// Covariance of the free parameters in the solver's scale (logarithms where logarithmic).
-  Eigen::MatrixXd covariance;
-  std::vector<std::string> free_parameters;  ///< Names of the rows of `covariance`.
-  /// Draws of the values of `free_parameters` (SI) from the posterior, one column each, and their
-  /// weights, which add to 1; else empty.
-  Eigen::MatrixXd draws;
-  Eigen::VectorXd draw_weights;
-  /// Greatest voluntary torques over the joints' angles, whose numbers are the first of `estimates`; by the posterior.
-  std::vector<VoluntaryCurve> voluntary;
-  /// Hyperparameters of the errors (posterior/noise_model.h) of the posterior; else empty.
-  Eigen::VectorXd noise;
-  std::vector<std::string> undetermined;       ///< Of exact data: combinations that they leave open, as sums.
-  std::vector<PriorDistance> prior_distances;  ///< One for each muscle with priors.
-  std::vector<std::string> diagnoses;          ///< Errors whose signature the values carry.
-  std::vector<std::string> warnings;           ///< About the fit as a whole.
-  std::vector<BranchTest> branch_tests;        ///< Method paper.
-  std::vector<PublishedSearch> published;      ///< Method paper.
-  std::vector<BasinTable> basins;              ///< One for each fit, if several starts were asked for.
-  bool exact = false;  ///< The data are free of noise, and the numbers are those of plain_fit.h.
+/// The searches of method `paper`.
+struct PaperSearches {
+  std::vector<BranchTest> branch_tests;
+  std::vector<PublishedSearch> published;
+  std::vector<BasinTable> basins;  ///< One for each fit, if several starts were asked for.
+};
+
+/// The amount of data and work in a fit.
+struct FitSize {
   int samples_used = 0;
   int samples_dropped = 0;
   double effective_samples = 0.0;
+  int iterations = 0;
+  double seconds = 0.0;
+};
+
+/// The errors that a fit leaves.
+struct FitErrors {
   double torque_sd_nm = 0.0;  ///< s_T [N m]
   double emg_cv = 0.0;        ///< c_a
   /// Squared relative spread of each EMG channel's envelope, not low-passed (force, torque).
@@ -208,8 +196,24 @@ struct IdentificationResult {
   /// 1 - SSE/SST of the fitted samples (both sides below the residual's cut-off), about the mean
   /// over all trials; the least of several joints or muscles.
   double r2 = 1.0;
-  int iterations = 0;
-  double seconds = 0.0;
+};
+
+struct IdentificationResult : FittedUnknowns, FitErrors, FitSize, PaperSearches {
+  Method method = Method::torque;
+  math::Termination termination = math::Termination::no_descent;
+  std::string message;
+  std::vector<ParameterEstimate> estimates;
+  /// With the estimates (methods force, torque).
+  std::vector<muscle::HillParameters<double>> muscles;
+  ModelValues values;    ///< All numbers of the model with the estimates (methods force, torque).
+  double delay_s = 0.0;  ///< Delay of the first channel.
+  /// Greatest voluntary torques over the joints' angles, whose numbers are the first of `estimates`; by the posterior.
+  std::vector<VoluntaryCurve> voluntary;
+  std::vector<std::string> undetermined;       ///< Of exact data: combinations that they leave open, as sums.
+  std::vector<PriorDistance> prior_distances;  ///< One for each muscle with priors.
+  std::vector<std::string> diagnoses;          ///< Errors whose signature the values carry.
+  std::vector<std::string> warnings;           ///< About the fit as a whole.
+  bool exact = false;  ///< The data are free of noise, and the numbers are those of plain_fit.h.
   std::vector<TrialFit> trials;
 };
 

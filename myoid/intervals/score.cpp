@@ -9,11 +9,6 @@
 
 namespace myoid::identification {
 
-double coefficient_of_determination(const Eigen::VectorXd& reference, const Eigen::VectorXd& predicted) {
-  const double total = (reference.array() - reference.mean()).square().sum();
-  return total > 0.0 ? 1.0 - (reference - predicted).squaredNorm() / total : 0.0;
-}
-
 double Score::rmse_nm() const { return n > 0.0 ? std::sqrt(sse / n) : 0.0; }
 
 double Score::nrmse_range() const { return range_nm > 0.0 ? rmse_nm() / range_nm : 0.0; }

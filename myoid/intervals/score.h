@@ -29,9 +29,6 @@ struct Score {
 /// Returns R2 in at most 8 characters: "0.931", "-150", "-1.5e+04".
 [[nodiscard]] std::string r2_text(double r2);
 
-/// Returns 1 - SSE/SST; 0 if the reference is constant.
-[[nodiscard]] double coefficient_of_determination(const Eigen::VectorXd& reference, const Eigen::VectorXd& predicted);
-
 /// Returns a torque without the frequencies above `cutoff_hz` (-3 dB, two passes of second order, no delay), on an even
 /// clock. The torque stays unchanged if the clock is too slow or too short, or the cut-off is 0.
 [[nodiscard]] Eigen::VectorXd below(const Eigen::VectorXd& time_s, const Eigen::VectorXd& torque_nm, double cutoff_hz);

@@ -17,20 +17,13 @@ namespace {
 constexpr std::array<std::string_view, kSourceCount> kSourceNames = {
     "noise of the {}", "prior belief", "geometry", "electrodes", "scale of the {}", "error of the model"};
 
-std::string_view fitted(const NumberFacts& facts) { return facts.of_force ? "force" : "torque"; }
+std::string_view fitted(const NumberFacts& facts) { return facts.fit.of_force ? "force" : "torque"; }
 
 /// Returns the distance from the value to the farther end: of a delay in seconds, of an angle in radians, else as a
 /// share.
-double half_width(const NumberFacts& facts, double value, double low, double high) {
-  const double half = std::max(value - low, high - value);
-  const bool absolute = facts.is_delay || facts.is_angle;
-  return absolute ? half : half / std::max(facts.usual_size.value_or(std::abs(value)), 1e-12);
-}
-
-double half_of_person(const NumberFacts& facts) { return half_width(facts, facts.value, facts.low, facts.high); }
-
-double half_given(const NumberFacts& facts) {
-  return half_width(facts, facts.given, facts.low_given, facts.high_given);
+double half_width(const NumberFacts& facts, const Reading& of) {
+  const double half = std::max(of.value - of.low, of.high - of.value);
+  return facts.scale != Scale::share ? half : half / std::max(facts.usual_size.value_or(std::abs(of.value)), 1e-12);
 }
 
 bool is_far(const NumberFacts& facts) {
@@ -38,21 +31,21 @@ bool is_far(const NumberFacts& facts) {
 }
 
 std::string size_text(double half, const NumberFacts& facts) {
-  if (facts.is_delay) return fmt::format("± {:.0f} ms", 1000.0 * half);
-  if (facts.is_angle) return fmt::format("± {:.2g}°", half / kDegree);
+  if (facts.scale == Scale::delay) return fmt::format("± {:.0f} ms", 1000.0 * half);
+  if (facts.scale == Scale::angle) return fmt::format("± {:.2g}°", half / kDegree);
   return half < 0.995 ? fmt::format("± {:.2g} %", 100.0 * half) : fmt::format("± {:.0f} %", 100.0 * half);
 }
 
 double identified_half(const NumberFacts& facts) {
-  return facts.is_delay   ? kVerdictRules.delay_identified_s
-         : facts.is_angle ? kVerdictRules.angle_identified_rad
-                          : kVerdictRules.identified_half_width;
+  return facts.scale == Scale::delay   ? kVerdictRules.delay_identified_s
+         : facts.scale == Scale::angle ? kVerdictRules.angle_identified_rad
+                                       : kVerdictRules.identified_half_width;
 }
 
 double weak_half(const NumberFacts& facts) {
-  return facts.is_delay   ? kVerdictRules.delay_weak_s
-         : facts.is_angle ? kVerdictRules.angle_weak_rad
-                          : kVerdictRules.weak_half_width;
+  return facts.scale == Scale::delay   ? kVerdictRules.delay_weak_s
+         : facts.scale == Scale::angle ? kVerdictRules.angle_weak_rad
+                                       : kVerdictRules.weak_half_width;
 }
 
 std::string sources_text(const NumberFacts& facts) {
@@ -70,16 +63,16 @@ std::string sources_text(const NumberFacts& facts) {
 
 std::string widths_text(const NumberFacts& facts) {
   const std::string usual = facts.usual_size ? ", as shares of what is usual" : "";
-  const std::string person = size_text(half_of_person(facts), facts);
-  return facts.one_reading ? person + usual
-                           : fmt::format("{} of the person, {} given geometry and sensors{}", person,
-                                         size_text(half_given(facts), facts), usual);
+  const std::string person = size_text(half_width(facts, facts.person), facts);
+  return facts.fit.one_reading ? person + usual
+                               : fmt::format("{} of the person, {} given geometry and sensors{}", person,
+                                             size_text(half_width(facts, facts.given), facts), usual);
 }
 
 /// Returns the reason of a finding beside which no width matters; else empty.
 std::string without_width(Finding finding, const NumberFacts& facts) {
-  const std::string failed = facts.failure.empty() ? "the search for the posterior's mode did not end"
-                                                   : "the fit did not converge: " + facts.failure;
+  const std::string failed = facts.fit.failure.empty() ? "the search for the posterior's mode did not end"
+                                                       : "the fit did not converge: " + facts.fit.failure;
   switch (finding) {
     case Finding::not_converged:
       return failed;
@@ -96,8 +89,8 @@ std::string without_width(Finding finding, const NumberFacts& facts) {
       return "nobody measured the force: an optimizer shared the torque among the muscles by its own assumptions, with "
              "the literature's F_max and without co-contraction";
     case Finding::impossible:
-      if (!facts.converged) return fmt::format("{}; it stopped where no muscle can be: that says nothing", failed);
-      return facts.one_reading ? facts.impossible : "";
+      if (!facts.fit.converged) return fmt::format("{}; it stopped where no muscle can be: that says nothing", failed);
+      return facts.fit.one_reading ? facts.impossible : "";
     default:
       return "";
   }
@@ -108,27 +101,43 @@ Finding of_person(const NumberFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
   if (facts.contraction && *facts.contraction < rules.least_shrinkage)
     return is_far(facts) ? Finding::far_from_prior : Finding::as_the_prior;
-  const double half = half_of_person(facts);
+  const double half = half_width(facts, facts.person);
   if (half > weak_half(facts) && !facts.usual_size) return Finding::too_wide;
   if (half > identified_half(facts)) return Finding::wide;
-  if (facts.model_error > rules.model_error) return Finding::wrong_model;
+  if (facts.fit.model_error > rules.model_error) return Finding::wrong_model;
   if (is_far(facts)) return Finding::narrow_and_far;
   if (facts.at_bound) return Finding::cut_off;
   if (facts.at_range_end) return Finding::range_ends;
-  if (facts.given_strength) return Finding::given_strength;
+  if (facts.fit.given_strength) return Finding::given_strength;
   if (facts.contraction && *facts.contraction < rules.half_shrinkage) return Finding::half_the_prior;
-  if (facts.high < facts.low_given || facts.high_given < facts.low) return Finding::readings_apart;
-  return Finding::narrow;
+  if (facts.person.high < facts.given.low || facts.given.high < facts.person.low) return Finding::readings_apart;
+  return facts.contradiction.empty() ? Finding::narrow : Finding::contradicted;
 }
 
 /// Returns true if the number is narrow with geometry and sensors exact, and by the recording, not by its prior.
 bool narrow_if_given(const NumberFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
-  if (facts.one_reading) return false;
-  const double half = half_given(facts);
+  if (facts.fit.one_reading) return false;
+  const double half = half_width(facts, facts.given);
   const bool told = !facts.contraction_given || *facts.contraction_given >= rules.half_shrinkage;
-  return half > 0.0 && half <= identified_half(facts) && told && facts.model_error <= rules.model_error &&
+  return half > 0.0 && half <= identified_half(facts) && told && facts.fit.model_error <= rules.model_error &&
          !is_far(facts) && !facts.at_bound && !facts.at_range_end;
+}
+
+/// Returns the number's owners: of a joint's torque the muscles that make it, too.
+std::vector<std::string> owners_of(const ParameterEstimate& e, const IdentificationResult& result) {
+  std::vector<std::string> owners{e.muscle};
+  for (const VoluntaryCurve& curve : result.voluntary) {
+    if (curve.of_joint && curve.owner == e.muscle && e.parameter.ends_with(curve.ending))
+      owners.insert(owners.end(), curve.muscles.begin(), curve.muscles.end());
+  }
+  return owners;
+}
+
+/// Returns true if the cap is of this parameter. What is wrong with a strength is wrong with the torque that it makes.
+bool is_of(const VerdictCap& cap, const std::string& parameter) {
+  const bool follows = is_voluntary(parameter) && !is_voluntary_angle(parameter);
+  return covers(cap.parameters, parameter) || (follows && covers(cap.parameters, "max_isometric_force"));
 }
 
 }  // namespace
@@ -136,14 +145,14 @@ bool narrow_if_given(const NumberFacts& facts) {
 Finding finding(const NumberFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
   // Where a search ran away to numbers of no muscle, that is the finding.
-  if (!facts.converged) return facts.impossible.empty() ? Finding::not_converged : Finding::impossible;
+  if (!facts.fit.converged) return facts.impossible.empty() ? Finding::not_converged : Finding::impossible;
   if (facts.length_span && *facts.length_span < rules.least_length_span) return Finding::one_length;
   if (!facts.impossible.empty()) return Finding::impossible;
   if (!facts.bad_company.empty()) return Finding::bad_company;
   if (!facts.no_effect.empty()) return Finding::no_effect;
   if (!facts.determined) return Finding::undetermined;
-  if (facts.shared_force) return Finding::shared_force;
-  if (facts.r2 < rules.least_r2) return Finding::unexplained;
+  if (facts.fit.shared_force) return Finding::shared_force;
+  if (facts.fit.r2 < rules.least_r2) return Finding::unexplained;
   if (facts.nuisance_gain) return Finding::as_the_prior;
   const Finding person = of_person(facts);
   return person != Finding::narrow && narrow_if_given(facts) ? Finding::narrow_if_given : person;
@@ -159,6 +168,7 @@ Verdict verdict_of(Finding finding) {
     case Finding::too_wide:
     case Finding::far_from_prior:
     case Finding::cut_off:
+    case Finding::late_emg:
       return Verdict::not_identifiable;
     case Finding::impossible:
       return Verdict::non_physical;
@@ -173,6 +183,8 @@ Verdict verdict_of(Finding finding) {
     case Finding::half_the_prior:
     case Finding::readings_apart:
     case Finding::range_ends:
+    case Finding::contradicted:
+    case Finding::fault:
       return Verdict::weak;
     case Finding::narrow_if_given:
       return Verdict::reproducible;
@@ -207,20 +219,56 @@ std::string reason_of(Finding finding, const NumberFacts& facts) {
     text = "the interval ends at a bound: the recording pulls beyond what is physically possible; " + text;
   if (finding == Finding::wrong_model)
     text = fmt::format("the model errs by {:.0f} % in a way that depends on posture, effort and speed; {}",
-                       100.0 * facts.model_error, text);
+                       100.0 * facts.fit.model_error, text);
   if (finding == Finding::unexplained)
     text = fmt::format(
         "the fit explains little of the {} (R2 {:.2f}): a sign, a unit, an offset, a clock, the order of files or a "
         "column is wrong, or the EMG is not that of these muscles; {}",
-        fitted(facts), facts.r2, text);
-  if (facts.approximate) text += "; approximate: the normal approximation could not be checked";
+        fitted(facts), facts.fit.r2, text);
+  if (finding == Finding::contradicted) text += ", but " + facts.contradiction;
+  if (facts.fit.approximate) text += "; approximate: the normal approximation could not be checked";
   return text;
 }
 
 void judge(ParameterEstimate& estimate, const NumberFacts& facts) {
+  const auto told = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
+  estimate.estimate = facts.person.value;
+  estimate.std_error = told(facts.person.sd);
+  estimate.ci_low = told(facts.person.low);
+  estimate.ci_high = told(facts.person.high);
+  estimate.given_estimate = told(facts.given.value);
+  estimate.given_ci_low = told(facts.given.low);
+  estimate.given_ci_high = told(facts.given.high);
   const Finding found = finding(facts);
   estimate.verdict = verdict_of(found);
   estimate.reason = reason_of(found, facts);
+}
+
+void keep_verdict(const ParameterEstimate& earlier, ParameterEstimate& estimate) {
+  estimate.verdict = earlier.verdict;
+  estimate.reason = earlier.reason;
+}
+
+void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count) {
+  if (count < 2 || estimates.size() < count || estimates.back().tied_to.empty()) return;
+  const auto first = estimates.end() - static_cast<std::ptrdiff_t>(count);
+  const ParameterEstimate worst = *std::max_element(
+      first, estimates.end(), [](const auto& a, const auto& b) { return severity(a.verdict) < severity(b.verdict); });
+  std::for_each(first, estimates.end(), [&](ParameterEstimate& e) { keep_verdict(worst, e); });
+}
+
+void apply(const std::vector<VerdictCap>& caps, IdentificationResult& result) {
+  for (ParameterEstimate& e : result.estimates) {
+    const std::vector<std::string> owners = owners_of(e, result);
+    const auto cap = std::ranges::find_if(caps, [&](const VerdictCap& c) {
+      return severity(e.verdict) < severity(verdict_of(c.finding)) &&
+             c.method.value_or(result.method) == result.method && is_of(c, e.parameter) &&
+             std::ranges::any_of(owners, [&](const std::string& owner) { return covers(c.owners, owner); });
+    });
+    if (cap == caps.end()) continue;
+    e.verdict = verdict_of(cap->finding);
+    e.reason = cap->reason;
+  }
 }
 
 std::string beside_the_maximum(std::string_view parameter, bool from_mvc) {

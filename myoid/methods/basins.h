@@ -1,12 +1,32 @@
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "myoid/core/progress.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
 #include "myoid/math/multistart.h"
-#include "myoid/methods/start_box.h"
+#include "myoid/methods/paper_case.h"
 
 namespace myoid::identification {
+
+/// The box of the searches' starts: two spreads of the priors to either side of the given start.
+struct StartBox {
+  Eigen::VectorXd given;
+  Eigen::VectorXd spread;  ///< Spread of the prior; without a prior a tenth of the value.
+  Eigen::VectorXd lower;   ///< Two spreads below the given start, inside the bounds.
+  Eigen::VectorXd upper;
+};
+/// Returns the box of the source paper's unknowns, each in its own unit and within its physical bounds.
+[[nodiscard]] StartBox start_box(const PaperCase& samples, const MuscleSetup& setup);
+
+/// Returns the given start and Sobol points of the box.
+[[nodiscard]] std::vector<Eigen::VectorXd> starts_in(const StartBox& box, int count);
+
+/// Returns the root mean square of the unknowns' differences, in spreads.
+[[nodiscard]] double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const StartBox& box);
 
 /// Searches from the given start and Sobol points of the box, in parallel. Two ends are one basin if no unknown differs
 /// by more than 0.04 spreads. The cost has no weights: its variance over `samples` residuals scales it to chi-square.

@@ -107,7 +107,7 @@ std::vector<Split> named_splits(const StudyData& data,
 
 /// Returns the regressors of baseline (ii): activation times moment arm, per muscle.
 Eigen::MatrixXd regressors(const StudyData& data, const TrialData& trial, double delay_s) {
-  return muscle_activation(data, trial, trial.time_s, delay_s).cwiseProduct(trial.moment_arm_m);
+  return muscle_activation(data, trial, delay_s).cwiseProduct(trial.moment_arm_m);
 }
 
 Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
@@ -127,8 +127,7 @@ std::vector<TrialData> joint_views(const std::vector<TrialData>& trials, const s
   std::vector<TrialData> views;
   for (const TrialData& trial : trials) {
     for (std::size_t j = 0; j < joint_count(trial); ++j) {
-      const std::string& name = j == 0 ? trial.joint : trial.more_joints[j - 1].name;
-      if (name == joint) views.push_back(of_joint(trial, j));
+      if (joint_at(trial, j).joint == joint) views.push_back(of_joint(trial, j));
     }
   }
   return views;
@@ -362,12 +361,6 @@ std::vector<Fold> cross_validate(const StudyData& data,
   std::vector<Fold> folds;
   for (std::vector<Fold>& of_one : of_split) std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
   return folds;
-}
-
-std::vector<Fold> cross_validate(const StudyData& data,
-                                 const TorqueOptions& options,
-                                 const CrossValidationOptions& how) {
-  return cross_validate(data, identify_torque, options, how);
 }
 
 }  // namespace myoid::identification

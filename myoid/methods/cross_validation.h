@@ -62,10 +62,6 @@ using SplitFit = std::function<IdentificationResult(StudyData& data, EstimatorOp
                                                const SplitFit& fit,
                                                const EstimatorOptions& options,
                                                const CrossValidationOptions& how = {});
-/// Validates `identify_torque` with these options.
-[[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data,
-                                               const TorqueOptions& options = {},
-                                               const CrossValidationOptions& how = {});
 
 /// Returns a sentence with the numbers if left-out trials are predicted much worse than fitted
 /// ones, otherwise an empty text. Samples of one movement share the model's error, which more

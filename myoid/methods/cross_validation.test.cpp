@@ -14,7 +14,7 @@ using test::ElbowStudy;
 
 TEST(CrossValidate, ATrialThatWasNotFittedIsPredicted) {
   const ElbowStudy study = elbow_study({.emg_cv = 0.05, .torque_sd_nm = 0.5, .with_priors = true});
-  const std::vector<Fold> folds = cross_validate(study.data);
+  const std::vector<Fold> folds = cross_validate(study.data, identify_torque, {});
   ASSERT_EQ(folds.size(), 3U);
   for (std::size_t i = 0; i < folds.size(); ++i) {
     EXPECT_EQ(folds[i].trial, study.data.trials[i].name);
@@ -29,9 +29,9 @@ TEST(CrossValidate, ATrialThatWasNotFittedIsPredicted) {
 TEST(CrossValidate, WhatIsLeftOutDoesNotReachItsOwnPrediction) {
   // Spoil one trial's torque: its own prediction stays what it was.
   ElbowStudy study = elbow_study({.torque_sd_nm = 0.5, .with_priors = true});
-  const std::vector<Fold> before = cross_validate(study.data);
+  const std::vector<Fold> before = cross_validate(study.data, identify_torque, {});
   study.data.trials[1].torque_nm.array() += 20.0;
-  const std::vector<Fold> after = cross_validate(study.data);
+  const std::vector<Fold> after = cross_validate(study.data, identify_torque, {});
   EXPECT_EQ((before[1].predicted_nm - after[1].predicted_nm).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_GT((before[0].predicted_nm - after[0].predicted_nm).cwiseAbs().maxCoeff(), 0.1);
 }
@@ -55,13 +55,13 @@ TEST(CrossValidate, AMaximalContractionIsInEveryFitAndNeverLeftOut) {
 }
 
 TEST(CrossValidate, NeedsTwoTrials) {
-  EXPECT_TRUE(cross_validate(elbow_study({.trials = 1, .seconds = 5.0}).data).empty());
+  EXPECT_TRUE(cross_validate(elbow_study({.trials = 1, .seconds = 5.0}).data, identify_torque, {}).empty());
 }
 
 TEST(CrossValidate, AFoldIsTheReportedFitOnTheOtherTrialsAndScoresItsPlainPrediction) {
   const ElbowStudy study = elbow_study({.emg_cv = 0.08, .torque_sd_nm = 0.8, .with_priors = true});
-  const TorqueOptions options{.choose_lag = true};
-  const std::vector<Fold> folds = cross_validate(study.data, options);
+  const EstimatorOptions options{.choose_lag = true};
+  const std::vector<Fold> folds = cross_validate(study.data, identify_torque, options);
   StudyData others = study.data;
   TrialData& left = others.trials[0];
   left.calibration = false;

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/intervals/score.h"
-#include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
 
 namespace myoid::identification {
@@ -35,48 +33,13 @@ bool rests_on_one_trial(const StudyData& data, const std::string& channel) {
   return peaks[0] > kFar * peaks[1];
 }
 
-double reference_of(const std::map<std::string, double>& references, const std::string& channel) {
-  const auto found = references.find(channel);
-  return found == references.end() ? 1.0 : found->second;
-}
-
-/// Returns the trials with two channels of one trial exchanged, and each channel relative to its largest value.
-StudyData with_exchange(const StudyData& data,
-                        std::size_t trial,
-                        const std::string& first,
-                        const std::string& second,
-                        const std::map<std::string, double>& references) {
-  StudyData exchanged = data;
-  const double ratio = reference_of(references, first) / reference_of(references, second);
-  std::map<std::string, double> peaks{{first, 0.0}, {second, 0.0}};
-  for (std::size_t t = 0; t < data.trials.size(); ++t) {
-    const TimeSeries& a = data.trials[t].activation;
-    Eigen::MatrixXd values = a.values();
-    if (t == trial) {
-      values.col(a.index(first)) = a.column(second) / ratio;
-      values.col(a.index(second)) = a.column(first) * ratio;
-    }
-    for (auto& [channel, peak] : peaks) peak = std::max(peak, values.col(a.index(channel)).maxCoeff());
-    exchanged.trials[t].activation = TimeSeries(a.time_s(), a.channels(), std::move(values));
-  }
-  for (TrialData& one : exchanged.trials) {
-    Eigen::MatrixXd values = one.activation.values();
-    for (const auto& [channel, peak] : peaks) {
-      if (peak > 0.0) values.col(one.activation.index(channel)) /= peak;
-    }
-    one.activation = TimeSeries(one.activation.time_s(), one.activation.channels(), std::move(values));
-  }
-  return exchanged;
-}
-
 }  // namespace
 
 std::string ExchangedElectrodes::sentence() const {
   return fmt::format(
-      "with '{}' and '{}' exchanged{} the literature's muscles make the torque to {:.2f} N m rms (R2 {:.2f}), as they "
+      "with '{}' and '{}' exchanged the literature's muscles make the torque to {:.2f} N m rms (R2 {:.2f}), as they "
       "are named only to {:.2f} (R2 {:.2f}): were the two electrodes plugged in or labelled the wrong way round?",
-      first, second, trial.empty() ? "" : fmt::format(" in '{}' alone", trial), exchanged.rms_nm, exchanged.r2,
-      as_named.rms_nm, as_named.r2);
+      first, second, exchanged.rms_nm, exchanged.r2, as_named.rms_nm, as_named.r2);
 }
 
 LabelFit fit_of_labels(const StudyData& data, double delay_s, const std::string& first, const std::string& second) {
@@ -150,40 +113,7 @@ std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, d
       for (std::size_t t = 0; t < fit.trial_rms_nm.size(); ++t)
         better += fit.trial_rms_nm[t] < now.trial_rms_nm[t] ? 1 : 0;
       if (4 * better >= 3 * fit.trial_rms_nm.size())
-        best = ExchangedElectrodes{channels[i], channels[j], "", now, std::move(fit)};
-    }
-  }
-  return best;
-}
-
-std::optional<ExchangedElectrodes> exchanged_in_a_trial(const StudyData& data,
-                                                        double delay_s,
-                                                        const std::map<std::string, double>& references) {
-  constexpr double kDescribes = 0.5, kFar = 1.5;
-  StudyData calibration;
-  calibration.muscles = data.muscles;
-  std::ranges::copy_if(data.trials, std::back_inserter(calibration.trials), &TrialData::calibration);
-  if (calibration.trials.size() < 3) return std::nullopt;
-  std::vector<std::string> channels;
-  for (const MuscleSetup& setup : data.muscles) {
-    if (!contains(channels, setup.emg_channel)) channels.push_back(setup.emg_channel);
-  }
-  const LabelFit now = fit_of_labels(calibration, delay_s);
-  if (now.r2 > kDescribes) return std::nullopt;
-  std::optional<ExchangedElectrodes> best;
-  for (std::size_t t = 0; t < calibration.trials.size(); ++t) {
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      for (std::size_t j = i + 1; j < channels.size(); ++j) {
-        LabelFit fit = fit_of_labels(with_exchange(calibration, t, channels[i], channels[j], references), delay_s);
-        std::vector<double> others = fit.trial_rms_nm;
-        others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
-        const double here = fit.trial_rms_nm[t];
-        if (fit.r2 <= kDescribes || here >= (1.0 - beliefs::kStrengthRatio.sd) * now.trial_rms_nm[t] ||
-            here > kFar * math::median(std::move(others)) || fit.rms_nm >= now.rms_nm ||
-            (best && fit.rms_nm >= best->exchanged.rms_nm))
-          continue;
-        best = ExchangedElectrodes{channels[i], channels[j], calibration.trials[t].name, now, std::move(fit)};
-      }
+        best = ExchangedElectrodes{channels[i], channels[j], now, std::move(fit)};
     }
   }
   return best;

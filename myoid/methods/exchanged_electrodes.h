@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +19,6 @@ struct LabelFit {
 /// Two EMG channels that fit the torque much better when exchanged.
 struct ExchangedElectrodes {
   std::string first, second;  ///< Names of the channels.
-  std::string trial = {};     ///< The trial in which they are exchanged; empty: all.
   LabelFit as_named, exchanged;
   [[nodiscard]] std::string sentence() const;
 };
@@ -36,14 +34,5 @@ struct ExchangedElectrodes {
 /// must describe the torque (R2 above 0.5). A channel whose reference one trial alone sets, 2.5 times above all others,
 /// is not compared. Empty if there is no such pair.
 [[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, double delay_s);
-
-/// Finds the calibration trial and pair of channels whose exchange in that trial alone lowers the error of the
-/// literature's muscles most: the trial's by more than the uncertainty of the strengths, to at most 1.5 times the other
-/// trials' median error, with R2 above 0.5 over all trials. `references` are the amplitudes [V] that are activation 1,
-/// by channel; the channels are normalized anew, because the exchange may have set them. Empty for fewer than three
-/// trials, and where R2 is above 0.5 as named: there a synergist may fit one trial better by chance.
-[[nodiscard]] std::optional<ExchangedElectrodes> exchanged_in_a_trial(const StudyData& data,
-                                                                      double delay_s,
-                                                                      const std::map<std::string, double>& references);
 
 }  // namespace myoid::identification

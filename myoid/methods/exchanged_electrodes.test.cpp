@@ -71,25 +71,6 @@ TEST(ExchangedElectrodes, AreNotComparedWhereOneTrialAloneSetsTheReference) {
   EXPECT_EQ(with_a_gain, 0);
 }
 
-TEST(ExchangedElectrodes, OfOneTrialAreFoundAndSuspectedNowhereElse) {
-  int found = 0;
-  constexpr int kPersons = 20;
-  for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {
-    StudyData data = person(seed);
-    const auto none = exchanged_in_a_trial(data, 0.06, {});
-    EXPECT_FALSE(none) << seed << ": " << none->sentence();
-    const TimeSeries a = data.trials[1].activation;
-    Eigen::MatrixXd values = a.values();
-    values.col(a.index("BIC")) = a.column("TRI");
-    values.col(a.index("TRI")) = a.column("BIC");
-    data.trials[1].activation = TimeSeries(a.time_s(), a.channels(), values);
-    EXPECT_FALSE(exchanged_electrodes(data, 0.06));
-    const auto one = exchanged_in_a_trial(data, 0.06, {});
-    found += one && one->trial == data.trials[1].name && one->first == "BIC" && one->second == "TRI" ? 1 : 0;
-  }
-  EXPECT_GE(found, kPersons / 4);  // of the others the labels describe the torque of all trials with R2 above 0.5
-}
-
 TEST(FitOfLabels, IsThatOfTheMusclesThemselvesWhereTheyAreTheTruth) {
   test::ElbowStudy study = test::elbow_study({.seconds = 15.0});
   for (std::size_t k = 0; k < 4; ++k) study.data.muscles[k].start = study.truth[k];

@@ -9,7 +9,6 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/nuisances.h"
-#include "myoid/intervals/verdict_cap.h"
 #include "myoid/intervals/verdicts.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
@@ -91,7 +90,7 @@ void take_over(IdentificationResult fit, const StudyData& data, std::size_t k, I
     all.message += fmt::format("{}: {}. ", name, fit.message);
   }
   for (ParameterEstimate& e : fit.estimates) {
-    e.method = "force";
+    e.method = Method::force;
     if (e.muscle == "subject" || e.muscle == data.muscles[k].emg_channel) e.muscle = name;
   }
   const auto append = [](auto& to, auto& from) {
@@ -133,7 +132,7 @@ std::vector<Fold> cross_validate_force(const StudyData& data,
     if (!covers(options.muscles, data.muscles[k].name)) continue;
     StudyData one = force_study(data, k);
     hold_untold(one, once);
-    std::vector<Fold> of_one = cross_validate(one, once, how);
+    std::vector<Fold> of_one = cross_validate(one, identify_torque, once, how);
     std::ranges::move(of_one, std::back_inserter(folds));
   }
   return folds;
@@ -143,10 +142,10 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
   IdentificationResult all;
-  all.method = "force";
+  all.method = Method::force;
   all.termination = math::Termination::converged;
   all.exact = true;
-  all.lag = options.estimator.lag;
+  all.lag = options.estimator.law;
   for (const TrialData& trial : data.trials) {
     TrialFit fit = unfitted_trial(trial);
     fit.literature_force_n = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
@@ -173,7 +172,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     fit.score = score(measured, predicted);
   }
   if (options.shared_forces) {
-    identification::apply({{.reason = reason_of(Finding::shared_force, {}), .at_most = Verdict::prior_dominated}}, all);
+    identification::apply({{.reason = reason_of(Finding::shared_force, {}), .finding = Finding::shared_force}}, all);
     for (ParameterEstimate& e : all.estimates)
       e.std_error = e.ci_low = e.ci_high = e.given_ci_low = e.given_ci_high = std::nullopt;
   }

@@ -55,7 +55,7 @@ TEST(IdentifyForce, FollowsTheEmgAsItIsTold) {
   }
   for (const bool choose : {false, true}) {
     for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
-      const IdentificationResult r = identify_force(study.data, {.estimator = {.lag = lag, .choose_lag = choose}});
+      const IdentificationResult r = identify_force(study.data, {.estimator = {.law = lag, .choose_lag = choose}});
       ASSERT_EQ(r.trials.size(), 1U);
       const auto& measured = study.data.trials[0].force_n;
       const double rmse_n =
@@ -72,7 +72,7 @@ TEST(IdentifyForce, ByThePosteriorEachNumberHasTwoReadingsThatHoldThePerson) {
   options.detect_exact = true;
   for (MuscleSetup& muscle : study.data.muscles) {
     muscle.fixed = {"tendon_slack_length"};
-    options.estimator.gain_prior_sd[muscle.emg_channel] = 0.1;
+    options.estimator.state(muscle.emg_channel).gain_sd = 0.1;
   }
   test::StudyNoise noise(2);
   for (TrialData& trial : study.data.trials) {
@@ -86,7 +86,7 @@ TEST(IdentifyForce, ByThePosteriorEachNumberHasTwoReadingsThatHoldThePerson) {
   EXPECT_GT(r.r2, 0.9);
   int held = 0, all = 0;
   for (const ParameterEstimate& e : r.estimates) {
-    EXPECT_EQ(e.method, "force");
+    EXPECT_EQ(e.method, Method::force);
     EXPECT_FALSE(is_voluntary(e.parameter));
     ASSERT_TRUE(e.given_estimate && e.given_ci_low && e.given_ci_high && e.variance_shares);
     for (std::size_t k = 0; k < 4; ++k) {

@@ -24,9 +24,8 @@ void check_sizes(const TrialData& trial, const Eigen::MatrixXd& measured, const 
 /// Returns the moment arms of all joints at sample i; joints x muscles.
 Eigen::MatrixXd moment_arms_at(const TrialData& trial, Eigen::Index i) {
   Eigen::MatrixXd arms(static_cast<Eigen::Index>(joint_count(trial)), trial.moment_arm_m.cols());
-  arms.row(0) = trial.moment_arm_m.row(i);
-  for (Eigen::Index j = 1; j < arms.rows(); ++j)
-    arms.row(j) = trial.more_joints[static_cast<std::size_t>(j - 1)].moment_arm_m.row(i);
+  for (Eigen::Index j = 0; j < arms.rows(); ++j)
+    arms.row(j) = joint_at(trial, static_cast<std::size_t>(j)).moment_arm_m.row(i);
   return arms;
 }
 

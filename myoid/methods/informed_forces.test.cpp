@@ -25,7 +25,7 @@ std::vector<MuscleValues> values_of(const Muscles& muscles) {
 }
 
 Eigen::MatrixXd trial_activation(const ElbowStudy& study, const TrialData& trial) {
-  return muscle_activation(study.data, trial, trial.time_s, study.delay_s);
+  return muscle_activation(study.data, trial, study.delay_s);
 }
 
 ElbowStudy short_study() {
@@ -80,7 +80,7 @@ TEST(InformedForces, TheMusclesOfTheTorqueShareForcesNearTheTrueOnes) {
   double off = 0.0, size = 0.0, reserve = 0.0, samples = 0.0;
   for (const TrialData& trial : study.data.trials) {
     const InformedForces found =
-        informed_forces(trial, muscle_activation(study.data, trial, trial.time_s, fit.delay_s), fit.values.muscles);
+        informed_forces(trial, muscle_activation(study.data, trial, fit.delay_s), fit.values.muscles);
     EXPECT_EQ(found.frames_not_solved, 0);
     off += (found.force_n - trial.force_n).squaredNorm();
     size += trial.force_n.squaredNorm();

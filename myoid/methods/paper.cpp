@@ -14,7 +14,6 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
-#include "myoid/intervals/score.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/intervals/verdicts.h"
@@ -91,7 +90,7 @@ void add_statistics(CaseFit& fit) {
   fit.widen = static_cast<double>(n) / std::max(fit.effective_samples, 1.0);
   Eigen::VectorXd force(n);
   for (Eigen::Index i = 0; i < n; ++i) force[i] = fit.samples.samples[static_cast<std::size_t>(i)].force_n;
-  fit.r2 = coefficient_of_determination(force, force + search.residual);
+  fit.r2 = math::explained_share(force + search.residual, force);
   fit.exact = search.residual.norm() <= kExact * force.norm();
 }
 
@@ -175,37 +174,37 @@ bool plateau_is_flat(const CaseFit& fit) {
   return std::abs(fit.search.x[plateau] - 1.0) < math::normal_quantile(0.975) * sd;
 }
 
-/// Returns number j of a case with its verdict.
-ParameterEstimate estimate_of(const CaseFit& fit,
-                              Eigen::Index j,
-                              const MuscleSetup& setup,
-                              const PaperOptions& options) {
-  const double quantile = math::normal_quantile(0.975);
+/// Returns number j of a case with its verdict. `refuted`: how improbable it is that both branches have equal l0 and
+/// l_sh; empty: they may be equal.
+ParameterEstimate estimate_of(const CaseFit& fit, Eigen::Index j, bool shared_forces, const std::string& refuted) {
   const Eigen::VectorXd start = fit.samples.start_vector();
   const Eigen::VectorXd& x = fit.search.x;
   const muscle::HillField& field = *fit.samples.unknowns[static_cast<std::size_t>(j)];
   ParameterEstimate e;
-  e.muscle = setup.name;
+  e.muscle = fit.samples.muscle;
   e.parameter = std::string(field.name);
   e.unit = field.unit;
-  e.method = "paper";
-  e.fit_case = fit.samples.shortening ? "shortening" : "lengthening";
+  e.method = Method::paper;
+  e.fit_case = fit.told.fit_case;
   e.initial = start[j];
   e.estimate = std::abs(x[j]) <= 1e3 * std::abs(start[j]) ? x[j] : std::numeric_limits<double>::quiet_NaN();
-  NumberFacts facts{.converged = fit.failure.empty(),
-                    .failure = fit.failure,
-                    .determined = fit.computed && fit.covariance.determined[static_cast<std::size_t>(j)],
-                    .shared_force = options.shared_forces,
-                    .given_strength = !options.shared_forces && !fit.exact,
-                    .one_reading = true};
-  if (!std::isfinite(e.estimate) && facts.converged) {
-    facts.converged = false;
-    facts.failure = "it gave no number";
+  NumberFacts facts{.fit = {.converged = fit.failure.empty(),
+                            .failure = fit.failure,
+                            .of_force = true,
+                            .shared_force = shared_forces,
+                            .given_strength = !shared_forces && !fit.exact,
+                            .one_reading = true,
+                            .r2 = fit.r2},
+                    .person = {.value = e.estimate},
+                    .determined = fit.computed && fit.covariance.determined[static_cast<std::size_t>(j)]};
+  if (!std::isfinite(e.estimate) && facts.fit.converged) {
+    facts.fit.converged = false;
+    facts.fit.failure = "it gave no number";
   }
-  if (facts.determined && facts.converged) {
-    e.std_error = std::sqrt(fit.variance(j, j));
-    e.ci_low = e.estimate - quantile * *e.std_error;
-    e.ci_high = e.estimate + quantile * *e.std_error;
+  if (facts.determined && facts.fit.converged && !shared_forces) {
+    facts.person.sd = std::sqrt(fit.variance(j, j));
+    facts.person.low = e.estimate - math::normal_quantile(0.975) * facts.person.sd;
+    facts.person.high = e.estimate + math::normal_quantile(0.975) * facts.person.sd;
   }
   for (Eigen::Index other = 0; other < fit.size(); ++other) {
     if (fit.unphysical(other, start))
@@ -216,13 +215,13 @@ ParameterEstimate estimate_of(const CaseFit& fit,
     facts.no_effect =
         "no rise of force in lengthening is resolved (V_ml not clearly above 1), and without one this number has no "
         "effect";
-  facts.r2 = fit.r2;
-  facts.of_force = true;
-  facts.value = facts.given = e.estimate;
-  facts.low = facts.low_given = e.ci_low.value_or(e.estimate);
-  facts.high = facts.high_given = e.ci_high.value_or(e.estimate);
+  if (!refuted.empty()) {
+    const bool shared = std::find(kShared.begin(), kShared.end(), e.parameter) != kShared.end();
+    facts.contradiction = fmt::format(
+        "{} ({}): one muscle has one of each, the model is refuted",
+        shared ? "the other branch gives another value" : "the two branches give different l0 or l_sh", refuted);
+  }
   judge(e, facts);
-  if (options.shared_forces) e.std_error = e.ci_low = e.ci_high = std::nullopt;
   return e;
 }
 
@@ -249,39 +248,41 @@ struct PaperFit {
   std::vector<ParameterEstimate> minima;
 };
 
-/// Fits a muscle in one branch into `all`. Returns the muscle's curve; empty if it is not determined.
-std::optional<CaseShape> fit_case(
-    const StudyData& data, std::size_t muscle, bool shortening, const PaperOptions& options, PaperFit& all) {
-  const MuscleSetup& setup = data.muscles[muscle];
+/// Fits a muscle in one branch and counts the fit in `result`; empty if all numbers are held.
+std::optional<CaseFit> fit_case(const StudyData& data,
+                                std::size_t muscle,
+                                bool shortening,
+                                IdentificationResult& result) {
   PaperCase samples = paper_case(data, muscle, shortening);
-  IdentificationResult& result = all.result;
   result.samples_dropped += samples.dropped;
   result.samples_used += static_cast<int>(samples.samples.size());
   result.muscles[muscle] = samples.start;
   if (samples.unknowns.empty()) return std::nullopt;
-  const CaseFit fit = search_case(std::move(samples));
+  CaseFit fit = search_case(std::move(samples));
   result.published.push_back(fit.told);
   result.iterations += fit.search.iterations;
   if (!fit.failure.empty())
-    result.message += fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", fit.failure);
+    result.message += fmt::format("{}, {}: {}. ", fit.told.muscle, fit.told.fit_case, fit.failure);
   result.effective_samples += fit.effective_samples;
   result.r2 = std::min(result.r2, fit.r2);
-  for (Eigen::Index j = 0; j < fit.size(); ++j) {
-    result.estimates.push_back(estimate_of(fit, j, setup, options));
-    if (!fit.minimum) continue;
-    const double x = (*fit.minimum)[j];
-    all.minima.push_back(result.estimates.back());
-    all.minima.back().estimate = result.estimates.back().parameter == kShared[1] ? std::abs(x) : x;
-  }
-  return shape_of(fit);
+  return fit;
 }
 
-/// Applies a Wald test to the numbers that both cases share and neither holds. If the test rejects,
-/// no number of the muscle stays identified.
-void compare_branches(const std::string& muscle,
-                      const CaseShape& shortening,
-                      const CaseShape& lengthening,
-                      IdentificationResult& result) {
+void add_estimates(const CaseFit& fit, bool shared_forces, const std::string& refuted, PaperFit& all) {
+  for (Eigen::Index j = 0; j < fit.size(); ++j) {
+    const ParameterEstimate& e = all.result.estimates.emplace_back(estimate_of(fit, j, shared_forces, refuted));
+    if (!fit.minimum) continue;
+    const double x = (*fit.minimum)[j];
+    all.minima.push_back(e);
+    all.minima.back().estimate = e.parameter == kShared[1] ? std::abs(x) : x;
+  }
+}
+
+/// Applies a Wald test to the numbers that both cases share and neither holds. Returns its probability if it rejects.
+std::string compare_branches(const std::string& muscle,
+                             const CaseShape& shortening,
+                             const CaseShape& lengthening,
+                             IdentificationResult& result) {
   constexpr double kReject = 0.01;
   const Eigen::Vector2d difference = lengthening.value - shortening.value;
   const Eigen::Matrix2d covariance = shortening.covariance + lengthening.covariance;
@@ -295,25 +296,18 @@ void compare_branches(const std::string& muscle,
   for (std::size_t i = 0; i < free.size(); ++i)
     of_free(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) +=
         std::pow(kRounding * shortening.value[free[i]], 2);
-  if (free.empty() || !(of_free.determinant() > 0.0)) return;
+  if (free.empty() || !(of_free.determinant() > 0.0)) return "";
   const Eigen::VectorXd d = difference(free);
   const double wald = d.dot(of_free.inverse() * d);
   const double p = math::chi_squared_tail(wald, static_cast<double>(free.size()));
   result.branch_tests.push_back({muscle, difference[0], difference[1], wald, p});
-  if (!(p < kReject)) return;
-  const std::string how = p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
+  if (!(p < kReject)) return "";
+  std::string how = p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
   result.warnings.push_back(fmt::format(
       "{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, {}): one muscle has one of "
       "each, so the model or the data are wrong for it, and none of its numbers is called identified",
       muscle, 1000.0 * difference[0], 1000.0 * difference[1], how));
-  for (ParameterEstimate& e : result.estimates) {
-    if (e.muscle != muscle || e.verdict != Verdict::identified) continue;
-    const bool shared = std::find(kShared.begin(), kShared.end(), e.parameter) != kShared.end();
-    e.verdict = Verdict::weak;
-    e.reason += fmt::format(
-        ", but {} ({}): one muscle has one of each, the model is refuted",
-        shared ? "the other branch gives another value" : "the two branches give different l0 or l_sh", how);
-  }
+  return how;
 }
 
 /// Adds the table of minima, and a warning if the given start missed the lowest one.
@@ -348,7 +342,7 @@ std::array<muscle::HillParameters<double>, 2> by_branch(const IdentificationResu
 /// Predicts forces and torques of a trial by the starting and the identified numbers.
 TrialFit predicted(const StudyData& data, const TrialData& trial, const IdentificationResult& result) {
   TrialFit fit = unfitted_trial(trial);
-  const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
+  const Eigen::MatrixXd activation = muscle_activation(data, trial, 0.0);
   fit.literature_force_n.resize(trial.time_s.size(), trial.length_m.cols());
   fit.force_fit_n = fit.literature_force_n;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
@@ -374,17 +368,23 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
   const auto begin = std::chrono::steady_clock::now();
   PaperFit fit;
   IdentificationResult& result = fit.result;
-  result.method = "paper";
+  result.method = Method::paper;
   result.termination = math::Termination::converged;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     result.muscles.push_back(data.muscles[k].start);
     if (!covers(options.muscles, data.muscles[k].name)) continue;
-    const auto shortening = fit_case(data, k, true, options, fit);
-    const auto lengthening = fit_case(data, k, false, options, fit);
-    if (options.multistart > 1) {
-      for (const bool branch : {true, false}) add_basins(data, k, branch, options, result);
+    const std::array cases{fit_case(data, k, true, result), fit_case(data, k, false, result)};
+    for (const bool branch : {true, false}) {
+      if (options.multistart > 1) add_basins(data, k, branch, options, result);
     }
-    if (shortening && lengthening) compare_branches(data.muscles[k].name, *shortening, *lengthening, result);
+    std::optional<CaseShape> shortening, lengthening;
+    if (cases[0]) shortening = shape_of(*cases[0]);
+    if (cases[1]) lengthening = shape_of(*cases[1]);
+    const std::string refuted =
+        shortening && lengthening ? compare_branches(data.muscles[k].name, *shortening, *lengthening, result) : "";
+    for (const std::optional<CaseFit>& of : cases) {
+      if (of) add_estimates(*of, options.shared_forces, refuted, fit);
+    }
   }
   if (!result.message.empty()) result.termination = math::Termination::no_descent;
   result.diagnoses = signatures(fit.minima);

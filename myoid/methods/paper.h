@@ -6,7 +6,7 @@
 namespace myoid::identification {
 
 struct PaperOptions {
-  /// If above 1, searches from as many starts (start_box.h) and keeps their ends in
+  /// If above 1, searches from as many starts (basins.h) and keeps their ends in
   /// IdentificationResult::basins. The estimates stay the given start's.
   int multistart = 0;
   std::vector<std::string> muscles;  ///< Empty: all.

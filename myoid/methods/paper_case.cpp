@@ -12,7 +12,7 @@
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/identification/muscle_law.h"
-#include "myoid/methods/halved_steps.h"
+#include "myoid/math/halved_steps.h"
 
 namespace myoid::identification {
 namespace {
@@ -28,7 +28,7 @@ void add_samples(const StudyData& data, std::size_t muscle, PaperCase& result) {
       throw InvalidInput(
           fmt::format("method paper: trial '{}' has no muscle forces; share the torque first (myoid so)", trial.name));
     }
-    const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
+    const Eigen::MatrixXd activation = muscle_activation(data, trial, 0.0);
     Eigen::Index run = 0;
     for (const Eigen::Index i : included_rows(trial)) {
       const double v = trial.velocity_mps(i, column);
@@ -166,7 +166,7 @@ math::LeastSquaresResult search_as_published(const PaperCase& samples,
   return criterion_end(samples, start, full_steps, "plain Gauss-Newton steps diverged");
 }
 
-MinimumSearch search_for_minimum(const PaperCase& samples, const Eigen::VectorXd& start, const Progress& progress) {
+MinimumSearch search_for_minimum(const PaperCase& samples, const Eigen::VectorXd& start) {
   const auto found_by = [&](const CriterionSearch& search) {
     math::LeastSquaresResult found =
         criterion_end(samples, start, search, "the criterion falls as {} grows without limit");
@@ -179,11 +179,11 @@ MinimumSearch search_for_minimum(const PaperCase& samples, const Eigen::VectorXd
     return found;
   };
   MinimumSearch halved{.found = found_by([&](const math::LeastSquaresProblem& problem) {
-                         return minimize_by_halved_steps(problem, start, progress);
+                         return math::minimize_by_halved_steps(problem, start);
                        })};
   if (halved.found.termination == math::Termination::converged) return halved;
   MinimumSearch damped{.found = found_by([&](const math::LeastSquaresProblem& problem) {
-                         return math::minimize(problem, start, {.max_iterations = 500, .progress = progress});
+                         return math::minimize(problem, start, {.max_iterations = 500});
                        }),
                        .damped = true};
   const bool better = damped.found.termination == math::Termination::converged || damped.found.cost < halved.found.cost;

@@ -60,9 +60,6 @@ struct MinimumSearch {
 
 /// Searches for the minimum of the published criterion by the same steps, each halved until the criterion falls; where
 /// they find none, by damped steps. Ends as `search_as_published` does. An end where the muscle makes no force is none.
-/// Throws Interrupted.
-[[nodiscard]] MinimumSearch search_for_minimum(const PaperCase& samples,
-                                               const Eigen::VectorXd& start,
-                                               const Progress& progress = {});
+[[nodiscard]] MinimumSearch search_for_minimum(const PaperCase& samples, const Eigen::VectorXd& start);
 
 }  // namespace myoid::identification

@@ -39,7 +39,7 @@ constexpr double kNamed = 0.05;  ///< Share of an open direction from which it n
 class PlainFit {
  public:
   PlainFit(const StudyData& data, const EstimatorOptions& options)
-      : map_(data, options), runs_(trial_runs(data, options, map_)), lag_(options.lag), progress_(options.progress) {
+      : map_(data, options), runs_(trial_runs(data, options, map_)), lag_(options.law), progress_(options.progress) {
     for (const TrialRun& run : runs_) rows_ += run.row_count();
     measured_nm_.resize(rows_);
     Eigen::Index first = 0;
@@ -139,10 +139,9 @@ std::vector<Eigen::Index> irregular_rows(Eigen::Index count, double apart) {
   return rows;
 }
 
-/// Returns the options without priors, gains and low-pass, whose envelopes are the drives.
+/// Returns the options without priors, and so without gains, and without low-pass, whose envelopes are the drives.
 EstimatorOptions plain(EstimatorOptions options) {
   options.priors = false;
-  options.gain_prior_sd.clear();
   options.residual_cutoff_hz.reset();
   options.max_rate_hz = std::max(options.max_rate_hz, kNoiseFreeRate_hz);
   options.drives = std::make_shared<DriveMemory>(0.0);
@@ -178,26 +177,23 @@ struct ExactRows {
   template <class Value>
   void fill(ParameterEstimate& e, Eigen::Index j, const Value& of) const {
     const Unknown& p = map.free()[static_cast<std::size_t>(j)];
-    NumberFacts facts{.determined = covariance.determined[static_cast<std::size_t>(j)], .one_reading = true};
-    facts.converged = found.termination == math::Termination::converged;
-    facts.failure = found.message;
+    NumberFacts facts{.fit = {.converged = found.termination == math::Termination::converged,
+                              .failure = found.message,
+                              .one_reading = true},
+                      .person = {.value = e.estimate},
+                      .determined = covariance.determined[static_cast<std::size_t>(j)]};
     e.at_bound = found.at_bound[static_cast<std::size_t>(j)];
     if (facts.determined) {
       const double reach = math::normal_quantile(0.975) * sd(j), z = found.x[j];
       const double one = of(std::max(z - reach, p.bounds.lower)), other = of(std::min(z + reach, p.bounds.upper));
-      e.ci_low = std::min({one, other, e.estimate});
-      e.ci_high = std::max({one, other, e.estimate});
-      e.std_error = 0.5 * std::abs(of(z + sd(j)) - of(z - sd(j)));
+      facts.person.low = std::min({one, other, e.estimate});
+      facts.person.high = std::max({one, other, e.estimate});
+      facts.person.sd = 0.5 * std::abs(of(z + sd(j)) - of(z - sd(j)));
     }
-    e.given_estimate = e.estimate;
-    e.given_ci_low = e.ci_low;
-    e.given_ci_high = e.ci_high;
-    facts.value = facts.given = e.estimate;
-    facts.low = facts.low_given = e.ci_low.value_or(e.estimate);
-    facts.high = facts.high_given = e.ci_high.value_or(e.estimate);
-    facts.is_delay = p.is(Scope::channel, kDelay);
+    facts.given = facts.person;
+    if (p.is(Scope::channel, kDelay)) facts.scale = Scale::delay;
     if (zero_by_nature(e.parameter)) facts.usual_size = 1.0;
-    facts.at_bound = e.at_bound && !facts.is_delay && !zero_by_nature(e.parameter);
+    facts.at_bound = e.at_bound && facts.scale != Scale::delay && !zero_by_nature(e.parameter);
     judge(e, facts);
   }
 
@@ -267,7 +263,6 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
   if (!found) return std::nullopt;
   const math::CovarianceResult covariance = math::covariance(found->jacobian, found->residual);
   IdentificationResult result;
-  result.method = "torque";
   result.exact = true;
   result.termination = found->termination;
   result.message = found->message;
@@ -278,7 +273,7 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
   result.covariance = covariance.residual_variance * covariance.unscaled;
   result.values = whole.map().values(found->x);
   for (const MuscleValues& values : result.values.muscles) result.muscles.push_back(hill_parameters(values));
-  result.lag = as_it_is.lag;
+  result.lag = as_it_is.law;
   result.delay_s = result.values.channels.front()[kDelay];
   result.r2 = math::explained_share(whole.measured_nm() + found->residual, whole.measured_nm());
   result.torque_sd_nm = std::sqrt(covariance.residual_variance);

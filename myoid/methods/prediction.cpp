@@ -7,18 +7,16 @@
 #include <utility>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/envelope.h"
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/math/statistics.h"
-#include "myoid/muscle/hill_muscle.h"
 #include "myoid/posterior/likelihood.h"
 #include "myoid/posterior/trial_run.h"
 
 namespace myoid::identification {
 
 EstimatorOptions beginning_at(const IdentificationResult& fit, EstimatorOptions options) {
-  if (fit.noise.size() > 0)
-    options.begin_at =
-        std::make_shared<const FitStart>(FitStart{fit.free_parameters, fit.solution, fit.noise, fit.lag});
+  if (fit.noise.size() > 0) options.begin_at = std::make_shared<const FittedUnknowns>(fit);
   return options;
 }
 
@@ -27,31 +25,12 @@ Prediction predict(const StudyData& data,
                    const std::vector<muscle::HillParameters<double>>& muscles,
                    double delay_s,
                    EmgLag lag) {
-  Prediction p;
-  p.activation = muscle_activation(data, trial, trial.time_s, delay_s);
-  if (lag != EmgLag::delay) {
-    ChannelValues as_it_is{};
-    as_it_is[kDelay] = delay_s;
-    as_it_is[kGain] = as_it_is[kExponent] = 1.0;
-    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-      const Envelope envelope(trial.activation.time_s(), trial.activation.column(data.muscles[k].emg_channel));
-      const std::vector<Activation> a = activation(envelope, trial.time_s, as_it_is, lag);
-      for (std::size_t i = 0; i < a.size(); ++i)
-        p.activation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = a[i].value;
-    }
-  }
-  p.force_n.resize(trial.time_s.size(), trial.length_m.cols());
-  for (Eigen::Index k = 0; k < p.force_n.cols(); ++k) {
-    const auto& parameters = muscles[static_cast<std::size_t>(k)];
-    for (Eigen::Index i = 0; i < p.force_n.rows(); ++i) {
-      p.force_n(i, k) = muscle::hill_force(p.activation(i, k), trial.length_m(i, k) - parameters.tendon_slack_length_m,
-                                           trial.velocity_mps(i, k), parameters);
-    }
-  }
-  if (trial.moment_arm_m.rows() == trial.time_s.size()) {
-    p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
-  }
-  return p;
+  ChannelValues as_it_is{};
+  as_it_is[kDelay] = delay_s;
+  as_it_is[kGain] = as_it_is[kExponent] = 1.0;
+  ModelValues values{.muscles = {}, .channels = {muscles.size(), as_it_is}, .joints = {}};
+  for (const muscle::HillParameters<double>& muscle : muscles) values.muscles.push_back(muscle_values(muscle));
+  return predict(data, trial, values, lag);
 }
 
 Prediction predict(const StudyData& data, const TrialData& trial, const ModelValues& values, EmgLag lag) {
@@ -86,7 +65,7 @@ Prediction predict(const StudyData& data, const TrialData& trial, const ModelVal
     if (at < values.joints.size()) {
       const JointValues& joint = values.joints[at];
       p.torque_nm.array() += joint[kOffset];
-      if (const Eigen::MatrixXd motion = motion_of(trial); motion.size() > 0)
+      if (const Eigen::MatrixXd motion = motion_of(trial, n); motion.size() > 0)
         p.torque_nm -=
             joint[kViscosity] * motion.col(1) + joint[kInertia] * motion.col(2) + joint[kStiffness] * motion.col(0);
     }
@@ -98,7 +77,7 @@ namespace {
 
 /// Returns the options of a fit's predictions: its lag, and its answer as the reference of the unseen quantities.
 EstimatorOptions of_predictions(EstimatorOptions options, const IdentificationResult& fit) {
-  options.lag = fit.lag;
+  options.law = fit.lag;
   options.progress = {};
   return beginning_at(fit, std::move(options));
 }

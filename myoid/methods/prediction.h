@@ -11,12 +11,13 @@
 
 namespace myoid::identification {
 
-/// Torque of each muscle set over a trial with given parameters, delay and gains of 1.
+/// The muscles in one trial.
 struct Prediction {
   Eigen::MatrixXd force_n;     ///< n x m
   Eigen::VectorXd torque_nm;   ///< n
   Eigen::MatrixXd activation;  ///< n x m: activation of each muscle's EMG channel.
 };
+/// Predicts with the paper's law of these muscles, one delay and gains of 1.
 [[nodiscard]] Prediction predict(const StudyData& data,
                                  const TrialData& trial,
                                  const std::vector<muscle::HillParameters<double>>& muscles,

@@ -16,7 +16,7 @@ struct SolverRun {
   int start = 0;
   math::Termination termination = math::Termination::no_descent;
   double cost = 0.0;
-  double distance = 0.0;  ///< Distance to the best minimum of all runs (start_box.h).
+  double distance = 0.0;  ///< Distance to the best minimum of all runs (basins.h).
   int evaluations = 0;    ///< Evaluations of the whole residual.
   double seconds = 0.0;
 };
@@ -28,7 +28,7 @@ struct SolverContest {
 };
 
 struct ContestOptions {
-  int starts = 3;                  ///< Number of starts: the given one and Sobol points of the box (start_box.h).
+  int starts = 3;                  ///< Number of starts: the given one and Sobol points of the box (basins.h).
   int direct_evaluations = 20000;  ///< Limit per start for the simplex and annealing.
   int basin_starts = 31;           ///< Number of starts for the table of basins.
   std::uint64_t seed = 1;          ///< Seed of annealing.

@@ -16,7 +16,7 @@
 namespace myoid::identification {
 namespace {
 
-void add_predictions(const StudyData& data, const TorqueOptions& options, IdentificationResult& result) {
+void add_predictions(const StudyData& data, const EstimatorOptions& options, IdentificationResult& result) {
   ModelValues literature = result.values;
   for (std::size_t k = 0; k < data.muscles.size(); ++k)
     literature.muscles[k] = muscle_values(data.muscles[k].start, data.muscles[k].extras);
@@ -31,7 +31,7 @@ void add_predictions(const StudyData& data, const TorqueOptions& options, Identi
     for (std::size_t j = 0; j < joint_count(whole); ++j) {
       const TrialData trial = of_joint(whole, j);
       TrialFit& fit = result.trials.emplace_back(predictions.of(trial));
-      Prediction before = predict(data, trial, literature, options.lag);
+      Prediction before = predict(data, trial, literature, options.law);
       fit.literature_force_n = std::move(before.force_n);
       fit.literature_torque_nm = std::move(before.torque_nm);
     }
@@ -46,7 +46,7 @@ EstimatorOptions remembering_drives(EstimatorOptions options) {
 }
 
 std::vector<VerdictCap> caps_of_torque(const StudyData& data,
-                                       const TorqueOptions& options,
+                                       const EstimatorOptions& options,
                                        IdentificationResult& result) {
   std::vector<VerdictCap> caps;
   const std::optional<double> share = told_by_motion_alone(data);
@@ -61,20 +61,20 @@ std::vector<VerdictCap> caps_of_torque(const StudyData& data,
   if (!options.predictions) return caps;
   if (const std::optional<LateEmg> late = late_emg_of_no_delay(data, options, result)) {
     result.warnings.push_back("emg_delay: " + late->sentence());
-    caps.push_back({.reason = late->sentence(), .parameters = {"emg_delay"}, .at_most = Verdict::not_identifiable});
+    caps.push_back({.reason = late->sentence(), .parameters = {"emg_delay"}, .finding = Finding::late_emg});
   }
   return caps;
 }
 
-IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
-  const TorqueOptions remembering = remembering_drives(options);
+IdentificationResult identify_torque(const StudyData& data, const EstimatorOptions& options) {
+  const EstimatorOptions remembering = remembering_drives(options);
   IdentificationResult result = identify_by_posterior(data, remembering);
   if (options.predictions) add_predictions(data, remembering, result);
   if (!options.measured_is_force) identification::apply(caps_of_torque(data, options, result), result);
   return result;
 }
 
-std::optional<IdentificationResult> identify_exactly(const StudyData& data, const TorqueOptions& options) {
+std::optional<IdentificationResult> identify_exactly(const StudyData& data, const EstimatorOptions& options) {
   std::optional<IdentificationResult> exact = exact_fit(data, options);
   if (exact && options.predictions) add_predictions(data, options, *exact);
   return exact;

@@ -7,11 +7,9 @@
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
-#include "myoid/intervals/verdict_cap.h"
+#include "myoid/intervals/verdicts.h"
 
 namespace myoid::identification {
-
-using TorqueOptions = EstimatorOptions;
 
 /// Fits all muscles of the joints and both branches together, from all calibration trials, to the torque of inverse
 /// dynamics:
@@ -22,19 +20,19 @@ using TorqueOptions = EstimatorOptions;
 /// gain g per EMG channel, and further numbers that `StudyData::rules` free. Estimates, intervals and verdicts are
 /// those of one posterior (posterior/posterior.h). Verdicts are capped by `caps_of_torque`. Throws InvalidInput for
 /// data that do not fit together. A search that fails does not throw: read `termination`.
-[[nodiscard]] IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options = {});
+[[nodiscard]] IdentificationResult identify_torque(const StudyData& data, const EstimatorOptions& options = {});
 
 /// Returns the options with a memory of the drives behind the envelopes, which fits of one recording share.
 [[nodiscard]] EstimatorOptions remembering_drives(EstimatorOptions options);
 
 /// Returns the exact fit of data without noise (exact_fit) with its predictions; empty if there is none.
 [[nodiscard]] std::optional<IdentificationResult> identify_exactly(const StudyData& data,
-                                                                   const TorqueOptions& options = {});
+                                                                   const EstimatorOptions& options = {});
 
 /// Returns the caps that the data themselves put on a fit's verdicts, and warns of each in the result: motion alone
 /// tells the torque (told_by_motion_alone, VerdictRules::motion_alone), or the EMG is late (late_emg.h).
 [[nodiscard]] std::vector<VerdictCap> caps_of_torque(const StudyData& data,
-                                                     const TorqueOptions& options,
+                                                     const EstimatorOptions& options,
                                                      IdentificationResult& result);
 
 }  // namespace myoid::identification

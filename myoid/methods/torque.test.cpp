@@ -43,7 +43,7 @@ const ParameterEstimate& find(const IdentificationResult& result,
 }
 
 /// The exact fit of data without noise.
-IdentificationResult exactly(const StudyData& data, const TorqueOptions& options = {}) {
+IdentificationResult exactly(const StudyData& data, const EstimatorOptions& options = {}) {
   std::optional<IdentificationResult> fit = identify_exactly(data, options);
   if (!fit) throw InvalidInput("no exact fit");
   return std::move(*fit);
@@ -186,7 +186,7 @@ TEST(IdentifyTorque, ATrialOnlyInLengtheningSaysNothingAboutShortening) {
     m->conservativeResize(n, 1);
   }
   trial.velocity_mps = trial.velocity_mps.cwiseAbs();
-  Eigen::MatrixXd activation = muscle_activation(study.data, trial, trial.time_s, study.delay_s);
+  Eigen::MatrixXd activation = muscle_activation(study.data, trial, study.delay_s);
   for (Eigen::Index i = 0; i < n; ++i) {
     trial.torque_nm[i] =
         trial.moment_arm_m(i, 0) * muscle::hill_force(activation(i, 0),
@@ -233,7 +233,10 @@ TEST(IdentifyTorque, HeldParametersStayAndOthersTakeTheirBounds) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .with_priors = true});
   study.data.muscles[1].fixed = {"concentric_curvature", "force_length_width"};
   study.data.muscles[2].bounds["optimal_fiber_length"] = {0.165, 0.175};
-  const IdentificationResult result = identify_torque(study.data, {.muscles = {"BRA", "BRD"}, .delay_s = 0.05});
+  EstimatorOptions options;
+  options.muscles = {"BRA", "BRD"};
+  options.delay_s = 0.05;
+  const IdentificationResult result = identify_torque(study.data, options);
   EXPECT_EQ(result.free_parameters.size(), 4U + 6U);
   EXPECT_EQ(result.muscles[0].max_isometric_force_n, study.data.muscles[0].start.max_isometric_force_n);
   EXPECT_EQ(result.muscles[1].concentric_curvature, study.data.muscles[1].start.concentric_curvature);
@@ -283,9 +286,9 @@ TEST(IdentifyExactly, FreesTheSpeedOnlyIfTheDataAreMetOnlyThen) {
 
 TEST(IdentifyExactly, GivesTheDataBackBesideNuisances) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .with_priors = true});
-  TorqueOptions options;
+  EstimatorOptions options;
   options.unseen = {};
-  for (const MuscleSetup& muscle : study.data.muscles) options.gain_prior_sd[muscle.emg_channel] = 0.1;
+  for (const MuscleSetup& muscle : study.data.muscles) options.state(muscle.emg_channel).gain_sd = 0.1;
   study.data.rules = nuisance_rules(study.data, true);
   const std::optional<IdentificationResult> result = identify_exactly(study.data, options);
   ASSERT_TRUE(result);

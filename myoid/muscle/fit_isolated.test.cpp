@@ -6,35 +6,17 @@
 
 #include "myoid/core/error.h"
 
+#include "tests/support/small_muscle.h"
+
 namespace myoid::muscle {
 namespace {
-
-IsolatedModel small_muscle() {
-  const double l0 = 0.02;
-  const MusculotendonLaws laws = millard_laws();
-  IsolatedModel model{.laws = laws};
-  model.parameters = published_defaults({.max_isometric_force_n = 2.0,
-                                         .optimal_fiber_length_m = l0,
-                                         .force_length_width_m = 0.45 * l0,
-                                         .concentric_curvature = 0.25,
-                                         .eccentric_curvature_product = 0.04,
-                                         .eccentric_plateau = 1.4,
-                                         .max_shortening_speed_mps = 6.0 * l0,
-                                         .tendon_slack_length_m = l0},
-                                        laws);
-  return model;
-}
 
 std::vector<IsolatedRecording> recordings_of(const IsolatedModel& truth) {
   std::vector<IsolatedRecording> list;
   for (const double amplitude_m : {0.0008, 0.0016, 0.003}) {
-    IsolatedRecording r{.name = "swing"};
-    r.input.time_s = Eigen::VectorXd::LinSpaced(41, 0.0, 1.0);
-    r.input.length_m = (0.0405 + amplitude_m * (14.0 * r.input.time_s.array()).sin()).matrix();
-    r.input.drive = Eigen::VectorXd::Ones(1);
+    IsolatedRecording r = test::swing(amplitude_m, "swing");
     r.input.drive_is_excitation = true;
     r.input.initial_activation = 0.01;
-    r.time_s = Eigen::VectorXd::LinSpaced(60, 0.0, 0.98);
     r.force_n = isolated_force(truth, r);
     list.push_back(std::move(r));
   }
@@ -42,12 +24,12 @@ std::vector<IsolatedRecording> recordings_of(const IsolatedModel& truth) {
 }
 
 TEST(FitIsolatedMuscle, FindsTheMuscleThatMadeTheForcesBehindItsElasticTendon) {
-  IsolatedModel truth = small_muscle();
+  IsolatedModel truth = test::small_muscle();
   truth.parameters.hill.max_isometric_force_n = 2.4;
   truth.parameters.hill.max_shortening_speed_mps = 0.09;
   truth.parameters.tendon_strain = 0.06;
   const IsolatedFit fit =
-      fit_isolated_muscle(small_muscle(), recordings_of(truth),
+      fit_isolated_muscle(test::small_muscle(), recordings_of(truth),
                           {.parameters = {"max_isometric_force", "max_shortening_speed", "tendon_strain"}});
   ASSERT_EQ(fit.termination, math::Termination::converged) << fit.message;
   // The integrations' tolerance of 1e-7 of the force, of which slopes are of order one.
@@ -59,16 +41,16 @@ TEST(FitIsolatedMuscle, FindsTheMuscleThatMadeTheForcesBehindItsElasticTendon) {
 }
 
 TEST(FitIsolatedMuscle, MovesThePlateauOfMillardsCurveWithTheParameter) {
-  IsolatedModel truth = small_muscle();
+  IsolatedModel truth = test::small_muscle();
   truth.millard.max_eccentric_multiplier = 1.6;
   const IsolatedFit fit =
-      fit_isolated_muscle(small_muscle(), recordings_of(truth), {.parameters = {"eccentric_plateau"}});
+      fit_isolated_muscle(test::small_muscle(), recordings_of(truth), {.parameters = {"eccentric_plateau"}});
   EXPECT_NEAR(fit.estimates[0].value, 1.6, 1e-3);
   EXPECT_EQ(fit.model.millard.max_eccentric_multiplier, fit.estimates[0].value);
 }
 
 TEST(FitIsolatedMuscle, MovesThePassiveStrainOfMillardsCurveWithTheParameter) {
-  IsolatedModel truth = small_muscle();
+  IsolatedModel truth = test::small_muscle();
   truth.millard.passive_strain_at_one = 0.55;
   truth.millard.passive_stiffness_at_one = 2.0 / 0.55;
   std::vector<IsolatedRecording> recordings = recordings_of(truth);
@@ -76,7 +58,7 @@ TEST(FitIsolatedMuscle, MovesThePassiveStrainOfMillardsCurveWithTheParameter) {
     r.input.length_m.array() += 0.006;  // on the passive limb
     r.force_n = isolated_force(truth, r);
   }
-  const IsolatedFit fit = fit_isolated_muscle(small_muscle(), recordings, {.parameters = {"passive_strain"}});
+  const IsolatedFit fit = fit_isolated_muscle(test::small_muscle(), recordings, {.parameters = {"passive_strain"}});
   EXPECT_EQ(fit.estimates[0].start, 0.7);
   EXPECT_NEAR(fit.estimates[0].value, 0.55, 1e-3);
   EXPECT_TRUE(fit.estimates[0].told);
@@ -84,9 +66,9 @@ TEST(FitIsolatedMuscle, MovesThePassiveStrainOfMillardsCurveWithTheParameter) {
 
 TEST(FitIsolatedMuscle, AParameterWithoutAnEffectHasNoStandardError) {
   // The exponent of the passive law is unused by Millard's curves: the derivative is 0, the standard error infinite.
-  IsolatedModel truth = small_muscle();
+  IsolatedModel truth = test::small_muscle();
   truth.parameters.hill.max_isometric_force_n = 2.4;
-  const IsolatedFit fit = fit_isolated_muscle(small_muscle(), recordings_of(truth),
+  const IsolatedFit fit = fit_isolated_muscle(test::small_muscle(), recordings_of(truth),
                                               {.parameters = {"max_isometric_force", "passive_shape"}});
   EXPECT_NEAR(fit.estimates[0].value / 2.4, 1.0, 1e-4);
   EXPECT_TRUE(fit.estimates[0].told);
@@ -96,7 +78,7 @@ TEST(FitIsolatedMuscle, AParameterWithoutAnEffectHasNoStandardError) {
 
 TEST(FitIsolatedMuscle, FromASlackMuscleASearchElsewhereFindsTheMuscle) {
   // A tendon 6 mm longer than whole unit and fiber: slack at every length, no force, no derivative.
-  const IsolatedModel truth = small_muscle();
+  const IsolatedModel truth = test::small_muscle();
   IsolatedModel slack = truth;
   slack.parameters.hill.tendon_slack_length_m = 0.046;
   const IsolatedFitOptions alone{.parameters = {"tendon_slack_length"}, .other_starts = 0};
@@ -136,8 +118,8 @@ TEST(FitIsolatedMuscle, WidensAStandardErrorToTheJackknifes) {
 }
 
 TEST(FitIsolatedMuscle, RefusesWhatIsNoParameterOrCannotBeScaled) {
-  const auto recordings = recordings_of(small_muscle());
-  const IsolatedModel start = small_muscle();
+  const auto recordings = recordings_of(test::small_muscle());
+  const IsolatedModel start = test::small_muscle();
   EXPECT_THROW((void)fit_isolated_muscle(start, recordings, {.parameters = {"strength"}}), InvalidInput);
   EXPECT_THROW((void)fit_isolated_muscle(start, recordings, {.parameters = {"pennation_at_optimal"}}), InvalidInput);
   EXPECT_THROW((void)fit_isolated_muscle(start, recordings, {.parameters = {}}), InvalidInput);

@@ -5,6 +5,8 @@
 
 #include "myoid/core/error.h"
 
+#include "tests/support/small_muscle.h"
+
 namespace myoid::muscle {
 namespace {
 
@@ -12,30 +14,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-IsolatedModel muscle_of_two_newtons() {
-  const double l0 = 0.02;
-  const MusculotendonLaws laws = millard_laws();
-  IsolatedModel model{.laws = laws};
-  model.parameters = published_defaults({.max_isometric_force_n = 2.0,
-                                         .optimal_fiber_length_m = l0,
-                                         .force_length_width_m = 0.45 * l0,
-                                         .concentric_curvature = 0.25,
-                                         .eccentric_curvature_product = 0.04,
-                                         .eccentric_plateau = 1.4,
-                                         .max_shortening_speed_mps = 6.0 * l0,
-                                         .tendon_slack_length_m = l0},
-                                        laws);
-  return model;
-}
-
 /// The muscle's own force while its length swings by `amplitude_m`.
 IsolatedRecording swing(double amplitude_m, const std::string& name) {
-  IsolatedRecording r{.name = name};
-  r.input.time_s = Eigen::VectorXd::LinSpaced(41, 0.0, 1.0);
-  r.input.length_m = (0.0405 + amplitude_m * (14.0 * r.input.time_s.array()).sin()).matrix();
-  r.input.drive = Eigen::VectorXd::Ones(1);
-  r.time_s = Eigen::VectorXd::LinSpaced(60, 0.0, 0.98);
-  r.force_n = isolated_force(muscle_of_two_newtons(), r);
+  IsolatedRecording r = test::swing(amplitude_m, name);
+  r.force_n = isolated_force(test::small_muscle(), r);
   return r;
 }
 
@@ -54,7 +36,7 @@ TEST(IsolatedChecks, AForceInAnotherUnitIsSuspiciousOrRefused) {
 
 TEST(IsolatedChecks, ExchangedRecordingsAreNamed) {
   std::vector<IsolatedRecording> recordings{swing(0.0002, "small"), swing(0.003, "large")};
-  const IsolatedModel muscle = muscle_of_two_newtons();
+  const IsolatedModel muscle = test::small_muscle();
   EXPECT_EQ(mean_force_error(muscle, recordings[1], 1e-9), 0.0);
   EXPECT_THAT(check_recording_order(muscle, recordings, 1e-8), IsEmpty());
   std::swap(recordings[0].force_n, recordings[1].force_n);

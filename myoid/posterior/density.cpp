@@ -61,7 +61,7 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
     if (of.prior.sd > 0.0) prior_mean_[j] = of.prior.mean;
   }
   const bool known = std::all_of(parameters().channels().begin(), parameters().channels().end(),
-                                 [&](const std::string& name) { return options.bandwidth_hz(name) > 0.0; });
+                                 [&](const std::string& name) { return options.of(name).bandwidth_hz > 0.0; });
   noise_mean_.setZero(kNoiseFieldCount + likelihood_.trial_count());
   noise_sd_.setConstant(noise_mean_.size(), beliefs::kTrialTorqueNoise.sd);
   noise_mean_[kTorqueSd] = std::log(beliefs::kTorqueNoise.value * std::max(likelihood_.torque_size_nm(), 1e-9));
@@ -141,7 +141,7 @@ Eigen::VectorXd Density::start() const {
   return x_of(parameters().start(), noise);
 }
 
-Eigen::VectorXd Density::start_at(const FitStart& at) const {
+Eigen::VectorXd Density::start_at(const FittedUnknowns& at) const {
   NoiseValues noise = noise_of(start());
   const Eigen::Index shared = std::min<Eigen::Index>(kNoiseFieldCount, at.noise.size());
   noise.head(shared) = at.noise.head(shared);

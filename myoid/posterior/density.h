@@ -56,7 +56,7 @@ class Density {
   [[nodiscard]] Eigen::VectorXd start() const;
   /// Returns the point of another fit's answer, EstimatorOptions::begin_at, which is the reference of a new density.
   /// Unknowns and trials that this density alone has begin as in `start`.
-  [[nodiscard]] Eigen::VectorXd start_at(const FitStart& at) const;
+  [[nodiscard]] Eigen::VectorXd start_at(const FittedUnknowns& at) const;
   /// Returns the longest step of a search for each entry of x: a standard deviation of the prior,
   /// and at most 2, over which the logistic map changes its shape.
   [[nodiscard]] Eigen::VectorXd longest_step(const Eigen::VectorXd& x) const;

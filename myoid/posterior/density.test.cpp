@@ -25,7 +25,7 @@ TEST(Density, TheGradientIsThatOfDifferences) {
   const ElbowStudy study = crowded_study();
   for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
     EstimatorOptions options = crowded_options();
-    options.lag = lag;
+    options.law = lag;
     Density density(study.data, options);
     if (lag == EmgLag::shared) density.integrate_unlikeness();
     Eigen::VectorXd x = density.start();

@@ -9,18 +9,17 @@
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
-Draws draw_normal(const Eigen::VectorXd& mean,
-                  const Eigen::MatrixXd& covariance,
-                  Eigen::Index count,
-                  std::uint64_t seed) {
+
+Eigen::MatrixXd draw_normal(const Eigen::VectorXd& mean,
+                            const Eigen::MatrixXd& covariance,
+                            Eigen::Index count,
+                            std::uint64_t seed) {
   const Eigen::MatrixXd root = covariance.llt().matrixL();
-  Draws draws;
-  draws.x.resize(mean.size(), count);
+  Eigen::MatrixXd draws(mean.size(), count);
   for (Eigen::Index i = 0; i < count; ++i) {
     math::Random random(seed, static_cast<std::uint64_t>(i));
-    draws.x.col(i) = mean + root * random.normals(mean.size());
+    draws.col(i) = mean + root * random.normals(mean.size());
   }
-  draws.weight = Eigen::VectorXd::Constant(count, 1.0 / static_cast<double>(count));
   return draws;
 }
 

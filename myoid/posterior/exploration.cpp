@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "myoid/posterior/draws.h"
 #include "myoid/posterior/marginals.h"
 #include "myoid/posterior/sampler.h"
 
@@ -66,7 +67,7 @@ std::vector<Candidate> modes_of(Density& density,
                                 double floor,
                                 const EstimatorOptions& options) {
   std::vector<Candidate> found{
-      {.density = &density, .lag = options.lag, .mode = settle(density, starts.front(), floor, options.progress)}};
+      {.density = &density, .lag = options.law, .mode = settle(density, starts.front(), floor, options.progress)}};
   std::vector<Basin> basins{Basin(density, found.front().mode.x)};
   const auto is_known = [&](const Eigen::VectorXd& x) {
     return std::any_of(basins.begin(), basins.end(), [&](const Basin& b) { return b.holds(x); });
@@ -78,7 +79,7 @@ std::vector<Candidate> modes_of(Density& density,
     Mode mode = find_mode(density, rough, options.progress);
     if (!mode.converged || is_known(mode.x)) continue;
     basins.emplace_back(density, mode.x);
-    found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
+    found.push_back({.density = &density, .lag = options.law, .mode = std::move(mode)});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.mode.log_density > b.mode.log_density; });
@@ -115,7 +116,7 @@ void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) 
 
 /// Draws about one mode: from the density itself where the options ask for draws, else from its
 /// marginals, else from the normal approximation.
-Draws draws_about(const Candidate& c, const EstimatorOptions& options, std::uint64_t seed, Sample& sample) {
+Eigen::MatrixXd draws_about(const Candidate& c, const EstimatorOptions& options, std::uint64_t seed, Sample& sample) {
   const auto log_density = [](const Density& of) {
     return [&of](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) { return of.value(x, gradient); };
   };
@@ -141,32 +142,33 @@ Draws draws_about(const Candidate& c, const EstimatorOptions& options, std::uint
 
 Sample sample(const std::vector<Candidate>& candidates, const EstimatorOptions& options) {
   Sample all;
-  std::vector<Draws> parts;
+  std::vector<Eigen::MatrixXd> parts;
   Eigen::Index count = 0;
   for (const Candidate& c : candidates) {
     parts.push_back(draws_about(c, options, kSeed + 10 * parts.size(), all));
-    count += parts.back().x.cols();
+    count += parts.back().cols();
   }
   const Eigen::Index p = candidates.front().density->parameters().size();
-  all.of_best = parts.front().x.cols();
+  all.of_best = parts.front().cols();
   all.z.resize(p, count);
   all.noise.resize(candidates.front().density->size() - p, count);
   all.weight.resize(count);
   Eigen::Index first = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (Eigen::Index k = 0; k < parts[i].x.cols(); ++k) {
-      all.z.col(first + k) = candidates[i].density->z_of(parts[i].x.col(k));
-      all.noise.col(first + k) = candidates[i].density->noise_of(parts[i].x.col(k));
+    const Eigen::Index of_mode = parts[i].cols();
+    for (Eigen::Index k = 0; k < of_mode; ++k) {
+      all.z.col(first + k) = candidates[i].density->z_of(parts[i].col(k));
+      all.noise.col(first + k) = candidates[i].density->noise_of(parts[i].col(k));
     }
-    all.weight.segment(first, parts[i].x.cols()) = candidates[i].weight * parts[i].weight;
-    first += parts[i].x.cols();
+    all.weight.segment(first, of_mode).setConstant(candidates[i].weight * (1.0 / static_cast<double>(of_mode)));
+    first += of_mode;
   }
   return all;
 }
 
 /// Returns the mode next to another fit's answer, with that fit's law of lag. Other modes are not looked for.
-Exploration explore_from(const FitStart& at, const StudyData& data, EstimatorOptions options) {
-  options.lag = at.lag;
+Exploration explore_from(const FittedUnknowns& at, const StudyData& data, EstimatorOptions options) {
+  options.law = at.lag;
   Exploration found;
   Density& density = *found.densities.emplace_back(std::make_unique<Density>(data, options));
   const Eigen::VectorXd start = density.start_at(at);
@@ -192,9 +194,9 @@ Exploration explore(const StudyData& data, const EstimatorOptions& options) {
   const int others = options.marginals ? kOtherStarts : 0;
   for (int s = 0; s < others; ++s) starts.push_back(moved_start(by_delay, s));
   found.modes = modes_of(by_delay, starts, -1e300, options);
-  if (options.choose_lag && options.lag == EmgLag::delay) {
+  if (options.choose_lag && options.law == EmgLag::delay) {
     EstimatorOptions with_lags = options;
-    with_lags.lag = EmgLag::shared;
+    with_lags.law = EmgLag::shared;
     Density& by_lags = *found.densities.emplace_back(std::make_unique<Density>(data, with_lags));
     const Mode best = found.modes.front().mode;
     by_lags.refer_to(best.x);

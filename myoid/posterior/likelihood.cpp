@@ -32,9 +32,9 @@ constexpr double kSameReference = 1e-6;  // in the solver's scale, ln or SI
 Eigen::VectorXd start_of(const ParameterMap& map, const EstimatorOptions& options) {
   Eigen::VectorXd z = map.start();
   for (std::size_t j = 0; options.begin_at && j < map.free().size(); ++j) {
-    const FitStart& at = *options.begin_at;
-    const auto found = std::find(at.unknowns.begin(), at.unknowns.end(), map.free()[j].label);
-    if (found != at.unknowns.end()) z[static_cast<Eigen::Index>(j)] = at.z[found - at.unknowns.begin()];
+    const std::vector<std::string>& unknowns = options.begin_at->free_parameters;
+    const auto found = std::find(unknowns.begin(), unknowns.end(), map.free()[j].label);
+    if (found != unknowns.end()) z[static_cast<Eigen::Index>(j)] = options.begin_at->solution[found - unknowns.begin()];
   }
   return z;
 }
@@ -114,9 +114,9 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
   const ModelValues values = map_.values(z);
   std::vector<RunEvaluation> at;
   at.reserve(runs_.size());
-  for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.lag, values, nullptr);
+  for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.law, values, nullptr);
   const std::vector<Stepped> steps =
-      columns_are_ == Columns::follow ? steps_from(z, map_, options_.lag, runs_) : std::vector<Stepped>{};
+      columns_are_ == Columns::follow ? steps_from(z, map_, options_.law, runs_) : std::vector<Stepped>{};
   unseen_ = unseen_quantities(data_, options_, map_, recorded_, runs_, values, at, steps);
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Reduction& reduction = runs_[r].reduction;
@@ -333,7 +333,7 @@ double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gra
   parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
     for (std::size_t r = range.begin(); r < range.end(); ++r) {
       Block& block = blocks[r];
-      block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values,
+      block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, values,
                                                          gradient != nullptr ? &by_owner : nullptr);
       block.positive = fill(r, all, noise, block);
     }

@@ -348,9 +348,9 @@ TEST(Likelihood, TheGradientOfTwoJointsIsThatOfDifferences) {
   EstimatorOptions options;
   options.angle_sd_rad = 0.01;
   for (const test::LegMuscle& muscle : test::kLegMuscles) {
-    options.gain_prior_sd[muscle.name] = 0.1;
-    options.emg_bandwidth_hz[muscle.name] = 150.0;
-    options.emg_rest[muscle.name] = 0.02;
+    options.state(muscle.name).gain_sd = 0.1;
+    options.state(muscle.name).bandwidth_hz = 150.0;
+    options.state(muscle.name).rest = 0.02;
   }
   expect_gradient(Likelihood(study.data, options), kNoiseOfLeg);
 }
@@ -398,7 +398,10 @@ TEST(Likelihood, HasTheSameBitsForEveryNumberOfThreads) {
 TEST(Likelihood, TheExplanationHasTheErrorsOfTheGeometryThatTheTorqueTells) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .true_arm_scale = 1.1});
   for (std::size_t k = 0; k < 4; ++k) study.data.muscles[k].start = study.truth[k];
-  const EstimatorOptions options{.delay_s = study.delay_s, .unseen = {.gain_drift = 0.0, .model_error = 1e-3}};
+  EstimatorOptions options;
+  options.delay_s = study.delay_s;
+  options.unseen.gain_drift = 0.0;
+  options.unseen.model_error = 1e-3;
   Likelihood likelihood(study.data, options);
   const Eigen::VectorXd z = likelihood.parameters().start();
   likelihood.refer_to(z);

@@ -21,7 +21,7 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z, const 
                      std::vector<Eigen::MatrixXd>(kSourceCount, Eigen::MatrixXd::Zero(p, p))};
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Block& block = blocks[r];
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values, &point.by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, point.values, &point.by_owner);
     if (!fill(r, all, noise, block)) return result;
     solved[r] = block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(p)));
     gram += block.gram;
@@ -55,7 +55,7 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
     if (r == 0 || runs_[r].trial != runs_[r - 1].trial)
       found.emplace_back(Eigen::MatrixXd::Zero(p + w.size(), p + w.size()));
     Block block;
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values, &point.by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, point.values, &point.by_owner);
     if (!fill(r, all, noise, block)) continue;
     Eigen::MatrixXd both(block.unseen.rows(), p + w.size());
     both << runs_[r].reduction.apply(block.evaluation->jacobian(p)), block.unseen;
@@ -73,7 +73,7 @@ Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z, const
   Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(w.size(), map_.size());
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Block block;
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values, &point.by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, point.values, &point.by_owner);
     if (!fill(r, all, noise, block)) continue;
     gram += block.gram;
     projected += block.projected;
@@ -90,7 +90,7 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
                                              const UnseenGiven& unseen) const {
   const Point point(map_, z);
   std::vector<RunEvaluation> at;
-  at.emplace_back(run, map_, options_.lag, point.values, &point.by_owner);
+  at.emplace_back(run, map_, options_.law, point.values, &point.by_owner);
   const RunEvaluation& here = at.front();
   const Eigen::MatrixXd columns =
       unseen_quantities(data_, options_, map_, recorded_, {run}, point.values, at).columns.front() *
@@ -130,9 +130,9 @@ Likelihood::ActiveTorque Likelihood::active_torque(const TrialRun& run,
   const Point point(map_, z);
   const ModelValues reference = map_.values(reference_);
   const auto of_all = [&](const TrialRun& here) {
-    const RunEvaluation evaluation(here, map_, options_.lag, point.values, &point.by_owner);
+    const RunEvaluation evaluation(here, map_, options_.law, point.values, &point.by_owner);
     std::vector<RunEvaluation> at;
-    at.emplace_back(here, map_, options_.lag, reference, nullptr);
+    at.emplace_back(here, map_, options_.law, reference, nullptr);
     return ActiveTorque{evaluation.signals().torque_nm, evaluation.jacobian(map_.size()),
                         unseen_quantities(data_, options_, map_, recorded_, {here}, reference, at).columns.front()};
   };
@@ -161,7 +161,7 @@ Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z, const Nois
                    std::vector<std::vector<Eigen::Index>>(map_.joints().size())};
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const RunEvaluation evaluation(runs_[r], map_, options_.lag, values, nullptr);
+    const RunEvaluation evaluation(runs_[r], map_, options_.law, values, nullptr);
     const Eigen::Index m = runs_[r].measured_nm.size();
     result.measured_nm.segment(first, m) = runs_[r].measured_nm;
     result.predicted_nm.segment(first, m) =

@@ -5,6 +5,7 @@
 
 #include "myoid/core/parallel.h"
 #include "myoid/math/statistics.h"
+#include "myoid/posterior/draws.h"
 
 namespace myoid::identification {
 namespace {
@@ -131,12 +132,15 @@ std::vector<Marginal> marginals(const LogDensity& density,
   return found;
 }
 
-Draws draw_about(const Mode& mode, const std::vector<Marginal>& marginals, Eigen::Index count, std::uint64_t seed) {
-  Draws draws = draw_normal(Eigen::VectorXd::Zero(mode.x.size()), mode.covariance, count, seed);
+Eigen::MatrixXd draw_about(const Mode& mode,
+                           const std::vector<Marginal>& marginals,
+                           Eigen::Index count,
+                           std::uint64_t seed) {
+  Eigen::MatrixXd draws = draw_normal(Eigen::VectorXd::Zero(mode.x.size()), mode.covariance, count, seed);
   const Eigen::VectorXd sd = mode.covariance.diagonal().cwiseSqrt();
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < sd.size(); ++j)
-      draws.x(j, i) = mode.x[j] + sd[j] * marginals[static_cast<std::size_t>(j)].at(draws.x(j, i) / sd[j]);
+      draws(j, i) = mode.x[j] + sd[j] * marginals[static_cast<std::size_t>(j)].at(draws(j, i) / sd[j]);
   }
   return draws;
 }

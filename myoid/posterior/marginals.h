@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include "myoid/core/progress.h"
-#include "myoid/posterior/draws.h"
 #include "myoid/posterior/mode.h"
 
 namespace myoid::identification {
@@ -58,11 +57,11 @@ using LogDensity = std::function<double(const Eigen::VectorXd& x, Eigen::VectorX
                                               Eigen::Index followed,
                                               const Progress& progress);
 
-/// Draws points of equal weight with these marginals and, as a Gaussian copula, the dependence of
+/// Draws points, one column each, with these marginals and, as a Gaussian copula, the dependence of
 /// the normal distribution with the mode's covariance.
-[[nodiscard]] Draws draw_about(const Mode& mode,
-                               const std::vector<Marginal>& marginals,
-                               Eigen::Index count,
-                               std::uint64_t seed);
+[[nodiscard]] Eigen::MatrixXd draw_about(const Mode& mode,
+                                         const std::vector<Marginal>& marginals,
+                                         Eigen::Index count,
+                                         std::uint64_t seed);
 
 }  // namespace myoid::identification

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "myoid/identification/parameter_fields.h"
-#include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/estimate_rows.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
@@ -119,9 +118,9 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   };
   given.low = end(0.025).cwiseMin(given.value);
   given.high = end(0.975).cwiseMax(given.value);
-  const Draws draws = draw_normal(mode.x, covariance, kGivenDraws, kGivenSeed);
+  const Eigen::MatrixXd draws = draw_normal(mode.x, covariance, kGivenDraws, kGivenSeed);
   given.z.resize(p, kGivenDraws);
-  for (Eigen::Index i = 0; i < kGivenDraws; ++i) given.z.col(i) = density.z_of(draws.x.col(i));
+  for (Eigen::Index i = 0; i < kGivenDraws; ++i) given.z.col(i) = density.z_of(draws.col(i));
   return given;
 }
 
@@ -139,9 +138,8 @@ struct Reporting {
   const Given& given;
   const std::vector<double>& active_span_m;  ///< Per muscle: range of its active lengths.
   const IdentificationResult& result;
-  bool converged = true;
+  FitFacts fit;
   bool from_mvc = true;      ///< Activation 1 is a maximal effort.
-  bool of_force = false;     ///< EstimatorOptions::measured_is_force.
   double strength_sd = 0.0;  ///< UnseenSpreads::strength.
 };
 
@@ -165,35 +163,31 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
       reach(force, 0.025), reach(force, 0.975), 100.0 * reach(share, 0.025), 100.0 * reach(share, 0.975));
 }
 
-/// Fills the interval and the verdict of a row from draws of its value, which has these bounds.
+/// Returns the reading of draws of a number.
+Reading reading_of(double value, const Eigen::VectorXd& draws, const Eigen::VectorXd& weight) {
+  const double mean = draws.dot(weight);
+  return {.value = value,
+          .low = weighted_quantile(draws, weight, 0.025),
+          .high = weighted_quantile(draws, weight, 0.975),
+          .sd = std::sqrt((draws.array() - mean).square().matrix().dot(weight))};
+}
+
+/// Fills the readings and the verdict of a row from draws of its value, which has these bounds.
 void judge_row(const Reporting& of,
                std::size_t unknown,
                const Eigen::VectorXd& values,
                int owner,
                const muscle::Range& bounds,
-               ParameterEstimate& e,
-               NumberFacts facts) {
+               const Reading& given,
+               ParameterEstimate& e) {
   const Unknown& p = of.map.free()[unknown];
-  const Eigen::VectorXd& weight = of.sample.weight;
-  e.ci_low = weighted_quantile(values, weight, 0.025);
-  e.ci_high = weighted_quantile(values, weight, 0.975);
-  const double mean = values.dot(weight);
-  e.std_error = std::sqrt((values.array() - mean).square().matrix().dot(weight));
-  e.given_estimate = facts.given;
-  e.given_ci_low = facts.low_given;
-  e.given_ci_high = facts.high_given;
-  facts.converged = of.converged;
-  facts.approximate = of.sample.approximate;
-  facts.value = e.estimate;
-  facts.low = *e.ci_low;
-  facts.high = *e.ci_high;
+  NumberFacts facts{.fit = of.fit, .person = reading_of(e.estimate, values, of.sample.weight), .given = given};
   const double touches = kVerdictRules.on_bound * (bounds.upper - bounds.lower);
   // An interval whose mass lies on a bound is one-sided.
-  if (*e.ci_low - bounds.lower < touches) e.ci_low = facts.low = bounds.lower;
-  if (bounds.upper - *e.ci_high < touches) e.ci_high = facts.high = bounds.upper;
-  const bool cut = facts.low - bounds.lower < touches || bounds.upper - facts.high < touches;
-  e.at_bound = cut;
-  facts.at_bound = cut && !p.is(Scope::channel, kDelay);  // no delay is a delay
+  if (facts.person.low - bounds.lower < touches) facts.person.low = bounds.lower;
+  if (bounds.upper - facts.person.high < touches) facts.person.high = bounds.upper;
+  e.at_bound = facts.person.low - bounds.lower < touches || bounds.upper - facts.person.high < touches;
+  facts.at_bound = e.at_bound && !p.is(Scope::channel, kDelay);  // no delay is a delay
   facts.contraction = e.shrinkage;
   if (e.shrinkage)
     facts.contraction_given =
@@ -201,11 +195,8 @@ void judge_row(const Reporting& of,
   if (e.prior_distance) facts.prior_distance = std::abs(*e.prior_distance);
   facts.nuisance_gain = p.is(Scope::channel, kGain);
   if (p.prior.sd > 0.0 && zero_by_nature(e.parameter)) facts.usual_size = kPriorReach * p.prior.sd;
-  facts.is_delay = p.is(Scope::channel, kDelay);
+  if (p.is(Scope::channel, kDelay)) facts.scale = Scale::delay;
   facts.shares = of.shares[unknown];
-  facts.r2 = of.result.r2;
-  facts.of_force = of.of_force;
-  facts.model_error = of.result.model_error;
   e.variance_shares = facts.shares;
   const bool of_width = p.is(Scope::muscle, kWidth);
   if (of_width || p.is(Scope::muscle, kFiberLength)) {
@@ -214,7 +205,7 @@ void judge_row(const Reporting& of,
   }
   if (of_width) {
     const MuscleValues& muscle = of.result.values.muscles[static_cast<std::size_t>(owner)];
-    if (of.converged && !kVerdictRules.possible(muscle[kWidth] / muscle[kFiberLength]))
+    if (of.fit.converged && !kVerdictRules.possible(muscle[kWidth] / muscle[kFiberLength]))
       facts.impossible = "no muscle has this ratio of l_sh to l0: the fit describes another thing";
   }
   judge(e, facts);
@@ -236,14 +227,11 @@ ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::si
   const auto value = [&](double z) { return target.ratio * p.to_value(z); };
   ParameterEstimate e = row_of(p, target, of.map, of.result.solution[at]);
   if (p.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
-  NumberFacts facts;
   const Eigen::VectorXd draws = of.sample.z.row(at).unaryExpr([&](double z) { return value(z); }).transpose();
-  facts.given = value(of.given.value[at]);
-  facts.low_given = value(of.given.low[at]);
-  facts.high_given = value(of.given.high[at]);
+  Reading given{value(of.given.value[at]), value(of.given.low[at]), value(of.given.high[at])};
   // Exact in the second reading, which then determines nothing of it.
-  if (p.is(Scope::muscle, kSlack)) facts.low_given = facts.high_given = facts.given;
-  judge_row(of, unknown, draws, target.owner, {value(p.bounds.lower), value(p.bounds.upper)}, e, facts);
+  if (p.is(Scope::muscle, kSlack)) given.low = given.high = given.value;
+  judge_row(of, unknown, draws, target.owner, {value(p.bounds.lower), value(p.bounds.upper)}, given, e);
   return e;
 }
 
@@ -263,11 +251,7 @@ ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owne
   e.estimate = weighted_quantile(draws, of.sample.weight, 0.5);
   const Unknown& ratio = of.map.free()[unknown];
   if (ratio.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
-  NumberFacts facts;
-  facts.given = weighted_quantile(given, equal, 0.5);
-  facts.low_given = weighted_quantile(given, equal, 0.025);
-  facts.high_given = weighted_quantile(given, equal, 0.975);
-  judge_row(of, unknown, draws, owner, physical, e, facts);
+  judge_row(of, unknown, draws, owner, physical, reading_of(weighted_quantile(given, equal, 0.5), given, equal), e);
   return e;
 }
 
@@ -304,7 +288,6 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
   const Density& density = *best.density;
   const ParameterMap& map = density.parameters();
   const NoiseValues noise = density.noise_of(best.mode.x);
-  result.method = "torque";
   result.termination = best.mode.converged ? math::Termination::converged : math::Termination::no_descent;
   result.message = best.mode.message;
   result.iterations = best.mode.iterations;
@@ -360,18 +343,13 @@ void add_voluntary(const Reporting& of,
                    const NoiseValues& of_widths,
                    const EstimatorOptions& options,
                    IdentificationResult& result) {
-  NumberFacts fit;
-  fit.converged = of.converged;
-  fit.approximate = of.sample.approximate;
-  fit.r2 = result.r2;
-  fit.model_error = result.model_error;
   const Eigen::MatrixXd off = of.given.z.colwise() - of.given.z.rowwise().mean();
   VoluntaryTorques torques = voluntary_torques(
       of.data, options,
       {best.density->likelihood(), best.density->z_of(best.mode.x), result.noise, of_widths, result.covariance},
       {of.given.density->likelihood(), of.given.value, of.given.noise, of.given.noise,
        off * off.transpose() / static_cast<double>(off.cols())},
-      fit);
+      of.fit);
   result.estimates.insert(result.estimates.begin(), std::make_move_iterator(torques.estimates.begin()),
                           std::make_move_iterator(torques.estimates.end()));
   result.voluntary = std::move(torques.curves);
@@ -441,9 +419,12 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
                      given,
                      active_span_m,
                      result,
-                     best.mode.converged,
+                     {.converged = best.mode.converged,
+                      .of_force = options.measured_is_force,
+                      .approximate = drawn.approximate,
+                      .r2 = result.r2,
+                      .model_error = result.model_error},
                      options.from_mvc,
-                     options.measured_is_force,
                      options.unseen.strength};
   add_estimates(of, result);
   if (options.marginals && options.predictions && !options.measured_is_force)

@@ -61,8 +61,8 @@ TEST(IdentifyByPosterior, AnUnknownEffortIsInTheIntervalOfTheStrength) {
   options.from_mvc = false;
   options.unseen.effort = 0.0;
   for (const MuscleSetup& muscle : study.data.muscles) {
-    options.gain_prior_mean[muscle.emg_channel] = 0.22;
-    options.gain_prior_sd[muscle.emg_channel] = 0.86;
+    options.state(muscle.emg_channel).gain_mean = 0.22;
+    options.state(muscle.emg_channel).gain_sd = 0.86;
   }
   ParameterRule bounds;
   bounds.parameter = "emg_gain";
@@ -123,7 +123,7 @@ TEST(IdentifyByPosterior, TwoJointsAndTheMuscleThatCrossesBothComeBack) {
                     .crosstalk = 0.0,
                     .gain_drift = 0.0,
                     .effort = 0.0};
-  for (const MuscleSetup& muscle : study.data.muscles) options.emg_bandwidth_hz[muscle.emg_channel] = 5000.0;
+  for (const MuscleSetup& muscle : study.data.muscles) options.state(muscle.emg_channel).bandwidth_hz = 5000.0;
   const IdentificationResult result = identify_by_posterior(study.data, options);
   ASSERT_EQ(result.termination, math::Termination::converged) << result.message;
   EXPECT_GT(result.r2, 0.999);
@@ -190,8 +190,7 @@ TEST(IdentifyByPosterior, ASearchThatBeginsAtTheAnswerStaysThere) {
   EstimatorOptions options;
   options.choose_lag = true;
   const IdentificationResult whole = identify_by_posterior(data, options);
-  options.begin_at =
-      std::make_shared<const FitStart>(FitStart{whole.free_parameters, whole.solution, whole.noise, whole.lag});
+  options.begin_at = std::make_shared<const FittedUnknowns>(whole);
   options.marginals = false;
   const IdentificationResult again = identify_by_posterior(data, options);
   EXPECT_EQ(again.lag, whole.lag);

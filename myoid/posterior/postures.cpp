@@ -21,10 +21,10 @@ struct View {
 /// Returns the joint's samples of the trials that have moment arms there, at most kMostSamples of each.
 std::vector<View> views_of(const StudyData& data, const std::string& joint) {
   std::vector<View> views;
-  const auto add = [&](const TrialData& trial, const std::string& name, const auto& of) {
+  const auto add = [&](const TrialData& trial, const JointData& of) {
     const Eigen::Index n = trial.time_s.size();
     std::vector<Eigen::Index> rows = included_rows(trial);
-    if (name != joint || of.moment_arm_m.rows() != n || rows.empty()) return;
+    if (of.joint != joint || of.moment_arm_m.rows() != n || rows.empty()) return;
     const std::size_t stride = 1 + rows.size() / kMostSamples;
     std::vector<Eigen::Index> kept;
     for (std::size_t i = 0; i < rows.size(); i += stride) kept.push_back(rows[i]);
@@ -35,9 +35,7 @@ std::vector<View> views_of(const StudyData& data, const std::string& joint) {
                      of.moment_arm_m(kept, Eigen::all)});
   };
   for (const TrialData& trial : data.trials) {
-    if (!trial.calibration) continue;
-    add(trial, trial.joint, trial);
-    for (const JointData& other : trial.more_joints) add(trial, other.name, other);
+    for (std::size_t j = 0; trial.calibration && j < joint_count(trial); ++j) add(trial, joint_at(trial, j));
   }
   return views;
 }

@@ -131,7 +131,7 @@ Sampled sample_density(
     const LogDensity& density, const Mode& mode, Eigen::Index count, std::uint64_t seed, const Progress& progress) {
   const Eigen::Index each = std::max<Eigen::Index>(1, (count + kChains - 1) / kChains);
   Sampled result;
-  result.draws.x.resize(mode.x.size(), each * kChains);
+  result.draws.resize(mode.x.size(), each * kChains);
   Eigen::VectorXd accepted = Eigen::VectorXd::Zero(kChains);
   std::vector<Chain> chains;
   for (Eigen::Index c = 0; c < kChains; ++c)
@@ -160,17 +160,15 @@ Sampled sample_density(
       for (Eigen::Index i = 0; last && i < each; ++i) {
         progress.check();
         accepted[c] += chain.move(step.size()) / static_cast<double>(each);
-        result.draws.x.col(c * each + i) = chain.x();
+        result.draws.col(c * each + i) = chain.x();
       }
     });
     const Eigen::MatrixXd off = seen.colwise() - seen.rowwise().mean().eval();
     covariance =
         (1.0 - kOfLaplace) * off * off.transpose() / static_cast<double>(seen.cols()) + kOfLaplace * mode.covariance;
   }
-  result.draws.weight =
-      Eigen::VectorXd::Constant(result.draws.x.cols(), 1.0 / static_cast<double>(result.draws.x.cols()));
   result.accepted = accepted.mean();
-  result.rhat = greatest_rhat(result.draws.x);
+  result.rhat = greatest_rhat(result.draws);
   return result;
 }
 

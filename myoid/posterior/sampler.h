@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "myoid/core/progress.h"
-#include "myoid/posterior/draws.h"
 #include "myoid/posterior/marginals.h"
 #include "myoid/posterior/mode.h"
 
@@ -13,7 +12,7 @@ namespace myoid::identification {
 
 /// Draws of several chains, and how well the chains agree.
 struct Sampled {
-  Draws draws;            ///< Equal weights, chain after chain.
+  Eigen::MatrixXd draws;  ///< One column each, chain after chain.
   double rhat = 1.0;      ///< Greatest split R-hat of an entry of x: 1 where all chains agree.
   double accepted = 1.0;  ///< Share of the proposals that were taken.
   /// Returns true if the draws represent the density.

@@ -26,9 +26,9 @@ Mode mode_of_skewed(Eigen::Index d) {
 TEST(Sampler, MeanSpreadAndQuantilesOfASkewedDensity) {
   const Sampled sampled = sample_density(skewed, mode_of_skewed(20), 1000, 3, {});
   EXPECT_TRUE(sampled.trusted());
-  EXPECT_EQ(sampled.draws.x.cols(), 1000);
+  EXPECT_EQ(sampled.draws.cols(), 1000);
   // All 20 entries together: 20,000 draws, of which a third may be independent.
-  const Eigen::VectorXd x = sampled.draws.x.reshaped();
+  const Eigen::VectorXd x = sampled.draws.reshaped();
   const Eigen::VectorXd weight = Eigen::VectorXd::Constant(x.size(), 1.0 / static_cast<double>(x.size()));
   EXPECT_NEAR(x.mean(), 1.25612, 0.03);
   EXPECT_NEAR((x.array() - x.mean()).square().mean(), 0.28382, 0.03);
@@ -49,7 +49,7 @@ TEST(Sampler, ACorrelatedNormalInTheWrongCoordinatesIsStillItself) {
   mode.x = Eigen::Vector2d::Zero();
   mode.covariance = Eigen::Matrix2d::Identity();
   const Sampled sampled = sample_density(density, mode, 8000, 5, {});
-  const Eigen::MatrixXd& x = sampled.draws.x;
+  const Eigen::MatrixXd& x = sampled.draws;
   const Eigen::Matrix2d spread = x * x.transpose() / static_cast<double>(x.cols());
   EXPECT_LT((spread - truth).cwiseAbs().maxCoeff(), 0.1);
 }
@@ -71,8 +71,8 @@ TEST(Sampler, SaysWhereTheChainsStayApart) {
 TEST(Sampler, TheSameSeedGivesTheSameDraws) {
   const Mode mode = mode_of_skewed(3);
   const Sampled one = sample_density(skewed, mode, 40, 7, {});
-  EXPECT_EQ(one.draws.x, sample_density(skewed, mode, 40, 7, {}).draws.x);
-  EXPECT_NE(one.draws.x, sample_density(skewed, mode, 40, 8, {}).draws.x);
+  EXPECT_EQ(one.draws, sample_density(skewed, mode, 40, 7, {}).draws);
+  EXPECT_NE(one.draws, sample_density(skewed, mode, 40, 8, {}).draws);
 }
 
 }  // namespace

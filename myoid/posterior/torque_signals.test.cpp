@@ -13,9 +13,9 @@ namespace {
 /// Compares jacobian and pull_back with differences of the signals.
 void expect_derivatives(const StudyData& data) {
   EstimatorOptions options;
-  for (const MuscleSetup& muscle : data.muscles) options.emg_bandwidth_hz[muscle.emg_channel] = 150.0;
-  options.emg_rest[data.muscles.front().emg_channel] = 0.03;
-  options.emg_rest[data.muscles[3].emg_channel] = 0.03;
+  for (const MuscleSetup& muscle : data.muscles) options.state(muscle.emg_channel).bandwidth_hz = 150.0;
+  options.state(data.muscles.front().emg_channel).rest = 0.03;
+  options.state(data.muscles[3].emg_channel).rest = 0.03;
   const ParameterMap map(data, options);
   const std::vector<TrialRun> runs = trial_runs(data, options, map);
   const Eigen::VectorXd z = map.start();

@@ -55,7 +55,7 @@ void add_envelopes(const Drives& drives, const EstimatorOptions& options, const 
     run.envelope_sd[column] = envelope_spread(options, name);
     run.rest[column] = options.rest_level(name);
     run.envelopes.push_back(drives[c]->envelope);
-    run.errors.push_back(EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
+    run.errors.push_back(EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.law))
                              .behind(drives[c]->left));
   }
 }
@@ -73,7 +73,7 @@ void add_joint(const TrialData& view,
   run.resting_nm.segment(first, n) = resting_torque_nm(view)(rows);
   run.measured_nm.segment(static_cast<Eigen::Index>(j) * m, m) =
       run.reduction.apply(Eigen::VectorXd(view.torque_nm(rows)));
-  if (const Eigen::MatrixXd motion = motion_of(view); motion.size() > 0)
+  if (const Eigen::MatrixXd motion = motion_of(view, view.time_s.size()); motion.size() > 0)
     run.motion.middleRows(first, n) = motion(rows, Eigen::all);
 }
 

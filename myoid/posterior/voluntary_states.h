@@ -38,7 +38,8 @@ struct NormalTorque {
   NormalTorque& operator+=(const NormalTorque& other);
 };
 
-/// A posterior of z and x to the first order: x has the expectation at `noise` and the covariance at `of_widths`.
+/// One reading of the posterior (Believed) of z and x, to the first order about z: x has the expectation at `noise`,
+/// those of the mode, and the covariance at `of_widths` (LearnedSizes). `covariance` is that of z.
 class LinearReading {
  public:
   LinearReading(const Likelihood& likelihood,
@@ -46,6 +47,7 @@ class LinearReading {
                 const NoiseValues& noise,
                 const NoiseValues& of_widths,
                 const Eigen::MatrixXd& covariance);
+  [[nodiscard]] const Likelihood& likelihood() const { return likelihood_; }
   /// Returns the torque of the muscles that pull, times `direction`.
   [[nodiscard]] NormalTorque torque(const TrialRun& run, int direction) const;
 

@@ -9,7 +9,6 @@
 
 #include "myoid/core/units.h"
 #include "myoid/posterior/draws.h"
-#include "myoid/posterior/voluntary_states.h"
 
 namespace myoid::identification {
 namespace {
@@ -50,11 +49,6 @@ std::vector<int> reached_speeds_degps(const Postures& postures, int direction) {
   return speeds;
 }
 
-/// One reading of a number: value, 95 % interval, and standard deviation.
-struct Reading {
-  double value = 0.0, low = 0.0, high = 0.0, sd = 0.0;
-};
-
 /// Returns the reading of draws of a number; its interval holds the value.
 Reading of_draws(double value, const Eigen::VectorXd& draws) {
   const Eigen::VectorXd weight = Eigen::VectorXd::Constant(draws.size(), 1.0 / static_cast<double>(draws.size()));
@@ -79,7 +73,7 @@ Reading of_peak(const NormalTorque& torque, Eigen::Index first, const Eigen::Vec
 /// Makes the rows and the curve of one owner.
 class Rows {
  public:
-  Rows(const NumberFacts& fit,
+  Rows(const FitFacts& fit,
        VoluntaryCurve curve,
        const OwnTorque& torque,
        const Postures& postures,
@@ -116,18 +110,8 @@ class Rows {
   }
 
   /// Returns a row with both readings and its verdict.
-  [[nodiscard]] ParameterEstimate row(
-      const std::string& name, Unit unit, const Reading& person, const Reading& given, NumberFacts facts) const {
+  [[nodiscard]] ParameterEstimate row(const std::string& name, Unit unit, const NumberFacts& facts) const {
     ParameterEstimate e{.muscle = curve_.owner, .tied_to = {}, .parameter = name + curve_.ending, .unit = unit};
-    e.method = "torque";
-    e.fit_case = "both";
-    e.estimate = facts.value = person.value;
-    e.ci_low = facts.low = person.low;
-    e.ci_high = facts.high = person.high;
-    e.std_error = person.sd;
-    e.given_estimate = facts.given = given.value;
-    e.given_ci_low = facts.low_given = given.low;
-    e.given_ci_high = facts.high_given = given.high;
     judge(e, facts);
     if (!curve_.from_mvc)
       e.reason +=
@@ -137,8 +121,9 @@ class Rows {
   }
 
   [[nodiscard]] ParameterEstimate torque_row(const Peaks& person, const Peaks& given, bool one_place) const {
-    ParameterEstimate e = row(std::string(kVoluntaryTorque), Unit::newton_meter, of_draws(person.value, person.values),
-                              of_draws(given.value, given.values), fit_);
+    ParameterEstimate e = row(
+        std::string(kVoluntaryTorque), Unit::newton_meter,
+        {.fit = fit_, .person = of_draws(person.value, person.values), .given = of_draws(given.value, given.values)});
     e.initial = torque_.literature_nm.head(place_.size()).maxCoeff();
     if (one_place)
       e.reason += "; recorded at one angle only";
@@ -148,11 +133,12 @@ class Rows {
   }
 
   [[nodiscard]] ParameterEstimate angle_row(const Peaks& person, const Peaks& given) const {
-    NumberFacts facts = fit_;
-    facts.is_angle = true;
-    facts.at_range_end = person.at_end || person.at_ends > kEndShare;
-    ParameterEstimate e = row(std::string(kVoluntaryAngle), Unit::radian, of_draws(person.place, person.places),
-                              of_draws(given.place, given.places), facts);
+    ParameterEstimate e = row(std::string(kVoluntaryAngle), Unit::radian,
+                              {.fit = fit_,
+                               .person = of_draws(person.place, person.places),
+                               .given = of_draws(given.place, given.places),
+                               .scale = Scale::angle,
+                               .at_range_end = person.at_end || person.at_ends > kEndShare});
     Eigen::Index top = 0;
     torque_.literature_nm.head(place_.size()).maxCoeff(&top);
     e.initial = place_[top];
@@ -165,8 +151,9 @@ class Rows {
     const int speed_degps = torque_.speeds_degps[s];
     const double speed_radps = speed_degps * kDegree;
     ParameterEstimate e = row(fmt::format("{}_{}", kVoluntaryPower, speed_degps), Unit::watt,
-                              of_peak(torque_.of_person, first, place_, speed_radps),
-                              of_peak(torque_.given, first, place_, speed_radps), fit_);
+                              {.fit = fit_,
+                               .person = of_peak(torque_.of_person, first, place_, speed_radps),
+                               .given = of_peak(torque_.given, first, place_, speed_radps)});
     e.initial = speed_radps * torque_.literature_nm.segment(first, n).maxCoeff();
     return e;
   }
@@ -176,7 +163,7 @@ class Rows {
                                        : fmt::format("{:.0f} mm of the muscle's length", 1000.0 * place);
   }
 
-  const NumberFacts& fit_;
+  const FitFacts& fit_;
   VoluntaryCurve curve_;
   const OwnTorque& torque_;
   const Eigen::VectorXd& place_;
@@ -189,8 +176,8 @@ struct OwnerTorques {
   const EstimatorOptions& options;
   const ParameterMap& map;
   const JointParts& parts;
-  const NumberFacts& fit;
-  LinearReading of_person, given;
+  const FitFacts& fit;
+  const LinearReading &of_person, &given;
   Eigen::VectorXd greatest_envelope;
   VoluntaryTorques all = {};
 
@@ -250,17 +237,17 @@ struct OwnerTorques {
 
 VoluntaryTorques voluntary_torques(const StudyData& data,
                                    const EstimatorOptions& options,
-                                   const VoluntaryReading& of_person,
-                                   const VoluntaryReading& given,
-                                   const NumberFacts& fit) {
-  const Likelihood& likelihood = of_person.likelihood;
+                                   const LinearReading& of_person,
+                                   const LinearReading& given,
+                                   const FitFacts& fit) {
+  const Likelihood& likelihood = of_person.likelihood();
   OwnerTorques torques{data,
                        options,
                        likelihood.parameters(),
                        likelihood.recorded().parts,
                        fit,
-                       {likelihood, of_person.z, of_person.noise, of_person.of_widths, of_person.covariance},
-                       {given.likelihood, given.z, given.noise, given.of_widths, given.covariance},
+                       of_person,
+                       given,
                        greatest_envelopes(likelihood, options.from_mvc)};
   for (int joint = 0; joint < static_cast<int>(likelihood.parameters().joints().size()); ++joint)
     torques.add_joint(joint);

@@ -6,18 +6,9 @@
 
 #include "myoid/intervals/result.h"
 #include "myoid/intervals/verdicts.h"
-#include "myoid/posterior/likelihood.h"
+#include "myoid/posterior/voluntary_states.h"
 
 namespace myoid::identification {
-
-/// One reading of the posterior (Believed), normal about its middle.
-struct VoluntaryReading {
-  const Likelihood& likelihood;
-  Eigen::VectorXd z;           ///< The unknowns' middle.
-  NoiseValues noise;           ///< At the mode.
-  NoiseValues of_widths;       ///< Of the covariance of x (LearnedSizes).
-  Eigen::MatrixXd covariance;  ///< Of z.
-};
 
 /// Greatest voluntary torques: rows for IdentificationResult::estimates, and curves over the angle.
 struct VoluntaryTorques {
@@ -41,12 +32,11 @@ struct VoluntaryTorques {
 ///   T - T^ = (dT/dz + S W dx^/dz) (z - z^) + S W (x - x^(z)),
 ///
 /// only its size at the peak is taken to be log-normal, as F_max is. Maxima and their angles are those of draws of T.
-/// `fit` holds the facts about the whole fit: convergence, R2, the model's error.
 [[nodiscard]] VoluntaryTorques voluntary_torques(const StudyData& data,
                                                  const EstimatorOptions& options,
-                                                 const VoluntaryReading& of_person,
-                                                 const VoluntaryReading& given,
-                                                 const NumberFacts& fit);
+                                                 const LinearReading& of_person,
+                                                 const LinearReading& given,
+                                                 const FitFacts& fit);
 
 /// Speeds of a joint at which power is reported, as of isokinetic dynamometers [deg/s].
 inline constexpr int kVoluntarySpeeds_degps[] = {60, 120, 180};

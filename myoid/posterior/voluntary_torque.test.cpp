@@ -73,7 +73,7 @@ EstimatorOptions exact_sensors() {
                     .crosstalk = 0.0,
                     .gain_drift = 0.0,
                     .effort = 0.0};
-  options.emg_bandwidth_hz["BIC"] = 1e5;
+  options.state("BIC").bandwidth_hz = 1e5;
   return options;
 }
 
@@ -84,7 +84,7 @@ VoluntaryTorques at_the_truth(const StudyData& data, const EstimatorOptions& opt
   noise[kTorqueSd] = std::log(0.1);
   noise[kTorqueTime] = std::log(0.3);
   noise[kModelErrorSize] = std::log(1e-4);
-  const VoluntaryReading reading{likelihood, z, noise, noise, 1e-8 * Eigen::MatrixXd::Identity(z.size(), z.size())};
+  const LinearReading reading{likelihood, z, noise, noise, 1e-8 * Eigen::MatrixXd::Identity(z.size(), z.size())};
   return voluntary_torques(data, options, reading, reading, {});
 }
 
@@ -222,7 +222,7 @@ TEST(VoluntaryTorque, AMuscleOfTwoJointsHasOneAtEach) {
   const ElbowStudy study = test::leg_study({.seconds = 12.0, .torque_sd_nm = 0.2});
   EstimatorOptions options;
   options.unseen = exact_sensors().unseen;
-  for (const MuscleSetup& muscle : study.data.muscles) options.emg_bandwidth_hz[muscle.emg_channel] = 5000.0;
+  for (const MuscleSetup& muscle : study.data.muscles) options.state(muscle.emg_channel).bandwidth_hz = 5000.0;
   const IdentificationResult result = identify_by_posterior(study.data, options);
   const auto count = [&](const std::string& owner) {
     return std::count_if(result.voluntary.begin(), result.voluntary.end(),

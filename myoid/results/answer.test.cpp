@@ -37,7 +37,7 @@ ParameterEstimate number(const std::string& muscle,
 /// A triceps that alone extends the elbow, and an optimal fiber length that is known better than a force.
 IdentificationResult triceps() {
   IdentificationResult method;
-  method.method = "torque";
+  method.method = identification::Method::torque;
   VoluntaryCurve curve{.owner = "TRI", .joint = "elbow_flexion", .direction = -1, .muscles = {"TRI"}};
   curve.angle_rad = Eigen::Vector3d(40.0, 54.0, 90.0) * kDegree;
   curve.torque_nm = Eigen::Vector3d(50.0, 54.5, 45.0);

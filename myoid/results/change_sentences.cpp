@@ -40,14 +40,14 @@ std::string share_or_size(const ComparedParameter& p, double size) {
 
 }  // namespace
 
-bool rests_on_measurement(std::string_view method) { return method != "paper"; }
+bool rests_on_measurement(identification::Method method) { return method != identification::Method::paper; }
 
 std::vector<const ComparedParameter*> counted_parameters(const RunComparison& comparison) {
-  const bool torque =
-      std::ranges::any_of(comparison.parameters, [](const auto& p) { return p.first.method == "torque"; });
+  const auto is_torque = [](const auto& p) { return p.first.method == identification::Method::torque; };
+  const bool torque = std::ranges::any_of(comparison.parameters, is_torque);
   std::vector<const ComparedParameter*> counted;
   for (const ComparedParameter& p : comparison.parameters) {
-    if (torque ? p.first.method == "torque" : rests_on_measurement(p.first.method)) counted.push_back(&p);
+    if (torque ? is_torque(p) : rests_on_measurement(p.first.method)) counted.push_back(&p);
   }
   return counted;
 }
@@ -55,7 +55,8 @@ std::vector<const ComparedParameter*> counted_parameters(const RunComparison& co
 std::string change_text(const ComparedParameter& p) {
   if (p.change == Change::cannot_tell) {
     if (!rests_on_measurement(p.first.method))
-      return fmt::format("{}: not compared: method {} fits forces that nobody measured", owner_of(p), p.first.method);
+      return fmt::format("{}: not compared: method {} fits forces that nobody measured", owner_of(p),
+                         name(p.first.method));
     const auto told = [](const identification::ParameterEstimate& e) {
       return e.verdict == identification::Verdict::identified || e.verdict == identification::Verdict::reproducible ||
              e.verdict == identification::Verdict::weak;

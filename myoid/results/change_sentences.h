@@ -10,7 +10,7 @@ namespace myoid {
 
 /// True if a method's numbers rest on measurements of the person. Method `paper` fits forces that the program shared
 /// among the muscles itself.
-[[nodiscard]] bool rests_on_measurement(std::string_view method);
+[[nodiscard]] bool rests_on_measurement(identification::Method method);
 
 /// Returns the numbers that a headline may announce: those of method torque if both sessions hold any, else those of
 /// the other methods that rest on measurements.

@@ -46,7 +46,7 @@ std::optional<double> number(const json& object, const char* key) {
 }
 
 /// Muscle, parameter, method, case.
-using Key = std::tuple<std::string, std::string, std::string, std::string>;
+using Key = std::tuple<std::string, std::string, identification::Method, std::string>;
 using MethodAndTrial = std::pair<std::string, std::string>;
 
 struct Run {
@@ -184,7 +184,7 @@ void adjust_p_values(std::vector<ComparedParameter*> compared, double share) {
 
 std::string text_of(const Key& key) {
   const auto& [muscle, parameter, method, fit_case] = key;
-  return fmt::format("{} {} (method {}{})", muscle, parameter, method, branch_text(fit_case, ", "));
+  return fmt::format("{} {} (method {}{})", muscle, parameter, name(method), branch_text(fit_case, ", "));
 }
 
 /// Returns the day on which a folder's result was written.
@@ -234,8 +234,8 @@ std::string_view name(Change change) {
   return kNames[static_cast<std::size_t>(change)];
 }
 
-std::vector<std::string> methods_of(const RunComparison& comparison) {
-  std::vector<std::string> methods;
+std::vector<identification::Method> methods_of(const RunComparison& comparison) {
+  std::vector<identification::Method> methods;
   for (const ComparedParameter& p : comparison.parameters) {
     if (std::ranges::find(methods, p.first.method) == methods.end()) methods.push_back(p.first.method);
   }
@@ -270,7 +270,7 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   for (const Key& key : b.order) {
     if (!a.estimates.contains(key)) comparison.remarks.push_back(text_of(key) + " is in the second session only");
   }
-  for (const std::string& method : methods_of(comparison)) {
+  for (const identification::Method method : methods_of(comparison)) {
     std::vector<ComparedParameter*> torques, others;
     for (ComparedParameter& p : comparison.parameters) {
       const bool torque = is_strength(p.first.parameter) && identification::is_voluntary(p.first.parameter);

@@ -52,7 +52,7 @@ struct RunComparison {
 };
 
 /// Returns the methods of the compared numbers, in order of appearance.
-[[nodiscard]] std::vector<std::string> methods_of(const RunComparison& comparison);
+[[nodiscard]] std::vector<identification::Method> methods_of(const RunComparison& comparison);
 
 /// Compares two finished runs number by number, of one person on two days or of one recording by two studies: z =
 /// (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, with p-values adjusted for their number by

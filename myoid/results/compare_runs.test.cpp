@@ -117,8 +117,8 @@ std::filesystem::path session(const std::filesystem::path& folder, double strong
   identification::EstimatorOptions options;
   options.predictions = false;
   for (const identification::MuscleSetup& muscle : data.muscles) {
-    options.gain_prior_sd[muscle.emg_channel] = 0.05;
-    options.emg_bandwidth_hz[muscle.emg_channel] = 400.0;
+    options.state(muscle.emg_channel).gain_sd = 0.05;
+    options.state(muscle.emg_channel).bandwidth_hz = 400.0;
   }
   std::filesystem::create_directories(folder);
   write_parameter_files({identification::identify_torque(data, options)}, {}, {}, {}, folder);
@@ -253,7 +253,7 @@ TEST(CompareRuns, AnnouncesNothingFromMethodPaper) {
   };
   const RunComparison c = compare_runs(session("one", 500, 600), session("two", 700, 610));
   ASSERT_EQ(c.parameters.size(), 2U);
-  EXPECT_EQ(c.parameters[0].first.method, "paper");
+  EXPECT_EQ(c.parameters[0].first.method, identification::Method::paper);
   EXPECT_EQ(c.parameters[0].change, Change::cannot_tell);
   EXPECT_FALSE(c.parameters[0].p_value);
   ASSERT_EQ(counted_parameters(c).size(), 1U);

@@ -75,14 +75,15 @@ report::ChangeForest changes_of(const RunComparison& comparison) {
   return forest;
 }
 
-report::Section method_section(const RunComparison& comparison, const std::string& method) {
+report::Section method_section(const RunComparison& comparison, identification::Method of) {
+  const std::string method(name(of));
   report::Table table{.id = "compared_" + method,
                       .title = "Parameters",
                       .caption = "Number with its 95 % interval. p-values are adjusted for their number (Holm).",
                       .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
                                   session_name("second", comparison.second_date), "difference", "%", "verdict"}};
   for (const ComparedParameter& p : comparison.parameters) {
-    if (p.first.method != method) continue;
+    if (p.first.method != of) continue;
     const PlainUnit unit = report::plain_unit(p.first.unit);
     table.rows.push_back({{owner_name(p)},
                           {number_name(p.first)},
@@ -94,9 +95,9 @@ report::Section method_section(const RunComparison& comparison, const std::strin
                           {verdict(p), badge(p.change), change_text(p)}});
   }
   return {.id = "method_" + method,
-          .heading = rests_on_measurement(method) ? "All numbers of method " + method
-                                                  : "Method " + method + ": shown, not compared",
-          .folded = !rests_on_measurement(method),
+          .heading = rests_on_measurement(of) ? "All numbers of method " + method
+                                              : "Method " + method + ": shown, not compared",
+          .folded = !rests_on_measurement(of),
           .tables = {std::move(table)}};
 }
 
@@ -137,7 +138,7 @@ report::Report comparison_report(const RunComparison& comparison) {
     both.paragraphs.push_back(std::move(reading));
   page.sections.push_back(std::move(both));
   const auto add_methods = [&](bool measured) {
-    for (const std::string& method : methods_of(comparison))
+    for (const identification::Method method : methods_of(comparison))
       if (rests_on_measurement(method) == measured) page.sections.push_back(method_section(comparison, method));
   };
   add_methods(true);

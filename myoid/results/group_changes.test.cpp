@@ -5,7 +5,9 @@
 namespace myoid {
 namespace {
 
-ComparedParameter compared(const std::string& method, double difference, Change change) {
+using identification::Method;
+
+ComparedParameter compared(identification::Method method, double difference, Change change) {
   ComparedParameter p;
   p.muscle = "BIC";
   p.first.method = p.second.method = method;
@@ -25,9 +27,9 @@ PersonChange person(const std::string& name, std::vector<ComparedParameter> para
 
 TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
   const report::Section section = change_section(
-      {person("A", {compared("paper", 900.0, Change::differs), compared("torque", 80.0, Change::differs)}),
-       person("B", {compared("torque", 10.0, Change::no_change)}),
-       person("C", {compared("torque", 700.0, Change::cannot_tell)}), person("D", {})});
+      {person("A", {compared(Method::paper, 900.0, Change::differs), compared(Method::torque, 80.0, Change::differs)}),
+       person("B", {compared(Method::torque, 10.0, Change::no_change)}),
+       person("C", {compared(Method::torque, 700.0, Change::cannot_tell)}), person("D", {})});
   ASSERT_EQ(section.grids.size(), 1U);
   ASSERT_EQ(section.grids[0].rows.size(), 4U);
   EXPECT_EQ(section.grids[0].rows[0].cells[0].value, 80.0);
@@ -42,7 +44,7 @@ TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
 }
 
 TEST(ChangeSection, NamesPersonsWhoseSessionsAreNotOfOneKind) {
-  PersonChange unlike = person("A", {compared("torque", 1.0, Change::no_change)});
+  PersonChange unlike = person("A", {compared(Method::torque, 1.0, Change::no_change)});
   unlike.comparison.unlike = {"the model", "the estimator"};
   const report::Section section = change_section({unlike});
   ASSERT_EQ(section.paragraphs.size(), 1U);

@@ -209,7 +209,7 @@ void say_muscles(const StudyResult& result, Writer& out) {
       names.size() == 1 ? "followed" : "each followed", out.cite("venture2006"),
       spec.model_muscles ? "pennation and passive force of the model" : "without pennation and passive force",
       spec.elastic_tendon ? "a quasi-static elastic tendon" : "a rigid tendon");
-  const IdentificationResult* torque = method_of(result.fit, "torque");
+  const IdentificationResult* torque = method_of(result.fit, identification::Method::torque);
   if (torque != nullptr) out.say("{}", lag_text(result, torque->lag));
 }
 
@@ -237,16 +237,16 @@ void say_posterior(const IdentifySpec& spec, const IdentificationResult& torque,
 
 void say_fit(const StudyResult& result, Writer& out) {
   const IdentifySpec& spec = result.source.study.identify;
-  const IdentificationResult* torque = method_of(result.fit, "torque");
+  const IdentificationResult* torque = method_of(result.fit, identification::Method::torque);
   if (torque != nullptr) {
     say_posterior(spec, *torque, out);
     out.say(
         "Each parameter was classed as identified, weak, dominated by its prior, or not identifiable by this "
         "recording.");
   }
-  if (method_of(result.fit, "force") != nullptr)
+  if (method_of(result.fit, identification::Method::force) != nullptr)
     out.say("The parameters of each muscle were also fitted to its own force, as force sharing assigns it.");
-  if (method_of(result.fit, "paper") != nullptr)
+  if (method_of(result.fit, identification::Method::paper) != nullptr)
     out.say(
         "{} the method as published{} was applied: each muscle alone, shortening and lengthening apart, by "
         "Gauss-Newton steps, halved until the criterion falls, or damped, on forces that minimize the sum of {} to the "

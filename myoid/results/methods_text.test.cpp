@@ -40,7 +40,7 @@ StudyResult small_study() {
   result.fit_input.data.muscles[0].name = "BIC";
   result.fit_input.data.muscles[1].name = "TRI";
   result.fit.methods.resize(1);
-  result.fit.methods[0].method = "torque";
+  result.fit.methods[0].method = identification::Method::torque;
   result.fit.methods[0].samples_used = 321;
   return result;
 }
@@ -89,7 +89,7 @@ TEST(MethodsText, ChangesWithTheStudy) {
               HasSubstr("1 of movement, 1 of maximal voluntary contraction (MVC) and 1 held back"));
   EXPECT_THAT(changed([](StudyResult& r) {
                 r.fit.methods.emplace_back();
-                r.fit.methods[1].method = "paper";
+                r.fit.methods[1].method = identification::Method::paper;
               }),
               HasSubstr("For comparison the method as published (Venture et al. 2006)"));
 }

@@ -144,7 +144,7 @@ Table solver_table(const std::vector<identification::NamedContest>& contests) {
 }
 
 report::Section paper_section(const StudyFit& fit, bool shared) {
-  const IdentificationResult& paper = *method_of(fit, "paper");
+  const IdentificationResult& paper = *method_of(fit, identification::Method::paper);
   report::Section section{
       .id = "paper",
       .heading = "The source paper's method beside it",

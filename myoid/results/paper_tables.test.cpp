@@ -18,7 +18,7 @@ ParameterEstimate number(const std::string& muscle, const std::string& branch, c
   e.muscle = muscle;
   e.fit_case = branch;
   e.parameter = name;
-  e.method = "paper";
+  e.method = identification::Method::paper;
   e.initial = 0.14;
   e.estimate = value;
   e.verdict = identification::Verdict::prior_dominated;
@@ -28,7 +28,7 @@ ParameterEstimate number(const std::string& muscle, const std::string& branch, c
 
 IdentificationResult two_branches() {
   IdentificationResult method;
-  method.method = "paper";
+  method.method = identification::Method::paper;
   method.estimates = {number("BIC", "shortening", "optimal_fiber_length", 0.131),
                       number("BIC", "shortening", "concentric_curvature", 0.27),
                       number("BIC", "lengthening", "optimal_fiber_length", 0.14)};

@@ -43,7 +43,8 @@ struct CsvCell {
   std::string operator()(double value) const { return number_or_empty(value); }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(Unit unit) const { return std::string(symbol(unit)); }
-  std::string operator()(identification::Verdict verdict) const { return std::string(identification::name(verdict)); }
+  std::string operator()(identification::Verdict verdict) const { return std::string(name(verdict)); }
+  std::string operator()(identification::Method method) const { return std::string(name(method)); }
 };
 
 struct JsonValue {
@@ -149,9 +150,9 @@ ordered_json trial_json(const identification::TrialFit& t, Number number) {
 
 ordered_json method_json(const IdentificationResult& method) {
   // Method paper has neither noise nor delay, and predicts forces, not torque.
-  const bool paper = method.method == "paper";
+  const bool paper = method.method == identification::Method::paper;
   const auto unless_paper = [&](double value) { return paper ? ordered_json(nullptr) : number_or_null(value); };
-  return {{"method", method.method},
+  return {{"method", std::string(name(method.method))},
           {"termination", std::string(math::name(method.termination))},
           {"message", method.message},
           {"iterations", method.iterations},

@@ -19,7 +19,7 @@ identification::IdentificationResult one_estimate() {
   e.muscle = "BIC";
   e.parameter = "optimal_fiber_length";
   e.unit = Unit::meter;
-  e.method = "torque";
+  e.method = identification::Method::torque;
   e.fit_case = "both";
   e.initial = 0.1;
   e.estimate = 0.1 + 0.2;
@@ -27,7 +27,7 @@ identification::IdentificationResult one_estimate() {
   e.ci_low = 0.25;
   e.reason = "known to \"12 %\", about";
   identification::IdentificationResult result;
-  result.method = "torque";
+  result.method = identification::Method::torque;
   result.estimates = {e};
   return result;
 }
@@ -115,7 +115,7 @@ TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
   identification::IdentificationResult torque = one_estimate();
   torque.delay_s = 0.05;
   identification::IdentificationResult paper = torque;
-  paper.method = "paper";
+  paper.method = identification::Method::paper;
   const auto json = nlohmann::json::parse(parameters_json({torque, paper}, {}, {}));
   EXPECT_EQ(json.at("methods").at(0).at("emg_delay_s"), 0.05);
   EXPECT_TRUE(json.at("methods").at(1).at("emg_delay_s").is_null());

@@ -84,7 +84,7 @@ std::string measured_at_rest(const StudyResult& result) {
 
 /// Returns the meaning of each number that the method estimates.
 Table meanings_table(const IdentificationResult& method) {
-  Table table{.id = "meanings_" + method.method, .title = "Meaning of the numbers", .columns = {"number", "meaning"}};
+  Table table{fmt::format("meanings_{}", name(method.method)), "Meaning of the numbers", {}, {"number", "meaning"}};
   std::vector<std::string> seen;
   for (const ParameterEstimate& e : method.estimates) {
     const std::string meaning(report::parameter_meaning(e.parameter));
@@ -160,12 +160,12 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   const bool readings = std::ranges::any_of(method.estimates, [](const auto& e) { return e.given_ci_low.has_value(); });
   const std::string truth = known ? " Truth: green where it lies in the interval, else yellow." : "";
   const std::string by =
-      method.method == "force"
+      method.method == identification::Method::force
           ? "Every muscle alone, both branches at once, against the force that force sharing assigned to it. "
           : "All muscles and both branches at once against the joint torque. ";
   Table muscles{
-      "parameters_" + method.method,
-      fmt::format("Identified parameters (method {})", method.method),
+      fmt::format("parameters_{}", name(method.method)),
+      fmt::format("Identified parameters (method {})", name(method.method)),
       by +
           (readings ? "95 % interval: of the person. Given: the 95 % interval if geometry and sensors were exact, by "
                       "which sessions of the person are compared."
@@ -175,7 +175,7 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   if (readings) muscles.columns.emplace_back("given geometry and sensors");
   if (known) muscles.columns.emplace_back("truth");
   muscles.columns.insert(muscles.columns.end(), {"verdict", "why"});
-  Table others{"nuisances_" + method.method, "Numbers of the electrodes and of the joint",
+  Table others{fmt::format("nuisances_{}", name(method.method)), "Numbers of the electrodes and of the joint",
                "Free, so that their uncertainty widens the muscles' intervals; they belong to no muscle and are not "
                "counted above." +
                    measured_at_rest(result) + truth,
@@ -229,8 +229,8 @@ std::vector<report::ForestRow> forest_rows(const StudyResult& result, const Iden
 std::vector<Table> basin_tables(const IdentificationResult& method) {
   if (method.basins.empty()) return {};
   Table table{
-      "basins_" + method.method,
-      fmt::format("Where the searches from several starts ended (method {})", method.method),
+      fmt::format("basins_{}", name(method.method)),
+      fmt::format("Where the searches from several starts ended (method {})", name(method.method)),
       "The given start and points spread evenly over two standard deviations of the priors. Distance: from the best "
       "minimum, root mean square over the unknowns, in these standard deviations. A second minimum of equal cost is an "
       "equally good answer.",

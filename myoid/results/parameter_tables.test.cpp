@@ -15,7 +15,7 @@ ParameterEstimate estimate(std::string owner, std::string parameter, double valu
   ParameterEstimate e;
   e.muscle = std::move(owner);
   e.parameter = std::move(parameter);
-  e.method = "torque";
+  e.method = identification::Method::torque;
   e.fit_case = "both";
   e.estimate = value;
   e.ci_low = value - 0.01;
@@ -25,7 +25,7 @@ ParameterEstimate estimate(std::string owner, std::string parameter, double valu
 
 IdentificationResult two_muscles() {
   IdentificationResult method;
-  method.method = "torque";
+  method.method = identification::Method::torque;
   method.estimates = {estimate("BIC", "optimal_fiber_length", 0.14), estimate("BIC", "length_activation", 0.1),
                       estimate("TRI", "length_activation", 0.1), estimate("TRI", "optimal_fiber_length", 0.12),
                       estimate("BIC", "emg_gain", 1.0)};
@@ -96,7 +96,7 @@ TEST(EstimateTables, ANumberThatIsZeroHasItsInterval) {
 
 TEST(EstimateTables, AreCalledByTheirMethod) {
   IdentificationResult method = two_muscles();
-  method.method = "force";
+  method.method = identification::Method::force;
   const std::vector<report::Table> tables = estimate_tables({}, method);
   ASSERT_EQ(tables.size(), 3U);
   EXPECT_EQ(tables[0].id, "parameters_force");

@@ -65,7 +65,6 @@ EmgLag lag_of(const json& method) {
 identification::IdentificationResult fit_of(const std::filesystem::path& path, const json& method) {
   const Numbers numbers{path, method};
   identification::IdentificationResult fit;
-  fit.method = "torque";
   fit.lag = lag_of(method);
   fit.exact = method.at("exact_data").get<bool>();
   fit.torque_sd_nm = number(method.at("torque_sd_nm"));
@@ -93,9 +92,7 @@ identification::IdentificationResult read_fit(const std::filesystem::path& folde
     for (const json& method : content.at("methods")) {
       if (method.at("method") != "torque") continue;
       identification::IdentificationResult fit = fit_of(path, method);
-      identification::EstimatorOptions as_fitted = options;
-      as_fitted.lag = fit.lag;
-      const identification::ParameterMap map(data, as_fitted);
+      const identification::ParameterMap map(data, options);
       std::vector<std::string> labels;
       for (const identification::Unknown& unknown : map.free()) labels.push_back(unknown.label);
       if (labels != fit.free_parameters || fit.solution.size() != map.size())

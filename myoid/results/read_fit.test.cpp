@@ -20,7 +20,7 @@ using identification::IdentificationResult;
 IdentificationResult made_fit(const test::ElbowStudy& study, const identification::EstimatorOptions& options) {
   const identification::ParameterMap map(study.data, options);
   IdentificationResult fit;
-  fit.method = "torque";
+  fit.method = identification::Method::torque;
   fit.solution = map.start() + Eigen::VectorXd::Constant(map.size(), 1.0 / 300.0);
   fit.covariance = Eigen::MatrixXd::Identity(map.size(), map.size()) / 7.0;
   for (const identification::Unknown& unknown : map.free()) fit.free_parameters.push_back(unknown.label);

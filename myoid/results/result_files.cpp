@@ -169,7 +169,7 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
     if (!trial.spec.given.forces) write_shared_forces(trial.forces.shared, place);
   }
   for (const IdentificationResult& method : result.fit.methods) {
-    if (method.method != "torque" && result.fit.methods.size() > 1) continue;
+    if (method.method != identification::Method::torque && result.fit.methods.size() > 1) continue;
     for (const identification::TrialData& data : result.fit_input.data.trials) {
       recording::write_storage(folder / ids.of(data.name) / "identified_forces.sto",
                                identified_forces(result, data, method),

@@ -188,8 +188,8 @@ Figure force_figure(const StudyResult& result,
                     const identification::TrialData& data,
                     const IdentificationResult& method) {
   const identification::TrialFit* fit = trial_of(method, data.name);
-  Figure figure{fmt::format("forces_{}_{}", method.method, trial_ids(result.source.study).of(data.name)),
-                fmt::format("Muscle forces in trial {} (method {})", data.name, method.method),
+  Figure figure{fmt::format("forces_{}_{}", name(method.method), trial_ids(result.source.study).of(data.name)),
+                fmt::format("Muscle forces in trial {} (method {})", data.name, name(method.method)),
                 "Blue: force that force sharing assigns (no co-contraction). Grey dotted: literature's parameters with "
                 "the measured EMG. Orange dashed: identified parameters.",
                 {},

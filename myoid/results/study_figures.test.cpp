@@ -29,7 +29,7 @@ StudyResult one_muscle() {
 
 identification::IdentificationResult found(const StudyResult& result) {
   identification::IdentificationResult method;
-  method.method = "torque";
+  method.method = identification::Method::torque;
   method.muscles = {result.fit_input.data.muscles[0].start};
   method.muscles[0].optimal_fiber_length_m = 0.14;
   identification::TrialFit fit;

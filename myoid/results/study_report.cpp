@@ -183,9 +183,9 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
                         .gates = quality_gates(result),
                         .assumptions = assumptions(result),
                         .provenance = provenance_rows(result, provenance)};
-  const IdentificationResult* torque = method_of(result.fit, "torque");
-  const IdentificationResult* force = method_of(result.fit, "force");
-  const IdentificationResult* paper = method_of(result.fit, "paper");
+  const IdentificationResult* torque = method_of(result.fit, identification::Method::torque);
+  const IdentificationResult* force = method_of(result.fit, identification::Method::force);
+  const IdentificationResult* paper = method_of(result.fit, identification::Method::paper);
 
   if (best != nullptr) report.forest = forest_rows(result, *best);
 

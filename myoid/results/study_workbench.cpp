@@ -36,12 +36,6 @@ constexpr Eigen::Index kCarpetColumns = 160;
 constexpr Eigen::Index kRawColumns = 300;
 constexpr Eigen::Index kMostForces = 40;  // of muscles without a fit: the strongest
 
-const IdentificationResult* fit_of(const StudyResult& result) {
-  for (const char* name : {"torque", "force"})
-    if (const IdentificationResult* method = method_of(result.fit, name)) return method;
-  return result.fit.methods.empty() ? nullptr : &result.fit.methods.front();
-}
-
 /// Adds the series of a trial, thinned to the samples that a plot may have.
 class TrialPlots {
  public:
@@ -356,9 +350,9 @@ void add_drives(const StudyResult& result,
                               plots.thinned(data.length_m.col(c)),
                               plots.thinned(data.velocity_mps.col(c)),
                               {}};
-    if (data.moment_arm_m.cols() > c) drive.moment_arm_m.push_back(plots.thinned(data.moment_arm_m.col(c)));
-    for (const identification::JointData& joint : data.more_joints)
-      if (joint.moment_arm_m.cols() > c) drive.moment_arm_m.push_back(plots.thinned(joint.moment_arm_m.col(c)));
+    for (std::size_t j = 0; j < joint_count(data); ++j)
+      if (const Eigen::MatrixXd& arm_m = joint_at(data, j).moment_arm_m; arm_m.cols() > c)
+        drive.moment_arm_m.push_back(plots.thinned(arm_m.col(c)));
     shown.drives.push_back(std::move(drive));
   }
 }
@@ -405,7 +399,8 @@ std::string path_from(const std::filesystem::path& folder, const std::filesystem
 
 report::Workbench study_workbench(const StudyResult& result, const std::filesystem::path& folder) {
   report::Workbench workbench{.scenes = study_scenes(result)};
-  const IdentificationResult* fit = fit_of(result);
+  const IdentificationResult* fit = best_method(result.fit);
+  if (fit == nullptr && !result.fit.methods.empty()) fit = &result.fit.methods.front();
   const auto& muscles = result.fit_input.data.muscles;
   if (fit != nullptr && fit->values.muscles.size() != muscles.size()) fit = nullptr;
   if (fit != nullptr) add_movable_muscles(*fit, muscles, workbench);

@@ -23,7 +23,7 @@ StudyResult two_joints() {
       TimeSeries(time, {{"knee_moment", Unit::newton_meter}, {"ankle_moment", Unit::newton_meter}}, values / kDegree);
   result.trials.push_back(trial);
   identification::IdentificationResult torque;
-  torque.method = "torque";
+  torque.method = identification::Method::torque;
   for (const char* joint : {"knee", "ankle"}) {
     identification::TrialFit fit;
     fit.trial = "squat";

@@ -31,7 +31,7 @@ ParameterEstimate row(const std::string& parameter, Unit unit, double low, doubl
 /// A biceps with 41 N m at 85 degrees, and 40 W at 60 degrees a second.
 IdentificationResult biceps() {
   IdentificationResult method;
-  method.method = "torque";
+  method.method = identification::Method::torque;
   VoluntaryCurve curve{.owner = "BIC", .joint = "elbow_flexion", .muscles = {"BIC"}};
   curve.angle_rad = Eigen::Vector3d(60.0, 85.0, 110.0) * kDegree;
   curve.length_m = Eigen::Vector3d(0.34, 0.33, 0.32);

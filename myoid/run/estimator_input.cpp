@@ -65,7 +65,7 @@ identification::TrialData trial_data(const Study& study,
   add_motion(trial.motion.joints, resting, data.joint, data);
   for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
     const std::string& name = study.model.more_coordinates[j];
-    data.more_joints.push_back({.name = name,
+    data.more_joints.push_back({.joint = name,
                                 .torque_nm = torque_nm.col(static_cast<Eigen::Index>(j) + 1),
                                 .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name)});
     add_motion(trial.motion.joints, resting, name, data.more_joints.back());

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "myoid/core/progress.h"
-#include "myoid/identification/estimator_settings.h"
+#include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/signals/emg_envelope.h"

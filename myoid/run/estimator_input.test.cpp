@@ -41,8 +41,8 @@ TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   result.source.study.emg.mvc_effort_sd = 0.032;
   result.source.study.emg.has_mvc = true;
   const identification::EstimatorOptions known = options_of(result);
-  EXPECT_NEAR(known.gain_prior_mean.at("BIC"), 0.8, 1e-12);
-  EXPECT_NEAR(known.gain_prior_sd.at("BIC"), 0.05, 1e-12);  // 3 % and 4 %, independent
+  EXPECT_NEAR(known.of("BIC").gain_mean, 0.8, 1e-12);
+  EXPECT_NEAR(*known.of("BIC").gain_sd, 0.05, 1e-12);  // 3 % and 4 %, independent
   result.source.study.emg.has_mvc = false;
   EXPECT_FALSE(options_of(result).from_mvc);
 }
@@ -66,8 +66,8 @@ TEST(TorqueOptions, ThePosteriorKnowsNothingOfTheEffortOfARecordingWithoutMaximu
 
   study.emg.has_mvc = false;
   const identification::EstimatorOptions unknown = options_of(result);
-  EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), std::sqrt(0.05), 1e-12);
-  EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), std::hypot(-std::log(0.05) / std::sqrt(12.0), 0.03), 1e-12);
+  EXPECT_NEAR(unknown.of("BIC").gain_mean, std::sqrt(0.05), 1e-12);
+  EXPECT_NEAR(*unknown.of("BIC").gain_sd, std::hypot(-std::log(0.05) / std::sqrt(12.0), 0.03), 1e-12);
   EXPECT_EQ(unknown.unseen.effort, 0.0);
   EXPECT_EQ(strength_sd(), literature_sd);
   EXPECT_TRUE(bounded());
@@ -81,7 +81,7 @@ TEST(TorqueOptions, WithTheLagsOfTheActivationTheDelayIsWhatIsLeftBesideThem) {
   EXPECT_NEAR(options_of(result).delay_prior_mean_s, 0.060, 1e-12);
   result.source.study.identify.dynamics = true;
   const identification::EstimatorOptions lags = options_of(result);
-  EXPECT_EQ(lags.lag, identification::EmgLag::equation_1);
+  EXPECT_EQ(lags.law, identification::EmgLag::equation_1);
   EXPECT_NEAR(lags.delay_prior_mean_s, 0.010, 1e-12);
   EXPECT_NEAR(lags.delay_prior_sd_s, 0.010, 1e-12);
 }
@@ -91,10 +91,10 @@ TEST(TorqueOptions, WhatTheDelayIsFollowsTheStudyAndElseTheRecording) {
   EXPECT_TRUE(options_of(result).choose_lag);
   result.source.study.identify.lag = identification::LagChoice::shared;
   EXPECT_FALSE(options_of(result).choose_lag);
-  EXPECT_EQ(options_of(result).lag, identification::EmgLag::shared);
+  EXPECT_EQ(options_of(result).law, identification::EmgLag::shared);
   result.source.study.identify.lag = identification::LagChoice::delay;
   EXPECT_FALSE(options_of(result).choose_lag);
-  EXPECT_EQ(options_of(result).lag, identification::EmgLag::delay);
+  EXPECT_EQ(options_of(result).law, identification::EmgLag::delay);
 }
 
 // `identify` makes its options from its own settings by the same function: equal settings, the same

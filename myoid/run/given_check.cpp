@@ -284,12 +284,8 @@ class TrialCheck {
     }
   }
 
-  [[nodiscard]] const Eigen::MatrixXd& arms(std::size_t joint) const {
-    return joint == 0 ? trial_.moment_arm_m : trial_.more_joints[joint - 1].moment_arm_m;
-  }
-  [[nodiscard]] const Eigen::VectorXd& torque(std::size_t joint) const {
-    return joint == 0 ? trial_.torque_nm : trial_.more_joints[joint - 1].torque_nm;
-  }
+  [[nodiscard]] const Eigen::MatrixXd& arms(std::size_t joint) const { return joint_at(trial_, joint).moment_arm_m; }
+  [[nodiscard]] const Eigen::VectorXd& torque(std::size_t joint) const { return joint_at(trial_, joint).torque_nm; }
 
   void moment_arms() {
     for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
@@ -385,9 +381,8 @@ class TrialCheck {
                                           .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
                                           .lever_m = 1.0,
                                           .body_mass_kg = 100.0};
-      const std::string text =
-          dynamics::too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
-                                    dynamics::usual_peak(torque(j)), joint.greatest_nm(), "the torque");
+      const std::string text = dynamics::too_much_torque(joint_at(trial_, j).joint, dynamics::usual_peak(torque(j)),
+                                                         joint.greatest_nm(), "the torque");
       if (!text.empty()) fail(files_.torques, text);
     }
   }

@@ -194,7 +194,7 @@ TEST(GivenCheck, MomentArmsOfTwoJointsInTheWrongOrderAreNamed) {
   arm.col(1) *= 0.3;
   arm.col(3) *= -1.2;
   const Eigen::VectorXd torque = arm.cwiseProduct(trial.force_n).rowwise().sum();
-  trial.more_joints.push_back({.name = "b",
+  trial.more_joints.push_back({.joint = "b",
                                .torque_nm = torque,
                                .moment_arm_m = arm,
                                .angle_rad = {},

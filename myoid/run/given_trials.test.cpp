@@ -17,10 +17,9 @@
 #include "myoid/study/study_model.h"
 #include "myoid/tables/series_file.h"
 #include "myoid/tables/storage_reader.h"
-#include "myoid/twin/write_recording.h"
 
+#include "tests/support/exact_recording.h"
 #include "tests/support/message_of.h"
-#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid {
@@ -32,10 +31,7 @@ struct Computed {
   StudyResult result;
 
   Computed() {
-    const auto protocol = twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
-    twin::write_virtual_recording(twin::make_virtual_recording(protocol, 3), folder / "recording");
-    Study study = read_study(folder / "recording/study.toml");
-    study.identify.cross_validate = false;
+    Study study = test::exact_recording(folder / "recording");
     study.identify.next_movements = 0;
     result = run_study(study);
     write_results(result, {}, folder / "results");

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/intake/limits.h"
-#include "myoid/intervals/estimate_remarks.h"
+#include "myoid/intervals/estimate_rows.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/statistics.h"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/intervals/estimate_remarks.h"
+#include "myoid/intervals/estimate_rows.h"
 
 namespace myoid {
 namespace {

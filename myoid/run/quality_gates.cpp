@@ -320,14 +320,12 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
 
 Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
   // A larger difference of the synergists' strengths than usual could explain this, too.
-  return {
-      "Electrodes on the muscles that they are named for",
-      exchanged.as_named.r2 > kGateLimits.explains || !exchanged.trial.empty() ? GateStatus::warn : GateStatus::fail,
-      exchanged.sentence(),
-      fmt::format("no two channels that fit {:.0f} % better as each other; fails where they make less than half of "
-                  "the torque as they are (R2 0.5)",
-                  100.0 * identification::beliefs::kStrengthRatio.sd),
-      "Every number of the two muscles is then the other's."};
+  return {"Electrodes on the muscles that they are named for",
+          exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail, exchanged.sentence(),
+          fmt::format("no two channels that fit {:.0f} % better as each other; fails where they make less than half of "
+                      "the torque as they are (R2 0.5)",
+                      100.0 * identification::beliefs::kStrengthRatio.sd),
+          "Every number of the two muscles is then the other's."};
 }
 
 Gate clock_gate(const identification::ShiftedEmg& shifted) {

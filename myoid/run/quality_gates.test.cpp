@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
-#include "myoid/intervals/verdict_cap.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/run/verdict_caps.h"
 
 namespace myoid {
 namespace {
+
+using identification::Method;
 
 using report::Gate;
 using report::GateStatus;
@@ -32,7 +34,7 @@ StudyResult some_result(double error_m, int frames_not_converged, double range_d
   trial.motion.ik = ik;
   result.trials.push_back(std::move(trial));
   identification::IdentificationResult torque;
-  torque.method = "torque";
+  torque.method = identification::Method::torque;
   torque.termination = math::Termination::converged;
   torque.estimates.push_back(
       {.muscle = "BIC", .parameter = "max_isometric_force", .verdict = identification::Verdict::identified});
@@ -41,7 +43,8 @@ StudyResult some_result(double error_m, int frames_not_converged, double range_d
 }
 
 /// The method with the caps that follow from the result.
-identification::ParameterEstimate capped(const StudyResult& result, const std::string& method = "torque") {
+identification::ParameterEstimate capped(const StudyResult& result,
+                                         identification::Method method = identification::Method::torque) {
   identification::IdentificationResult fit = result.fit.methods[0];
   fit.method = method;
   identification::apply(verdict_caps(result, quality_gates(result)), fit);
@@ -187,11 +190,11 @@ TEST(VerdictCaps, AGateThatFailedCapsTheMethodsThatItConcerns) {
   EXPECT_EQ(status_of(result, kSharingGate), GateStatus::info) << "no result of the recording rests on shared forces";
   result.source.study.identify.methods = {identification::Method::force, identification::Method::torque};
   EXPECT_EQ(status_of(result, kSharingGate), GateStatus::fail);
-  EXPECT_EQ(capped(result, "torque").verdict, Verdict::identified);
-  EXPECT_EQ(capped(result, "force").verdict, Verdict::weak);
+  EXPECT_EQ(capped(result, Method::torque).verdict, Verdict::identified);
+  EXPECT_EQ(capped(result, Method::force).verdict, Verdict::weak);
   result.fit.methods[0].termination = math::Termination::iteration_limit;
   EXPECT_EQ(status_of(result, "Fit converged"), GateStatus::fail);
-  EXPECT_EQ(capped(result, "torque").verdict, Verdict::weak);
+  EXPECT_EQ(capped(result, Method::torque).verdict, Verdict::weak);
 }
 
 TEST(QualityGates, ExternalLoadsAreStatedByAnyOfTheirKeysAlsoAsNothing) {

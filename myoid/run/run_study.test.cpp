@@ -13,13 +13,11 @@
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_report.h"
 #include "myoid/run/quality_gates.h"
-#include "myoid/study/read_study.h"
 #include "myoid/study/study_model.h"
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/storage_reader.h"
-#include "myoid/twin/write_recording.h"
 
-#include "tests/support/places.h"
+#include "tests/support/exact_recording.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid {
@@ -30,13 +28,7 @@ struct ExactRun {
   test::TemporaryFolder folder;
   StudyResult result;
 
-  ExactRun() {
-    const auto protocol = twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
-    twin::write_virtual_recording(twin::make_virtual_recording(protocol, 3), folder / "recording");
-    Study study = read_study(folder / "recording/study.toml");
-    study.identify.cross_validate = false;
-    result = run_study(study, {.store = folder / "stages"});
-  }
+  ExactRun() { result = run_study(test::exact_recording(folder / "recording"), {.store = folder / "stages"}); }
   static const ExactRun& get() {
     static const ExactRun run;
     return run;
@@ -139,10 +131,10 @@ TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
 TEST(RunStudy, TheReportHasMethodForce) {
   StudyResult result = ExactRun::get().result;
   const auto torque = std::find_if(result.fit.methods.begin(), result.fit.methods.end(),
-                                   [](const auto& m) { return m.method == "torque"; });
+                                   [](const auto& m) { return m.method == identification::Method::torque; });
   ASSERT_NE(torque, result.fit.methods.end());
   identification::IdentificationResult force = *torque;
-  force.method = "force";
+  force.method = identification::Method::force;
   result.fit.methods = {force};
   const report::Report report = study_report(result, {});
   EXPECT_EQ(report.headline.find("source paper"), std::string::npos) << report.headline;

@@ -52,7 +52,7 @@ signals::EmgChain emg_chain(const StudyResult& result, const identification::Ide
   chain.steps.push_back(method == nullptr
                             ? std::string("activation dynamics: none in this file")
                             : fmt::format("activation dynamics: {}, {} (method {})", identification::name(method->lag),
-                                          delays(*method), method->method));
+                                          delays(*method), name(method->method)));
   return chain;
 }
 

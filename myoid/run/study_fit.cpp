@@ -1,7 +1,6 @@
 #include "myoid/run/study_fit.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,18 +16,19 @@
 namespace myoid {
 
 using identification::IdentificationResult;
+using identification::Method;
 
-const IdentificationResult* method_of(const StudyFit& fit, std::string_view name) {
-  const auto found = std::ranges::find(fit.methods, name, &IdentificationResult::method);
+const IdentificationResult* method_of(const StudyFit& fit, Method method) {
+  const auto found = std::ranges::find(fit.methods, method, &IdentificationResult::method);
   return found == fit.methods.end() ? nullptr : &*found;
 }
 
 const IdentificationResult* best_method(const StudyFit& fit) {
-  const IdentificationResult* torque = method_of(fit, "torque");
-  return torque != nullptr ? torque : method_of(fit, "force");
+  const IdentificationResult* torque = method_of(fit, Method::torque);
+  return torque != nullptr ? torque : method_of(fit, Method::force);
 }
 
-const IdentificationResult* torque_of(const StudyFit& fit) { return method_of(fit, "torque"); }
+const IdentificationResult* torque_of(const StudyFit& fit) { return method_of(fit, Method::torque); }
 
 const identification::TrialFit* trial_of(const IdentificationResult& method, const std::string& trial) {
   const auto found = std::ranges::find(method.trials, trial, &identification::TrialFit::trial);
@@ -62,15 +62,11 @@ bool shares_forces(const Study& study) {
                              [&](const TrialSpec& trial) { return study.fits(trial) && !trial.given.forces; });
 }
 
-StudyFit study_fit(
-    const Study& study, const FitInput& input, const EmgScale& emg, std::uint64_t seed, const Progress& progress) {
+StudyFit study_fit(const Study& study, const FitInput& input, std::uint64_t seed, const Progress& progress) {
   StudyFit found;
   if (wants_torque(study)) {
-    const double delay_s = study.emg.delay_s.value_or(identification::TorqueOptions{}.delay_prior_mean_s);
+    const double delay_s = study.emg.delay_s.value_or(identification::EstimatorOptions{}.delay_prior_mean_s);
     found.exchanged = identification::exchanged_electrodes(input.data, delay_s);
-    std::map<std::string, double> references;
-    for (const signals::ChannelNormalisation& n : emg.normalisation) references[n.channel] = n.reference_v;
-    if (!found.exchanged) found.exchanged = identification::exchanged_in_a_trial(input.data, delay_s, references);
     found.shifted =
         identification::shifted_emg(input.data, {signals::kLimits.earliest_offset_s, signals::kLimits.latest_offset_s});
   }
@@ -100,7 +96,7 @@ std::vector<identification::InformedForces> informed_forces(const FitInput& inpu
                                                             const std::vector<IdentificationResult>& methods) {
   std::vector<identification::InformedForces> found;
   for (const IdentificationResult& method : methods) {
-    if (method.method != "torque") continue;
+    if (method.method != identification::Method::torque) continue;
     const std::size_t before = found.size();
     const std::vector<identification::TrialData>& trials = input.data.trials;
     found.resize(before + trials.size());

@@ -3,11 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "myoid/core/progress.h"
-#include "myoid/intake/study_activation.h"
 #include "myoid/intervals/result.h"
 #include "myoid/methods/exchanged_electrodes.h"
 #include "myoid/methods/informed_forces.h"
@@ -30,7 +28,7 @@ struct StudyFit {
 };
 
 /// Returns the result of the method of this name; nullptr if there is none.
-[[nodiscard]] const identification::IdentificationResult* method_of(const StudyFit& fit, std::string_view name);
+[[nodiscard]] const identification::IdentificationResult* method_of(const StudyFit& fit, identification::Method method);
 
 /// Returns the method by which a reader judges the muscles: torque, else force; null: only method `paper` was asked
 /// for.
@@ -50,8 +48,10 @@ struct StudyFit {
 [[nodiscard]] bool shares_forces(const Study& study);
 
 /// Computes the parameters by every method that the study names. `seed` is that of the solvers' comparison.
-[[nodiscard]] StudyFit study_fit(
-    const Study& study, const FitInput& input, const EmgScale& emg, std::uint64_t seed, const Progress& progress);
+[[nodiscard]] StudyFit study_fit(const Study& study,
+                                 const FitInput& input,
+                                 std::uint64_t seed,
+                                 const Progress& progress);
 
 /// Returns the forces informed by the EMG, for `StudyFit::informed`.
 [[nodiscard]] std::vector<identification::InformedForces> informed_forces(

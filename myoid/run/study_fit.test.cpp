@@ -9,8 +9,8 @@ TEST(TorqueOf, IsTheResultOfThatMethodAmongTheOthers) {
   StudyFit fit;
   EXPECT_EQ(torque_of(fit), nullptr);
   fit.methods.resize(2);
-  fit.methods[0].method = "paper";
-  fit.methods[1].method = "torque";
+  fit.methods[0].method = identification::Method::paper;
+  fit.methods[1].method = identification::Method::torque;
   EXPECT_EQ(torque_of(fit), &fit.methods[1]);
 }
 

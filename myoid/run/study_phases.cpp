@@ -118,7 +118,7 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
     }
     PhaseSignals signals{.time_s = trial.time_s, .velocity_radps = trial.velocity_radps, .torque_nm = trial.torque_nm};
     if (worth_a_fit) {
-      identification::Prediction prediction = identification::predict(data, trial, fit.values, options.lag);
+      identification::Prediction prediction = identification::predict(data, trial, fit.values, options.law);
       signals.predicted_nm = std::move(prediction.torque_nm);
       signals.effort_nm = prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();
       signals.activation = std::move(prediction.activation);
@@ -126,7 +126,7 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
         signals.median_frequency_hz = frequency_of(source.scale, *found, 0.5 * phase_limits::kBlock_s);
     } else {
       signals.predicted_nm = trial.torque_nm;
-      signals.activation = identification::muscle_activation(data, trial, trial.time_s, 0.0);
+      signals.activation = identification::muscle_activation(data, trial, 0.0);
     }
     all.push_back({trial.name, find_phases(signals)});
   }

@@ -73,7 +73,9 @@ struct Tiring {
   }
   [[nodiscard]] const Phase* found(PhaseKind kind) {
     result.source.study.trials.resize(result.trials.size());
-    phases = study_phases(fit_source(result), result.fit_input.data, {.delay_s = 0.05});
+    identification::EstimatorOptions options;
+    options.delay_s = 0.05;
+    phases = study_phases(fit_source(result), result.fit_input.data, options);
     const auto& list = phases.at(0).phases;
     const auto it = std::find_if(list.begin(), list.end(), [&](const Phase& p) { return p.kind == kind; });
     return it == list.end() ? nullptr : &*it;

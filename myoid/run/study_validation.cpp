@@ -63,8 +63,8 @@ StudyValidation study_validation(const FitSource& source,
     return identification::identify_torque(split, options);
   };
   StudyValidation found;
-  if (whole.method == "force" && whole.exact) return found;
-  found.folds = whole.method == "force"
+  if (whole.method == identification::Method::force && whole.exact) return found;
+  found.folds = whole.method == identification::Method::force
                     ? identification::cross_validate_force(input.data, input.options, how)
                     : identification::cross_validate(input.data, fit, beginning_at(whole, input.options), how);
   std::string why_not;

@@ -90,7 +90,7 @@ void add_gates(const std::vector<report::Gate>& gates, std::vector<VerdictCap>& 
   for (const report::Gate& gate : gates) {
     if (gate.status != report::GateStatus::fail) continue;
     caps.push_back(of_all(fmt::format("The gate \"{}\" failed: mend that first.", gate.name)));
-    if (gate.name == kSharingGate) caps.back().methods = {"force"};
+    if (gate.name == kSharingGate) caps.back().method = identification::Method::force;
   }
 }
 

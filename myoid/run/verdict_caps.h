@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "myoid/intervals/verdict_cap.h"
+#include "myoid/intervals/verdicts.h"
 #include "myoid/report/report.h"
 #include "myoid/run/study_result.h"
 

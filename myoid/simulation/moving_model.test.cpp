@@ -12,7 +12,7 @@ namespace myoid::simulation {
 namespace {
 
 constexpr std::array kState{1.1, -2.0};
-constexpr Eigen::Index kMuscles = 0, kJoint = 2, kDevice = 4;  // columns of the torque
+constexpr Eigen::Index kMuscleCount = 0, kJoint = 2, kDevice = 4;  // columns of the torque
 
 TEST(MovingModel, AcceleratesAsTheTorqueOfTheClosedFormSays) {
   const SimulationModel arm = make_arm_model({.held_mass_kg = 1.0});
@@ -27,7 +27,7 @@ TEST(MovingModel, AcceleratesAsTheTorqueOfTheClosedFormSays) {
   EXPECT_EQ(ydot[0], kState[1]);
   EXPECT_EQ(ydot[1], row.motion(0, 2));
   const double required_nm = model::required_torque_nm(model::planar_elbow(), 1.1, ydot[1], kStandardGravity, 1.0);
-  EXPECT_NEAR(row.torque(0, kMuscles) + row.torque(0, kJoint), required_nm, 1e-12);
+  EXPECT_NEAR(row.torque(0, kMuscleCount) + row.torque(0, kJoint), required_nm, 1e-12);
   EXPECT_EQ(row.torque(0, kDevice), 0.0);
 }
 
@@ -41,7 +41,7 @@ TEST(MovingModel, ADeviceExertsWhatItsAccelerationTakes) {
   SimulationRecord row = moving.make_record(1);
   moving.record(0.5, kState.data(), nullptr, 0, row);
   EXPECT_EQ(row.motion(0, 2), 5.0);
-  EXPECT_NEAR(row.torque(0, kMuscles) + row.torque(0, kJoint) + row.torque(0, kDevice),
+  EXPECT_NEAR(row.torque(0, kMuscleCount) + row.torque(0, kJoint) + row.torque(0, kDevice),
               model::required_torque_nm(model::planar_elbow(), 1.1, 5.0, kStandardGravity), 1e-12);
 }
 

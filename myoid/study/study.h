@@ -10,7 +10,6 @@
 #include "myoid/core/geometry.h"
 #include "myoid/core/stretch.h"
 #include "myoid/forces/sharing_objective.h"
-#include "myoid/identification/estimator_settings.h"
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/phases/phases.h"

@@ -111,7 +111,7 @@ OnePerson one_person(const twin::Protocol& protocol, std::uint64_t seed, const T
         const auto it = truth.find({e.muscle, e.parameter});
         if (it != truth.end()) person.rows.push_back({seed, it->second, e});
       }
-      if (method.method != "torque") continue;
+      if (method.method != identification::Method::torque) continue;
       for (const identification::TrialFit& t : method.trials) {
         if (t.calibration) continue;
         person.predictions.push_back({seed, t.trial, t.score, t.band});
@@ -258,7 +258,7 @@ std::vector<TwinSummary> summarize(const TwinStudyResult& result) {
       const ParameterEstimate& e = row.estimate;
       const bool single = e.muscle == "subject";
       if (single && !all) continue;
-      const Key key{e.method, e.fit_case, e.parameter, single ? "subject" : all ? "all" : e.muscle};
+      const Key key{std::string(name(e.method)), e.fit_case, e.parameter, single ? "subject" : all ? "all" : e.muscle};
       auto& group = groups[key];
       if (group.empty()) order.push_back(key);
       group.push_back(&row);
@@ -283,7 +283,7 @@ std::string persons_text(const TwinStudyResult& result) {
   for (const TwinRow& row : result.rows) {
     const ParameterEstimate& e = row.estimate;
     persons +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.seed, e.method, e.fit_case, e.muscle,
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.seed, name(e.method), e.fit_case, e.muscle,
                     e.parameter, symbol(e.unit), cell(row.truth), cell(e.initial), cell(e.estimate), optional(e.ci_low),
                     optional(e.ci_high), optional(e.given_estimate), optional(e.given_ci_low),
                     optional(e.given_ci_high), optional(e.shrinkage), identification::name(e.verdict));

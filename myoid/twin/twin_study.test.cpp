@@ -14,18 +14,17 @@ namespace myoid::twin {
 namespace {
 
 TwinRow row(std::string parameter, double truth, double estimate, double half_width, identification::Verdict verdict) {
-  return {1,
-          truth,
-          {.muscle = "BIC",
-           .parameter = std::move(parameter),
-           .method = "torque",
-           .fit_case = "both",
-           .initial = truth * 1.2,
-           .estimate = estimate,
-           .ci_low = estimate - half_width,
-           .ci_high = estimate + half_width,
-           .shrinkage = 0.5,
-           .verdict = verdict}};
+  TwinRow of{1,
+             truth,
+             {.muscle = "BIC",
+              .parameter = std::move(parameter),
+              .initial = truth * 1.2,
+              .estimate = estimate,
+              .ci_low = estimate - half_width,
+              .ci_high = estimate + half_width,
+              .verdict = verdict}};
+  of.estimate.shrinkage = 0.5;
+  return of;
 }
 
 TEST(TwinSummary, CountsErrorsCoverageAndVerdictsByHand) {

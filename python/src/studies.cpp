@@ -207,7 +207,7 @@ py::dict compare(py::dict given) {
     d["muscle"] = p.muscle;
     d["parameter"] = p.first.parameter;
     d["unit"] = std::string(symbol(p.first.unit));
-    d["method"] = p.first.method;
+    d["method"] = std::string(name(p.first.method));
     d["case"] = p.first.fit_case;
     d["first"] = p.first.estimate;
     d["second"] = p.second.estimate;

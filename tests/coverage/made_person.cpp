@@ -133,8 +133,8 @@ class Maker {
       setup.emg_channel = setup.name;
       setup.start = start[k];
       setup.priors = literature_priors(start[k]);
-      person_.options.gain_prior_sd[setup.name] = beliefs::kEmgGain.sd;
-      person_.options.emg_bandwidth_hz[setup.name] = o_.emg_bandwidth_hz;
+      person_.options.state(setup.name).gain_sd = beliefs::kEmgGain.sd;
+      person_.options.state(setup.name).bandwidth_hz = o_.emg_bandwidth_hz;
       person_.data.muscles.push_back(setup);
     }
     ParameterRule offset;

@@ -30,8 +30,8 @@ inline identification::EstimatorOptions crowded_options() {
   identification::EstimatorOptions options;
   options.angle_sd_rad = 0.01;
   for (const char* channel : {"BIC", "BRD", "TRI"}) {
-    options.gain_prior_sd[channel] = 0.1;
-    options.emg_bandwidth_hz[channel] = 150.0;
+    options.state(channel).gain_sd = 0.1;
+    options.state(channel).bandwidth_hz = 150.0;
   }
   return options;
 }

@@ -127,7 +127,7 @@ inline identification::TrialData leg_trial(const ElbowStudy& study,
   const auto n = static_cast<Eigen::Index>(o.seconds * kRate_hz) + 1;
   trial.time_s = Eigen::VectorXd::LinSpaced(n, 0.0, o.seconds);
   trial.joint = "ankle";
-  trial.more_joints.push_back({.name = "knee"});
+  trial.more_joints.push_back({.joint = "knee"});
   identification::JointData& knee = trial.more_joints.front();
   for (Eigen::MatrixXd* of :
        {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n, &knee.moment_arm_m})

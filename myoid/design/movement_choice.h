@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace myoid::identification {
+namespace myoid {
 
 /// The information of one movement about the parameters, for each of several persons drawn from the priors.
 struct MovementInformation {
@@ -60,4 +60,4 @@ struct DesignResult {
 /// not depend on threads. Throws InvalidInput if sizes disagree, there is no target, or no person can do any movement.
 [[nodiscard]] DesignResult choose_movements(const DesignProblem& problem, const DesignOptions& options = {});
 
-}  // namespace myoid::identification
+}  // namespace myoid

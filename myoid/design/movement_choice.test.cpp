@@ -1,4 +1,4 @@
-#include "myoid/methods/design.h"
+#include "myoid/design/movement_choice.h"
 
 #include <cmath>
 #include <random>
@@ -9,7 +9,7 @@
 
 #include "myoid/core/error.h"
 
-namespace myoid::identification {
+namespace myoid {
 namespace {
 
 /// Random information matrices: the normal matrices of random Jacobians.
@@ -121,4 +121,4 @@ TEST(ChooseMovements, RefusesWhatDoesNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace myoid::identification
+}  // namespace myoid

@@ -1,4 +1,4 @@
-#include "myoid/methods/design.h"
+#include "myoid/design/movement_choice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "myoid/core/error.h"
 
-namespace myoid::identification {
+namespace myoid {
 namespace {
 
 /// The information gathered so far, per person.
@@ -184,4 +184,4 @@ DesignResult choose_movements(const DesignProblem& problem, const DesignOptions&
   return Designer(problem, options).choose();
 }
 
-}  // namespace myoid::identification
+}  // namespace myoid

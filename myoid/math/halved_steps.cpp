@@ -1,4 +1,4 @@
-#include "myoid/methods/halved_steps.h"
+#include "myoid/math/halved_steps.h"
 
 #include <cmath>
 #include <utility>
@@ -8,7 +8,7 @@
 
 #include "myoid/core/error.h"
 
-namespace myoid::identification {
+namespace myoid::math {
 namespace {
 
 constexpr int kMostSteps = 1000;
@@ -19,21 +19,21 @@ constexpr double kNothing = 1e-12;
 constexpr double kRoundOff = 1e-7;
 
 /// Returns argmin |J d + r| with the columns of J scaled.
-Eigen::VectorXd full_step(const math::LeastSquaresResult& at) {
+Eigen::VectorXd full_step(const LeastSquaresResult& at) {
   const Eigen::VectorXd size = at.jacobian.colwise().norm();
   const Eigen::VectorXd scale = (size.array() > 0.0).select(size.cwiseInverse(), 1.0);
   const Eigen::MatrixXd scaled = at.jacobian * scale.asDiagonal();
   return scale.cwiseProduct(scaled.colPivHouseholderQr().solve(-at.residual).eval());
 }
 
-bool ended(math::LeastSquaresResult& result, math::Termination termination, std::string message) {
+bool ended(LeastSquaresResult& result, Termination termination, std::string message) {
   result.termination = termination;
   result.message = std::move(message);
   return true;
 }
 
 /// Takes one step; returns true if it is the last.
-bool step(const math::LeastSquaresProblem& problem, math::LeastSquaresResult& result) {
+bool step(const LeastSquaresProblem& problem, LeastSquaresResult& result) {
   const double before = result.cost;
   Eigen::VectorXd d = full_step(result);
   const double promised = before - 0.5 * (result.residual + result.jacobian * d).squaredNorm();
@@ -52,19 +52,17 @@ bool step(const math::LeastSquaresProblem& problem, math::LeastSquaresResult& re
     result.cost = cost;
     result.cost_history.push_back(cost);
     const bool settled = cost == 0.0 || (promised <= kNothing * before && before - cost <= kNothing * before);
-    return settled && ended(result, math::Termination::converged, "the cost falls no further");
+    return settled && ended(result, Termination::converged, "the cost falls no further");
   }
   if (tiny || promised <= kNothing * before)
-    return ended(result, math::Termination::converged, "the cost can fall no further within round-off");
-  return ended(result, math::Termination::no_descent, "no step lowers the cost");
+    return ended(result, Termination::converged, "the cost can fall no further within round-off");
+  return ended(result, Termination::no_descent, "no step lowers the cost");
 }
 
 }  // namespace
 
-math::LeastSquaresResult minimize_by_halved_steps(const math::LeastSquaresProblem& problem,
-                                                  const Eigen::VectorXd& start,
-                                                  const Progress& progress) {
-  math::LeastSquaresResult result;
+LeastSquaresResult minimize_by_halved_steps(const LeastSquaresProblem& problem, const Eigen::VectorXd& start) {
+  LeastSquaresResult result;
   result.x = start;
   result.residual.setZero(problem.residual_count);
   result.jacobian.setZero(problem.residual_count, start.size());
@@ -75,13 +73,12 @@ math::LeastSquaresResult minimize_by_halved_steps(const math::LeastSquaresProble
     throw InvalidInput("halved steps: the residual or its Jacobian is not finite at the start");
   result.cost_history.push_back(result.cost);
   while (result.iterations < kMostSteps) {
-    progress.check();
     ++result.iterations;
     if (step(problem, result)) return result;
   }
-  result.termination = math::Termination::iteration_limit;
+  result.termination = Termination::iteration_limit;
   result.message = fmt::format("not converged after {} steps", result.iterations);
   return result;
 }
 
-}  // namespace myoid::identification
+}  // namespace myoid::math

@@ -1,4 +1,4 @@
-#include "myoid/identification/estimator_settings.h"
+#include "myoid/identification/options.h"
 
 #include <gtest/gtest.h>
 
@@ -9,21 +9,20 @@ TEST(EstimatorSettings, DefaultsAreThoseOfTheEstimatorButForTheLagThatTheDataCho
   const EstimatorOptions made = estimator_options({}, {}, {});
   const EstimatorOptions plain;
   EXPECT_TRUE(made.choose_lag);
-  EXPECT_EQ(made.lag, plain.lag);
+  EXPECT_EQ(made.law, plain.law);
   EXPECT_EQ(made.delay_prior_mean_s, plain.delay_prior_mean_s);
   EXPECT_EQ(made.delay_prior_sd_s, plain.delay_prior_sd_s);
   EXPECT_EQ(made.max_rate_hz, plain.max_rate_hz);
   EXPECT_EQ(made.residual_cutoff_hz, plain.residual_cutoff_hz);
   EXPECT_EQ(made.from_mvc, plain.from_mvc);
   EXPECT_EQ(made.envelope_cutoff_hz, plain.envelope_cutoff_hz);
-  EXPECT_TRUE(made.gain_prior_sd.empty());
-  EXPECT_TRUE(made.emg_bandwidth_hz.empty());
+  EXPECT_TRUE(made.channels.empty());
 }
 
 TEST(EstimatorSettings, WithTheLagsOfEquation1TheDelayIsTheTimeLeftBesideThem) {
   const EstimatorOptions lags = estimator_options({.lag = LagChoice::equation_1}, {}, {});
   EXPECT_FALSE(lags.choose_lag);
-  EXPECT_EQ(lags.lag, EmgLag::equation_1);
+  EXPECT_EQ(lags.law, EmgLag::equation_1);
   EXPECT_NEAR(lags.delay_prior_mean_s, 0.010, 1e-12);
   EXPECT_NEAR(lags.delay_prior_sd_s, 0.010, 1e-12);
 }
@@ -33,11 +32,11 @@ TEST(EstimatorSettings, AChannelWithoutAnErrorOfItsLevelHasNoGain) {
   source.channels = {{.channel = "BIC", .bandwidth_hz = 90.0, .rest = 0.01},
                      {.channel = "TRI", .gain_sd = 0.05, .gain_mean = 0.8}};
   const EstimatorOptions made = estimator_options({}, source, {});
-  EXPECT_FALSE(made.gain_prior_sd.contains("BIC"));
-  EXPECT_EQ(made.gain_prior_sd.at("TRI"), 0.05);
-  EXPECT_EQ(made.gain_prior_mean.at("TRI"), 0.8);
-  EXPECT_EQ(made.emg_bandwidth_hz.at("BIC"), 90.0);
-  EXPECT_EQ(made.emg_rest.at("BIC"), 0.01);
+  EXPECT_FALSE(made.of("BIC").gain_sd);
+  EXPECT_EQ(made.of("TRI").gain_sd, 0.05);
+  EXPECT_EQ(made.of("TRI").gain_mean, 0.8);
+  EXPECT_EQ(made.of("BIC").bandwidth_hz, 90.0);
+  EXPECT_EQ(made.rest_level("BIC"), 0.01);
 }
 
 }  // namespace

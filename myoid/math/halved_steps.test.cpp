@@ -1,4 +1,4 @@
-#include "myoid/methods/halved_steps.h"
+#include "myoid/math/halved_steps.h"
 
 #include <cmath>
 #include <limits>
@@ -7,12 +7,12 @@
 
 #include "myoid/core/error.h"
 
-namespace myoid::identification {
+namespace myoid::math {
 namespace {
 
 /// r = atan(x): full steps diverge from |x| > 1.3917, and the minimum is 0.
-math::LeastSquaresProblem arcus_tangent() {
-  math::LeastSquaresProblem problem;
+LeastSquaresProblem arcus_tangent() {
+  LeastSquaresProblem problem;
   problem.residual_count = 1;
   problem.evaluate = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     r[0] = std::atan(x[0]);
@@ -22,13 +22,12 @@ math::LeastSquaresProblem arcus_tangent() {
 }
 
 TEST(HalvedSteps, ConvergeWhereFullOnesDiverge) {
-  const math::LeastSquaresProblem problem = arcus_tangent();
+  const LeastSquaresProblem problem = arcus_tangent();
   const Eigen::VectorXd start = Eigen::VectorXd::Constant(1, 3.0);
-  const math::LeastSquaresResult full =
-      math::minimize(problem, start, {.method = math::LeastSquaresMethod::gauss_newton});
+  const LeastSquaresResult full = minimize(problem, start, {.method = LeastSquaresMethod::gauss_newton});
   EXPECT_FALSE(std::abs(full.x[0]) < 1.0) << "nothing is shown";
-  const math::LeastSquaresResult found = minimize_by_halved_steps(problem, start);
-  EXPECT_EQ(found.termination, math::Termination::converged) << found.message;
+  const LeastSquaresResult found = minimize_by_halved_steps(problem, start);
+  EXPECT_EQ(found.termination, Termination::converged) << found.message;
   EXPECT_NEAR(found.x[0], 0.0, 1e-9);
   for (std::size_t i = 1; i < found.cost_history.size(); ++i)
     EXPECT_LT(found.cost_history[i], found.cost_history[i - 1]);
@@ -36,14 +35,14 @@ TEST(HalvedSteps, ConvergeWhereFullOnesDiverge) {
 
 TEST(HalvedSteps, EndAtTheMinimumOfACostThatIsNotZeroThere) {
   // r = (x - 1, x + 1, x^2): d/dx (2 x^2 + 2 + x^4) / 2 = 0 at x = 0, where the cost is 1.
-  math::LeastSquaresProblem problem;
+  LeastSquaresProblem problem;
   problem.residual_count = 3;
   problem.evaluate = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     r << x[0] - 1.0, x[0] + 1.0, x[0] * x[0];
     if (jacobian != nullptr) jacobian->col(0) << 1.0, 1.0, 2.0 * x[0];
   };
-  const math::LeastSquaresResult found = minimize_by_halved_steps(problem, Eigen::VectorXd::Constant(1, 5.0));
-  EXPECT_EQ(found.termination, math::Termination::converged) << found.message;
+  const LeastSquaresResult found = minimize_by_halved_steps(problem, Eigen::VectorXd::Constant(1, 5.0));
+  EXPECT_EQ(found.termination, Termination::converged) << found.message;
   EXPECT_NEAR(found.x[0], 0.0, 1e-5);
   EXPECT_NEAR(found.cost, 1.0, 1e-11);
 }
@@ -54,4 +53,4 @@ TEST(HalvedSteps, AStartThatIsNotFiniteIsRefused) {
 }
 
 }  // namespace
-}  // namespace myoid::identification
+}  // namespace myoid::math
