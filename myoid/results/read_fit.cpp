@@ -1,6 +1,7 @@
 #include "myoid/results/read_fit.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,35 +25,17 @@ double number(const json& cell) {
   return cell.is_number() ? cell.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The lists of numbers of one method in a file. Throws ReadError for a cell that is no number and for another shape.
-struct Numbers {
-  const std::filesystem::path& path;
-  const json& of;
-
-  [[nodiscard]] Eigen::VectorXd vector(std::string_view name) const { return finite(name, of.at(name)); }
-
-  [[nodiscard]] Eigen::MatrixXd square(std::string_view name, Eigen::Index n) const {
-    const json& rows = of.at(name);
-    Eigen::MatrixXd values(n, n);
-    bool is_square = static_cast<Eigen::Index>(rows.size()) == n;
-    for (Eigen::Index i = 0; is_square && i < n; ++i) {
-      const Eigen::VectorXd row = finite(name, rows.at(at(i)));
-      is_square = row.size() == n;
-      if (is_square) values.row(i) = row;
-    }
-    if (!is_square)
-      throw ReadError(path, 0, "\"{}\" is no matrix of {} rows and columns; run the study again", name, n);
-    return values;
-  }
-
- private:
-  [[nodiscard]] Eigen::VectorXd finite(std::string_view name, const json& list) const {
-    Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
-    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = number(list.at(at(i)));
-    if (!values.allFinite()) throw ReadError(path, 0, "\"{}\" has a cell that is no number; run the study again", name);
-    return values;
-  }
-};
+/// Returns the list `name` of numbers in a file. Throws ReadError for a cell that is no number and another length.
+Eigen::VectorXd numbers(const std::filesystem::path& path,
+                        const json& list,
+                        std::string_view name,
+                        std::optional<std::size_t> count = {}) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = number(list.at(at(i)));
+  if (!values.allFinite() || list.size() != count.value_or(list.size()))
+    throw ReadError(path, 0, "\"{}\" is no list of {} numbers; run the study again", name, count.value_or(list.size()));
+  return values;
+}
 
 EmgLag lag_of(const json& method) {
   const json& word = method.at("emg_lag");
@@ -63,21 +46,23 @@ EmgLag lag_of(const json& method) {
 }
 
 identification::IdentificationResult fit_of(const std::filesystem::path& path, const json& method) {
-  const Numbers numbers{path, method};
   identification::IdentificationResult fit;
   fit.lag = lag_of(method);
   fit.exact = method.at("exact_data").get<bool>();
   fit.torque_sd_nm = number(method.at("torque_sd_nm"));
-  fit.envelope_variance = numbers.vector("envelope_variance");
-  fit.noise = numbers.vector("noise");
+  fit.envelope_variance = numbers(path, method.at("envelope_variance"), "envelope_variance");
+  fit.noise = numbers(path, method.at("noise"), "noise");
   if (!fit.exact && fit.noise.size() == 0)
     throw InvalidInput("its fit is that of an earlier version, by an estimator that is gone; run the study again");
   const json& covariance = method.at("covariance");
-  const Numbers of_covariance{path, covariance};
   fit.free_parameters = covariance.at("parameters").get<std::vector<std::string>>();
-  fit.solution = of_covariance.vector("mean");
-  const auto n = static_cast<Eigen::Index>(fit.free_parameters.size());
-  fit.covariance = of_covariance.square("matrix", n);
+  fit.solution = numbers(path, covariance.at("mean"), "mean");
+  const std::size_t n = fit.free_parameters.size();
+  fit.covariance.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  const json& matrix = covariance.at("matrix");
+  if (matrix.size() > n) throw ReadError(path, 0, "\"matrix\" has more than {} rows; run the study again", n);
+  for (std::size_t i = 0; i < n; ++i)
+    fit.covariance.row(static_cast<Eigen::Index>(i)) = numbers(path, matrix.at(i), "matrix", n);
   return fit;
 }
 
