@@ -315,7 +315,7 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
                    "is below theirs",
                    l.far_fold, l.larger_fold)},
       {"two electrodes that seem to be exchanged", "warning; fails",
-       fmt::format("fails if R² with the given names is {:g} or less; of a single trial a warning", l.explains)},
+       fmt::format("fails if R² with the given names is {:g} or less", l.explains)},
       {"EMG on another clock than the torque", "warning",
        "the literature's muscles err least at one delay outside the usual leads (`clock_offset`), 5 % less than "
        "inside, in three of four trials"},

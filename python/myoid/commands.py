@@ -49,7 +49,7 @@ Report = Union[Progress, bool, None]
 
 def run(study: File, *, out: File | None = None, mat: File | None = None, method: Texts | None = None,
         video: Texts | None = None, video_offset: float | None = None, threads: int | None = None,
-        start: float | None = None, end: float | None = None, overwrite: bool = False,
+        seed: int | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
         progress: Report = None) -> Result:  # fmt: skip
     """The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.
 
