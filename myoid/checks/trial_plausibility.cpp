@@ -197,7 +197,7 @@ std::vector<Remark> implausible(const Study& study,
   if (input.motion && input.motion->channel_count() > 0) {
     for (Remark& remark : kinematics::implausible(model, *input.motion)) {
       remark.where = trial.name;
-      // Of angles at the times of given lengths nothing but the joint's own torque depends.
+      // Beside given lengths only the joint's own torque depends on the angles.
       if (trial.given.lengths) remark.severity = std::max(remark.severity, Severity::warning);
       findings.push_back(std::move(remark));
     }

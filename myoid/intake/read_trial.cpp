@@ -22,16 +22,15 @@
 namespace myoid {
 namespace {
 
-/// Throws ReadError, naming the trial and its key, for a missing file.
-void require_files(const Study& study, const TrialSpec& trial) {
+/// Throws ReadError, naming the key, for a missing file.
+void require_files(const TrialSpec& trial) {
   using Key = std::pair<const char*, const std::optional<std::filesystem::path>*>;
   const auto require = [&](const char* key, const std::filesystem::path& path) {
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored)) return;
     throw ReadError(
-        study.file, 0,
-        fmt::format("trial '{}': {} = \"{}\": there is no such file; a path counts from the folder of the study",
-                    trial.name, key, path.string()));
+        path, 0,
+        fmt::format("there is no such file for {}; a path in a study counts from the folder of the study", key));
   };
   for (const auto& [key, path] : {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
                                   Key{"external_torque", &trial.external_torque},
@@ -133,11 +132,25 @@ std::optional<Cover> cover_by_files(const TrialSpec& trial, const TrialInput& in
   return check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), input);
 }
 
+/// Warns if the study's start_s or end_s lies outside of the recording: a file that was cut off ends early.
+void warn_of_window(const TrialSpec& trial, TrialInput& input) {
+  if (!input.markers && !input.motion) return;
+  const Eigen::VectorXd& time_s = input.markers ? input.markers->time_s : input.motion->time_s();
+  const double begin_s = time_s[0], end_s = time_s[time_s.size() - 1];
+  const double asked_from_s = trial.start_s.value_or(begin_s), asked_to_s = trial.end_s.value_or(end_s);
+  if (begin_s - asked_from_s <= kLimits.uncovered_s && asked_to_s - end_s <= kLimits.uncovered_s) return;
+  warn(input, RemarkCode::general,
+       fmt::format(
+           "start_s and end_s ask for {:.4g} to {:.4g} s, and the files of the trial cover {:.4g} to {:.4g} s of "
+           "them. Was a file cut off?",
+           asked_from_s, asked_to_s, begin_s, end_s));
+}
+
 }  // namespace
 
 TrialInput read_trial_input(const Study& study, const TrialSpec& trial, const model::BodyModel& model) {
   TrialInput input;
-  require_files(study, trial);
+  require_files(trial);
   const auto remember = [&](const std::filesystem::path& path) {
     input.files.push_back({path.string(), sha256(recording::read_bytes(path))});
   };
@@ -162,20 +175,27 @@ TrialInput read_trial_input(const Study& study, const TrialSpec& trial, const mo
   return input;
 }
 
-std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& trial, const model::BodyModel& model) {
+namespace {
+
+/// As read_trial_parts; `of_study`: start_s and end_s of the trial are the study's.
+std::vector<TrialPart> parts_of(const Study& study,
+                                const TrialSpec& trial,
+                                const model::BodyModel& model,
+                                bool of_study) {
   std::vector<TrialPart> parts;
   try {
     TrialPart whole{trial, read_trial_input(study, trial, model)};
     join_given_clocks(whole.spec, whole.input);
     const auto cover = cover_by_files(trial, whole.input);
     if (!cover) {
+      if (of_study) warn_of_window(trial, whole.input);
       parts.push_back(std::move(whole));
       return parts;
     }
     TrialSpec within = trial;
     within.start_s = cover->begin_s;
     within.end_s = cover->end_s;
-    parts = read_trial_parts(study, within, model);
+    parts = parts_of(study, within, model, false);
     for (TrialPart& part : parts) {
       part.input.lengths = lengths_of(trial, whole.input);
       warn(part.input, RemarkCode::general,
@@ -192,7 +212,7 @@ std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& tri
       spec.end_s = std::min(trial.end_s.value_or(stretch.end_s), stretch.end_s);
       if (*spec.end_s - *spec.start_s < kShortestPart_s) continue;
       // The other recording may have pauses elsewhere.
-      for (TrialPart& part : read_trial_parts(study, spec, model)) parts.push_back(std::move(part));
+      for (TrialPart& part : parts_of(study, spec, model, false)) parts.push_back(std::move(part));
     }
     if (parts.empty()) throw;
     for (TrialPart& part : parts) {
@@ -202,6 +222,12 @@ std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& tri
     }
   }
   return parts;
+}
+
+}  // namespace
+
+std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& trial, const model::BodyModel& model) {
+  return parts_of(study, trial, model, true);
 }
 
 }  // namespace myoid

@@ -71,6 +71,21 @@ TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheTorquesFile) {
             std::string::npos);
 }
 
+TEST(ReadTrialParts, AWindowOfTheStudyBeyondTheRecordingIsWarnedOf) {
+  WrittenTrial trial(0.01, 4.99);  // 5 s of motion
+  const auto warnings = [&](std::optional<double> start_s, std::optional<double> end_s) {
+    trial.spec.start_s = start_s;
+    trial.spec.end_s = end_s;
+    const std::vector<TrialPart> parts = read_trial_parts(arm_study(), trial.spec, arm());
+    return std::ranges::count(parts.at(0).input.remarks, Severity::warning, &Remark::severity);
+  };
+  const auto without = warnings(std::nullopt, std::nullopt);
+  EXPECT_EQ(warnings(1.0, 4.0), without);
+  EXPECT_EQ(warnings(std::nullopt, 5.05), without);
+  EXPECT_EQ(warnings(1.0, 7.0), without + 1);
+  EXPECT_EQ(warnings(-2.0, std::nullopt), without + 1);
+}
+
 TEST(ReadTrialParts, ATorqueMayBeATableInItsOwnUnit) {
   WrittenTrial trial(0.01, 4.99);
   std::string rows;

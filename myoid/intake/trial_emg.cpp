@@ -228,7 +228,7 @@ TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Reme
   }
   // The EMG may begin earlier than the motion, because of the delay.
   TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input);
-  // Of activations beside given lengths `join_given_clocks` looks at the clock.
+  // `join_given_clocks` compares the clock of activations with that of given lengths.
   const bool given = trial.given.lengths && study.emg.kind == EmgKind::activation;
   if (!given) emg = emg.slice(start - 0.5, end);
   require_finite(emg, trial.emg->string());

@@ -48,7 +48,8 @@ StudyValidation study_validation(const FitSource& source,
                                  const FitInput& input,
                                  const identification::IdentificationResult& whole,
                                  const Progress& progress) {
-  const identification::CrossValidationOptions how{.kind = source.study.identify.folds, .setting = "[identify] folds"};
+  const identification::CrossValidationOptions how{.kind = source.study.identify.folds,
+                                                   .setting = "folds of [identify] (identify: --folds)"};
   const auto fit = [&](identification::StudyData& split, identification::EstimatorOptions& options) {
     if (how.kind != identification::FoldKind::block) {
       FitInput of_fold = without_left_out(source, split, input.nuisances_held, progress);

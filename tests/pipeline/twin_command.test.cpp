@@ -1,5 +1,7 @@
 // The command `twin` as a user runs it.
+#include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -191,6 +193,43 @@ TEST(TwinCommand, AStudyOfAWorldStatesItAndTellsErrorAndWidthOfEachParameter) {
   const auto run = nlohmann::json::parse(read_text(fs::path(folder / "study") / "run.json"));
   EXPECT_EQ(run["world"]["moment_arm_sd"], "0.15");
   EXPECT_THAT(read_text(fs::path(folder / "study") / "summary.csv"), HasSubstr("median_error"));
+}
+
+/// Returns `text` without the lines that begin with one of `words`.
+std::string without_lines(const std::string& text, const std::vector<std::string>& words) {
+  std::istringstream lines(text);
+  std::string kept;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::ranges::none_of(words, [&](const std::string& word) { return line.starts_with(word); }))
+      kept += line + "\n";
+  }
+  return kept;
+}
+
+TEST(TwinCommand, TheGreatestTorqueOfThePersonFitsTheContractionWhereTendonsAreUnknown) {
+  const TemporaryFolder folder;
+  const std::string protocol = ::myoid::test::source_dir() / "examples/protocols/three_trials.toml";
+  ASSERT_EQ(myoid({"twin", "--protocol", protocol, "--seed", "7", "--out", folder / "rec"}).exit_code, 0);
+  // As a stranger's study: the built-in arm, and nothing known of the muscles.
+  const fs::path study = fs::path(folder / "rec") / "study.toml";
+  std::string text = without_lines(read_text(study), {"held_mass =", "fixed =", "file = \"model.osim"});
+  text.replace(text.find("[model]"), 7, "[model]\nbuiltin = \"arm4\"");
+  write_text(study, text);
+  const Finished run = myoid({"run", study, "--out", folder / "results"});
+  ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
+  const auto number = [](const fs::path& file, const std::string& parameter, const std::string& column) {
+    for (const auto& row : read_rows(file)) {
+      if (row.at("muscle") == "elbow_flexion" && row.at("parameter") == parameter) return std::stod(row.at(column));
+    }
+    return 0.0;
+  };
+  for (const std::string parameter : {"voluntary_torque_positive", "voluntary_torque_negative"}) {
+    const double truth_nm = number(fs::path(folder / "rec") / "truth.csv", parameter, "value");
+    // The fitted contraction is measured within 3 %. Away from the mode the flexors' torque errs by 7 %.
+    EXPECT_NEAR(number(fs::path(folder / "results") / "parameters.csv", parameter, "estimate"), truth_nm,
+                0.04 * truth_nm)
+        << parameter;
+  }
 }
 
 }  // namespace
