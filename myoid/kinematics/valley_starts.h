@@ -17,11 +17,11 @@ struct LimbMinimum {
 
 /// Returns postures from which a search may find the other minima of a valley of J.
 ///
-/// The first and the last axis of a shoulder that is abducted by 90 degrees are nearly parallel. Turns about both cancel
-/// there, so J has a valley. J has a second valley on the other side of this lock, where other angles make the same
-/// rotation. The ends of the ranges cut both into minima that last for a few frames only. The starts lie at
-/// both ends of the valley, and at the joint's other angles, brought into their ranges: each if the way along the
-/// valley costs, by the curvature, no more than some times the limb's own part.
+/// The first and the last axis of a shoulder that is abducted by 90 degrees are nearly parallel. Turns about both
+/// cancel there, so J has a valley. J has a second valley on the other side of this lock, where other angles make the
+/// same rotation. The ends of the ranges cut both into minima that last for a few frames only. The starts lie at both
+/// ends of the valley, and at the joint's other angles, brought into their ranges: each if the way along the valley
+/// costs, by the curvature, no more than some times the limb's own part.
 [[nodiscard]] std::vector<Eigen::VectorXd> valley_starts(const model::BodyModel& model,
                                                          const Eigen::VectorXd& q,
                                                          const LimbMinimum& limb);
