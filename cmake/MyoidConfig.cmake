@@ -1,4 +1,4 @@
-# find_package(Myoid): the target Myoid::Myoid is every command as a function (myoid/commands/*.h) and all rooms below;
+# find_package(Myoid): the target Myoid::Myoid is every command as a function (myoid/program/commands/*.h) and all rooms below;
 # Myoid::c is the C interface for real time (myoid.h).
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4 NO_MODULE)

@@ -1,8 +1,33 @@
-# The layers, lowest first, and which lower layers each may use: written here once. The targets link
+# The wings of the house and their rooms. A wing is a folder of myoid/ and a namespace; a room is a folder of its wing, or
+# the wing's own folder where both have one name.
+set(MYOID_WING_ground core math files)
+set(MYOID_WING_recording tables c3d recording signals)
+set(MYOID_WING_muscle muscle)
+set(MYOID_WING_page page)
+set(MYOID_WING_body model osim arm kinematics dynamics forces simulation scene)
+set(MYOID_WING_fit beliefs measurement intervals posterior methods)
+set(MYOID_WING_opensim opensim)
+set(MYOID_WING_study phases study draft intake checks)
+set(MYOID_WING_run design run identify_files)
+set(MYOID_WING_results results cohort mat realtime)
+set(MYOID_WING_lab virtual_person twin)
+set(MYOID_WING_program contents commands cli)
+set(MYOID_WINGS ground recording muscle page body fit opensim study run results lab program)
+foreach(wing IN LISTS MYOID_WINGS)
+  foreach(room IN LISTS MYOID_WING_${wing})
+    if(room STREQUAL wing)
+      set(MYOID_FOLDER_${room} ${wing})
+    else()
+      set(MYOID_FOLDER_${room} ${wing}/${room})
+    endif()
+  endforeach()
+endforeach()
+
+# The rooms, lowest first, and which lower rooms each may use: written here once. The targets link
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
-    dynamics forces simulation beliefs identification intervals posterior methods report phases study intake checks
-    design run scene results draft contents identify_files opensim_tools virtual_person twin cohort
+    dynamics forces simulation beliefs measurement intervals posterior methods page phases study intake checks
+    design run scene results draft contents identify_files opensim virtual_person twin cohort
     realtime mat commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
@@ -20,44 +45,44 @@ set(MYOID_LAYER_dynamics core math files tables recording signals model osim kin
 set(MYOID_LAYER_forces core math muscle model osim kinematics dynamics)
 set(MYOID_LAYER_simulation core math files muscle model osim arm kinematics dynamics forces)
 set(MYOID_LAYER_beliefs core)
-set(MYOID_LAYER_identification core math muscle beliefs)
-set(MYOID_LAYER_intervals core math muscle signals identification)
-set(MYOID_LAYER_posterior core math muscle beliefs identification intervals)
-set(MYOID_LAYER_methods core math muscle forces beliefs identification intervals posterior)
-set(MYOID_LAYER_report core files)
+set(MYOID_LAYER_measurement core math muscle beliefs)
+set(MYOID_LAYER_intervals core math muscle measurement)
+set(MYOID_LAYER_posterior core math muscle beliefs measurement intervals)
+set(MYOID_LAYER_methods core math muscle beliefs measurement intervals posterior)
+set(MYOID_LAYER_page core files)
 set(MYOID_LAYER_phases core math)
-set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics forces identification
+set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics forces measurement
     phases)
 set(MYOID_LAYER_intake core math files tables recording signals model osim kinematics dynamics forces study)
 set(MYOID_LAYER_checks core math files tables recording signals model osim kinematics dynamics study
     intake)
-set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs identification
-    intervals posterior report study)
+set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs measurement
+    intervals posterior page study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
-    identification intervals methods report phases study intake checks design)
-set(MYOID_LAYER_scene core files recording model osim report)
+    measurement intervals methods page phases study intake checks design)
+set(MYOID_LAYER_scene core files recording model osim page)
 set(MYOID_LAYER_results core math files muscle tables recording model kinematics forces simulation
-    identification intervals methods report phases study design run scene)
+    measurement intervals methods page phases study design run scene)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model)
-set(MYOID_LAYER_identify_files core files muscle tables identification study)
-set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
+set(MYOID_LAYER_identify_files core files muscle tables measurement study)
+set(MYOID_LAYER_opensim core math files tables recording signals model osim kinematics
     dynamics forces simulation)
 set(MYOID_LAYER_virtual_person core math files muscle model osim arm beliefs
-    identification study)
+    measurement study)
 set(MYOID_LAYER_twin core math files muscle tables c3d arm intervals study run
     virtual_person)
-set(MYOID_LAYER_cohort core math files tables recording report study results)
-set(MYOID_LAYER_realtime core files identification kinematics model muscle study)
+set(MYOID_LAYER_cohort core math files tables recording page study results)
+set(MYOID_LAYER_realtime core files measurement kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
-    dynamics forces simulation identification intervals methods report study checks design run scene
-    results draft contents identify_files opensim_tools virtual_person twin cohort)
-set(MYOID_LAYER_cli core math files intervals methods report study results contents cohort mat commands)
+    dynamics forces simulation measurement intervals methods page study checks design run scene
+    results draft contents identify_files opensim virtual_person twin cohort)
+set(MYOID_LAYER_cli core math files intervals methods page study results contents cohort mat commands)
 
 # Rooms that compute little themselves: they read, write, judge and call the rooms below.
-set(MYOID_LIGHT_LAYERS osim arm beliefs report phases study intake checks design run scene results draft contents
-    identify_files opensim_tools twin cohort mat commands cli)
+set(MYOID_LIGHT_LAYERS osim arm beliefs page phases study intake checks design run scene results draft contents
+    identify_files opensim twin cohort mat commands cli)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [TESTS_TOGETHER] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp
@@ -71,7 +96,7 @@ function(myoid_layer name)
   foreach(unit IN LISTS ARG_UNITS)
     set(path ${CMAKE_CURRENT_SOURCE_DIR}/${unit})
     if(NOT EXISTS ${path}.h AND NOT EXISTS ${path}.cpp AND NOT EXISTS ${path}.test.cpp)
-      message(FATAL_ERROR "myoid/${name}/CMakeLists.txt lists ${unit}, which has no file")
+      message(FATAL_ERROR "myoid/${MYOID_FOLDER_${name}}/CMakeLists.txt lists ${unit}, which has no file")
     endif()
     if(EXISTS ${path}.h)
       list(APPEND headers ${unit}.h)

@@ -3,9 +3,11 @@
 FNR == 1 {
   room = FILENAME
   sub(/^.*myoid\//, "", room)
-  sub(/\/.*$/, "", room)
+  sub(/\/[^\/]*$/, "", room)  # the folder; of a folder in a room, such as model/opensim_defects, the room
+  sub(/\/(opensim_defects|viewer)$/, "", room)
+  sub(/^.*\//, "", room)
 }
-/^(namespace myoid[a-z_:]*|extern "C") \{$/ { print $0 " /** @addtogroup " room " */ /** @{ */"; c = /extern/; next }
+/^(namespace myoid[a-z_: ]*|extern "C") \{$/ { print $0 " /** @addtogroup " room " */ /** @{ */"; c = /extern/; next }
 /^\}  \/\/ namespace myoid/ || (c && /^\}$/) { print "/** @} */ " $0; next }
 match($0, /\/\/\/<?/) {
   text = substr($0, RSTART + RLENGTH)

@@ -11,7 +11,7 @@
 namespace {
 
 // A reader returns SI units whatever the file has: this .trc file has millimeters.
-void tell_markers(const myoid::recording::MarkerSeries& markers) {
+void tell_markers(const myoid::MarkerSeries& markers) {
   const Eigen::Index frames = markers.frame_count();
   const double duration_s = markers.time_s(frames - 1) - markers.time_s(0);
   const myoid::Vec3 first_m = markers.position(0, 0);

@@ -5,16 +5,16 @@
 #include <cstdlib>
 #include <exception>
 
-#include "myoid/commands/id.h"
-#include "myoid/commands/ik.h"
-#include "myoid/core/units.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/program/commands/id.h"
+#include "myoid/program/commands/ik.h"
 
 namespace {
 
 // Inverse kinematics: the posture of each frame whose model markers lie nearest to the measured.
 void find_angles(const char* model, const char* markers, const char* motion) {
-  const myoid::commands::IkResult ik = myoid::commands::ik({.model = model, .markers = markers});
-  myoid::commands::write_ik(ik, motion);
+  const myoid::program::IkResult ik = myoid::program::ik({.model = model, .markers = markers});
+  myoid::program::write_ik(ik, motion);
   const Eigen::VectorXd elbow_deg = ik.solved.q.column("elbow_flexion") / myoid::kDegree;
   std::printf("frames not converged: %d\n", ik.solved.frames_not_converged);
   std::printf("least flexion: %.4f deg\n", elbow_deg.minCoeff());
@@ -23,12 +23,12 @@ void find_angles(const char* model, const char* markers, const char* motion) {
 
 // Inverse dynamics: the torque that this motion takes. Two differentiations amplify noise, so the angles are smoothed.
 void find_torque(const char* model, const char* motion, double held_mass_kg) {
-  const myoid::commands::IdResult id = myoid::commands::id({.model = model,
-                                                            .motion = motion,
-                                                            .cutoff_hz = 6.0,
-                                                            .held_mass_kg = held_mass_kg,
-                                                            .held_body = "forearm_hand",
-                                                            .held_at_m = {0.0, -0.337, 0.0}});
+  const myoid::program::IdResult id = myoid::program::id({.model = model,
+                                                          .motion = motion,
+                                                          .cutoff_hz = 6.0,
+                                                          .held_mass_kg = held_mass_kg,
+                                                          .held_body = "forearm_hand",
+                                                          .held_at_m = {0.0, -0.337, 0.0}});
   const Eigen::VectorXd elbow_nm = id.forces.column("elbow_flexion_moment");
   std::printf("mean torque: %.4f N m\n", elbow_nm.mean());
   std::printf("greatest torque: %.4f N m\n", elbow_nm.maxCoeff());

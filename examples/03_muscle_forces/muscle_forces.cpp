@@ -5,16 +5,16 @@
 #include <cstdio>
 #include <exception>
 
-#include "myoid/commands/muscle.h"
+#include "myoid/program/commands/muscle.h"
 
 namespace {
 
 void tell_forces(const char* muscle, const char* lengths) {
-  myoid::commands::MuscleOptions options;
+  myoid::program::MuscleOptions options;
   options.muscle = muscle;
   options.lengths = {lengths};
   options.activation = {"0.5"};
-  const myoid::commands::MuscleResult result = myoid::commands::muscle(options);
+  const myoid::program::MuscleResult result = myoid::program::muscle(options);
 
   // The series has a row for each sample of the file and a column for each quantity.
   const myoid::TimeSeries& series = result.simulated->simulated.series;

@@ -5,20 +5,20 @@
 #include <exception>
 #include <string>
 
-#include "myoid/commands/emg.h"
-#include "myoid/commands/run.h"
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/program/commands/emg.h"
+#include "myoid/program/commands/run.h"
 
 namespace {
 
 // Raw EMG becomes activation: filter, rectify, smooth, divide by the greatest mean over 4 s of a
 // maximal contraction. A study does this for its trials by itself; here one can look at it.
 void tell_activation(const char* mvc, const char* trial) {
-  myoid::commands::EmgOptions options;
+  myoid::program::EmgOptions options;
   options.in = {trial};
   options.mvc = {mvc};
   options.window_s = 4.0;
-  const myoid::TimeSeries activation = myoid::commands::emg(options).activations.front();
+  const myoid::TimeSeries activation = myoid::program::emg(options).activations.front();
   const Eigen::VectorXd triceps = activation.column("TRI");
   std::printf("mean activation of TRI: %.4f\n", triceps.mean());
   std::printf("greatest activation of TRI: %.4f\n", triceps.maxCoeff());
@@ -26,8 +26,8 @@ void tell_activation(const char* mvc, const char* trial) {
 
 // The whole way from markers and EMG to the muscles' numbers, in SI units.
 void tell_triceps(const char* study) {
-  const myoid::commands::RunResult result = myoid::commands::run({.study = study});
-  const auto* fit = myoid::torque_of(result.study.fit);
+  const myoid::program::RunResult result = myoid::program::run({.study = study});
+  const auto* fit = myoid::run::torque_of(result.study.fit);
   if (fit == nullptr) throw myoid::InvalidInput("the study does not ask for the method torque");
   for (const auto& number : fit->estimates) {
     if (number.muscle != "TRI" || !number.std_error) continue;

@@ -6,12 +6,12 @@
 #include <map>
 #include <string>
 
-#include "myoid/commands/run.h"
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/program/commands/run.h"
 
 namespace {
 
-using myoid::identification::ParameterEstimate;
+using myoid::fit::ParameterEstimate;
 
 // A row of the table: the estimate with its 95 % interval, which may be open on a side.
 void tell_strength(const ParameterEstimate& number) {
@@ -22,8 +22,8 @@ void tell_strength(const ParameterEstimate& number) {
 
 // Every number has a verdict, and every verdict but the best a reason.
 void tell_all(const char* study) {
-  const myoid::commands::RunResult result = myoid::commands::run({.study = study});
-  const auto* fit = myoid::torque_of(result.study.fit);
+  const myoid::program::RunResult result = myoid::program::run({.study = study});
+  const auto* fit = myoid::run::torque_of(result.study.fit);
   if (fit == nullptr) throw myoid::InvalidInput("the study does not ask for the method torque");
   std::map<std::string, int> count;
   for (const ParameterEstimate& number : fit->estimates) {

@@ -6,32 +6,32 @@
 #include <exception>
 #include <filesystem>
 
-#include "myoid/commands/predict.h"
-#include "myoid/commands/run.h"
-#include "myoid/commands/twin.h"
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/program/commands/predict.h"
+#include "myoid/program/commands/run.h"
+#include "myoid/program/commands/twin.h"
 
 namespace {
 
-namespace commands = myoid::commands;
+namespace program = myoid::program;
 
 // The seed makes the person: muscles, EMG, noise.
-myoid::twin::Truth record(const char* protocol, const std::filesystem::path& folder) {
-  commands::TwinOptions options;
+myoid::lab::Truth record(const char* protocol, const std::filesystem::path& folder) {
+  program::TwinOptions options;
   options.call.seed = 2;
   options.protocol = protocol;
-  const commands::TwinResult person = commands::twin(options);
-  commands::write_twin(person, folder);
+  const program::TwinResult person = program::twin(options);
+  program::write_twin(person, folder);
   return person.recording.truth;
 }
 
 void recover(const char* protocol, const std::filesystem::path& out) {
-  const myoid::twin::Truth truth = record(protocol, out / "recording");
+  const myoid::lab::Truth truth = record(protocol, out / "recording");
 
   // The study of the recording, with the muscles of the literature as a start.
-  const commands::RunResult run = commands::run({.study = (out / "recording" / "study.toml").string()});
-  commands::write_run(run, out / "results");
-  const auto* fit = myoid::torque_of(run.study.fit);
+  const program::RunResult run = program::run({.study = (out / "recording" / "study.toml").string()});
+  program::write_run(run, out / "results");
+  const auto* fit = myoid::run::torque_of(run.study.fit);
   if (fit == nullptr) throw myoid::InvalidInput("the study does not ask for the method torque");
   for (std::size_t m = 0; m < truth.muscles.size(); ++m) {
     std::printf("strength of %s: %.1f N found, %.1f N true\n", run.study.source.study.muscles[m].name.c_str(),
@@ -39,7 +39,7 @@ void recover(const char* protocol, const std::filesystem::path& out) {
   }
 
   // The trials of the use `validation` took no part.
-  for (const auto& trial : commands::predict({.folder = (out / "results").string()}).trials) {
+  for (const auto& trial : program::predict({.folder = (out / "results").string()}).trials) {
     std::printf("torque of %s: R2 %.4f, error %.4f N m rms\n", trial.trial.c_str(), trial.score.r2(),
                 trial.score.rmse_nm());
   }

@@ -16,21 +16,21 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/page/report.h"
+#include "myoid/page/svg_plot.h"
 #include "myoid/recording/emg_reader.h"
-#include "myoid/report/report.h"
-#include "myoid/report/svg_plot.h"
-#include "myoid/signals/emg_envelope.h"
-#include "myoid/signals/spectrum.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/signals/emg_envelope.h"
+#include "myoid/recording/signals/spectrum.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 namespace {
 
 using myoid::TimeSeries;
-namespace report = myoid::report;
-namespace signals = myoid::signals;
+namespace page = myoid::page;
+namespace recording = myoid::recording;
 
 constexpr double kWindow_s = 10.0;
 constexpr double kMicrovolt = 1e6;
@@ -47,7 +47,7 @@ struct Side {
   std::string title;
   double from_s = 0.0;
   TimeSeries angle;
-  signals::EmgStages emg;
+  recording::EmgStages emg;
   std::array<std::size_t, 3> channel{};
 };
 
@@ -66,19 +66,19 @@ Side read_side(std::string title, const char* angle, const char* emg, const char
   side.from_s = std::strtod(from_s, nullptr);
   const myoid::recording::Storage storage = myoid::recording::read_storage(angle);
   side.angle = myoid::recording::to_si(storage, [](const std::string&) { return true; });
-  side.emg = signals::process_emg(myoid::recording::read_emg(emg, "", false).data);
+  side.emg = recording::process_emg(myoid::recording::read_emg(emg, "", false).data);
   for (std::size_t m = 0; m < kMuscles.size(); ++m) side.channel[m] = channel_of(side.emg.raw, kMuscles[m]);
   return side;
 }
 
 /// The window's samples of a column, times on the window's own clock.
-report::Series window(const TimeSeries& series,
-                      std::size_t channel,
-                      double from_s,
-                      double scale,
-                      const std::string& name,
-                      report::Role role) {
-  report::Series curve{.name = name, .role = role};
+page::Series window(const TimeSeries& series,
+                    std::size_t channel,
+                    double from_s,
+                    double scale,
+                    const std::string& name,
+                    page::Role role) {
+  page::Series curve{.name = name, .role = role};
   for (Eigen::Index k = 0; k < series.sample_count(); ++k) {
     const double t = series.time_s()(k) - from_s;
     if (t < 0.0 || t >= kWindow_s) continue;
@@ -90,40 +90,38 @@ report::Series window(const TimeSeries& series,
 
 /// The window's EMG itself, as the amplifier gave it.
 Eigen::VectorXd raw_window(const Side& side, std::size_t muscle) {
-  const report::Series curve = window(side.emg.raw, side.channel[muscle], side.from_s, 1.0, "", report::Role::raw);
+  const page::Series curve = window(side.emg.raw, side.channel[muscle], side.from_s, 1.0, "", page::Role::raw);
   return Eigen::Map<const Eigen::VectorXd>(curve.y.data(), static_cast<Eigen::Index>(curve.y.size()));
 }
 
-void add_row(report::Figure& figure,
+void add_row(page::Figure& figure,
              const std::array<Side, 2>& sides,
-             const report::Axis& x,
-             const report::Axis& y,
+             const page::Axis& x,
+             const page::Axis& y,
              const auto& series_of) {
   for (const Side& side : sides) {
-    report::Panel panel{.title = side.title + ": " + y.label, .x = x, .y = y};
+    page::Panel panel{.title = side.title + ": " + y.label, .x = x, .y = y};
     panel.series = series_of(side);
     figure.panels.push_back(std::move(panel));
   }
 }
 
-report::Figure figure_of(const std::array<Side, 2>& sides) {
-  report::Figure figure{
+page::Figure figure_of(const std::array<Side, 2>& sides) {
+  page::Figure figure{
       .id = "beside_a_recording", .title = "Ten seconds of a person and of a virtual one", .columns = 2};
-  const report::Axis time{.label = "time", .unit = "s", .lower = 0.0, .upper = kWindow_s};
+  const page::Axis time{.label = "time", .unit = "s", .lower = 0.0, .upper = kWindow_s};
   add_row(figure, sides, time, {.label = "elbow flexion", .unit = "deg"}, [](const Side& side) {
-    return std::vector{window(side.angle, 0, side.from_s, 1.0 / myoid::kDegree, "", report::Role::reference)};
+    return std::vector{window(side.angle, 0, side.from_s, 1.0 / myoid::kDegree, "", page::Role::reference)};
   });
   for (std::size_t m = 0; m < kMuscles.size(); ++m) {
-    add_row(
-        figure, sides, time, {.label = fmt::format("raw EMG, {}", kMuscles[m].name), .unit = "µV"},
-        [m](const Side& side) {
-          return std::vector{window(side.emg.raw, side.channel[m], side.from_s, kMicrovolt, "", report::Role::truth)};
-        });
+    add_row(figure, sides, time, {.label = fmt::format("raw EMG, {}", kMuscles[m].name), .unit = "µV"},
+            [m](const Side& side) {
+              return std::vector{window(side.emg.raw, side.channel[m], side.from_s, kMicrovolt, "", page::Role::truth)};
+            });
   }
-  constexpr std::array<report::Role, 3> kRoles = {report::Role::reference, report::Role::identified,
-                                                  report::Role::literature};
+  constexpr std::array<page::Role, 3> kRoles = {page::Role::reference, page::Role::identified, page::Role::literature};
   add_row(figure, sides, time, {.label = "envelope over its maximum"}, [&](const Side& side) {
-    std::vector<report::Series> curves;
+    std::vector<page::Series> curves;
     for (std::size_t m = 0; m < kMuscles.size(); ++m) {
       const double most = side.emg.envelope.values().col(static_cast<Eigen::Index>(side.channel[m])).maxCoeff();
       curves.push_back(window(side.emg.envelope, side.channel[m], side.from_s, 1.0 / most,
@@ -133,12 +131,12 @@ report::Figure figure_of(const std::array<Side, 2>& sides) {
   });
   add_row(figure, sides, {.label = "frequency", .unit = "Hz", .lower = 0.0, .upper = 400.0},
           {.label = "power per Hz over all of it"}, [&](const Side& side) {
-            std::vector<report::Series> curves;
+            std::vector<page::Series> curves;
             for (std::size_t m = 0; m < kMuscles.size(); ++m) {
-              const signals::PowerSpectrum spectrum =
-                  signals::power_spectrum(raw_window(side, m), side.emg.raw.mean_rate_hz(), 0.25);
-              const double all = signals::band_power(spectrum, 0.0, 1e4);
-              report::Series curve{.name = std::string(kMuscles[m].name), .role = kRoles[m]};
+              const recording::PowerSpectrum spectrum =
+                  recording::power_spectrum(raw_window(side, m), side.emg.raw.mean_rate_hz(), 0.25);
+              const double all = recording::band_power(spectrum, 0.0, 1e4);
+              page::Series curve{.name = std::string(kMuscles[m].name), .role = kRoles[m]};
               for (Eigen::Index k = 0; k < spectrum.density.size(); ++k) {
                 if (spectrum.frequency_hz(k) > 400.0) break;
                 curve.x.push_back(spectrum.frequency_hz(k));
@@ -155,12 +153,12 @@ report::Figure figure_of(const std::array<Side, 2>& sides) {
 std::string counted(const Side& side, std::size_t m) {
   const double rate_hz = side.emg.raw.mean_rate_hz();
   const Eigen::VectorXd raw = raw_window(side, m);
-  const signals::PowerSpectrum spectrum = signals::power_spectrum(raw, rate_hz, 0.5);
-  const double all = signals::band_power(spectrum, 0.0, 1e4);
+  const recording::PowerSpectrum spectrum = recording::power_spectrum(raw, rate_hz, 0.5);
+  const double all = recording::band_power(spectrum, 0.0, 1e4);
   std::vector<double> envelope =
-      window(side.emg.envelope, side.channel[m], side.from_s, kMicrovolt, "", report::Role::reference).y;
-  const report::Series filtered =
-      window(side.emg.filtered, side.channel[m], side.from_s, kMicrovolt, "", report::Role::raw);
+      window(side.emg.envelope, side.channel[m], side.from_s, kMicrovolt, "", page::Role::reference).y;
+  const page::Series filtered =
+      window(side.emg.filtered, side.channel[m], side.from_s, kMicrovolt, "", page::Role::raw);
   // Kurtosis of the EMG over its envelope, where the muscle is at work.
   std::vector<double> sorted = envelope;
   std::sort(sorted.begin(), sorted.end());
@@ -175,17 +173,18 @@ std::string counted(const Side& side, std::size_t m) {
     fourth += z2 * z2;
     count += 1.0;
   }
-  return fmt::format(
-      "| {} | {} | {:.0f} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} | {:.1f} |\n", side.title, kMuscles[m].name,
-      at(0.99), 100.0 * at(0.05) / at(0.99), signals::median_frequency_hz(spectrum, 20.0, 400.0),
-      100.0 * signals::band_power(spectrum, 0.0, 15.0) / all, 100.0 * signals::band_power(spectrum, 150.0, 1e4) / all,
-      1e4 * signals::band_power(spectrum, 500.0, 1e4) / all, fourth * count / (second * second) - 3.0);
+  return fmt::format("| {} | {} | {:.0f} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} | {:.1f} |\n", side.title,
+                     kMuscles[m].name, at(0.99), 100.0 * at(0.05) / at(0.99),
+                     recording::median_frequency_hz(spectrum, 20.0, 400.0),
+                     100.0 * recording::band_power(spectrum, 0.0, 15.0) / all,
+                     100.0 * recording::band_power(spectrum, 150.0, 1e4) / all,
+                     1e4 * recording::band_power(spectrum, 500.0, 1e4) / all, fourth * count / (second * second) - 3.0);
 }
 
 void run(char** argv) {
   const std::array<Side, 2> sides = {read_side("a person", argv[1], argv[2], argv[3]),
                                      read_side("virtual, L2", argv[4], argv[5], argv[6])};
-  myoid::recording::write_file(argv[7], report::svg_plot(figure_of(sides)));
+  myoid::write_file(argv[7], page::svg_plot(figure_of(sides)));
   fmt::print(
       "| | muscle | peak of the envelope [µV] | rest / peak [%] | median frequency [Hz] | below 15 "
       "Hz [%] | above 150 Hz [%] | above 500 Hz [1e-4] | excess kurtosis |\n"

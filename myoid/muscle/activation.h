@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "myoid/core/choice.h"
+#include "myoid/ground/core/choice.h"
 #include "myoid/muscle/scalar.h"
 
 namespace myoid::muscle {

@@ -6,7 +6,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 #include "tests/support/activation_steps.h"
 

@@ -8,7 +8,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 namespace myoid::muscle {
 namespace {

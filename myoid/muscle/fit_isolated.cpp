@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/math/decompositions.h"
-#include "myoid/math/statistics.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/math/decompositions.h"
+#include "myoid/ground/math/statistics.h"
 
 namespace myoid::muscle {
 namespace {

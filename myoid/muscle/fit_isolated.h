@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "myoid/core/progress.h"
-#include "myoid/core/units.h"
-#include "myoid/math/least_squares.h"
+#include "myoid/ground/core/progress.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/math/least_squares.h"
 #include "myoid/muscle/isolated_muscle.h"
 
 namespace myoid::muscle {

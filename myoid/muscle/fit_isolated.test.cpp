@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 #include "tests/support/small_muscle.h"
 

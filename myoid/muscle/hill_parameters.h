@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "myoid/core/units.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/muscle/force_velocity.h"
 
 namespace myoid::muscle {

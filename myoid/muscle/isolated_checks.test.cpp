@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 #include "tests/support/small_muscle.h"
 

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/math/runge_kutta.h"
-#include "myoid/math/shape_preserving_curve.h"
-#include "myoid/math/stiff_ode.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/math/runge_kutta.h"
+#include "myoid/ground/math/shape_preserving_curve.h"
+#include "myoid/ground/math/stiff_ode.h"
 
 namespace myoid::muscle {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "myoid/core/progress.h"
-#include "myoid/core/time_series.h"
-#include "myoid/math/ode.h"
+#include "myoid/ground/core/progress.h"
+#include "myoid/ground/core/time_series.h"
+#include "myoid/ground/math/ode.h"
 #include "myoid/muscle/activation.h"
 #include "myoid/muscle/musculotendon.h"
 

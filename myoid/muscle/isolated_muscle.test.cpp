@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
 
 #include "tests/support/activation_steps.h"
 #include "tests/support/places.h"

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
 
 namespace myoid::muscle {
 

@@ -5,8 +5,8 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
 
 namespace myoid::muscle {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/names.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/names.h"
 
 namespace myoid::muscle {
 

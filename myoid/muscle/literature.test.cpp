@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 namespace myoid::muscle {
 namespace {

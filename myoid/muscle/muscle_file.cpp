@@ -5,17 +5,17 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
-#include "myoid/files/text_file.h"
-#include "myoid/files/toml_table.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/ground/files/toml_table.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/literature.h"
 
 namespace myoid::muscle {
 namespace {
 
-using recording::TomlTable;
+using ground::TomlTable;
 
 MusculotendonLaws read_laws(TomlTable& table) {
   const std::string set = table.choice("laws", "millard", {"paper", "thelen", "de_groote", "millard"});
@@ -64,7 +64,7 @@ HillParameters<double> read_hill(TomlTable& table) {
 }  // namespace
 
 MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path& path) {
-  const toml::table document = recording::parse_toml(text, path);
+  const toml::table document = parse_toml(text, path);
   TomlTable root(document, path, "the muscle");
   MuscleFile file;
   std::optional<TomlTable> muscle = root.table("muscle");
@@ -117,8 +117,6 @@ MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path&
   return file;
 }
 
-MuscleFile read_muscle_file(const std::filesystem::path& path) {
-  return parse_muscle_file(recording::read_text_file(path), path);
-}
+MuscleFile read_muscle_file(const std::filesystem::path& path) { return parse_muscle_file(read_text_file(path), path); }
 
 }  // namespace myoid::muscle

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 namespace myoid::muscle {
 namespace {

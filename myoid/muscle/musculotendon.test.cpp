@@ -7,8 +7,8 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/muscle/musculotendon_inl.h"
 
 namespace myoid::muscle {

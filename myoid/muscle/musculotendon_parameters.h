@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "myoid/core/choice.h"
-#include "myoid/core/units.h"
+#include "myoid/ground/core/choice.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::muscle {

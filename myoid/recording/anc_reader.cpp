@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/file_words.h"
-#include "myoid/tables/table_clock.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_words.h"
+#include "myoid/recording/tables/table_clock.h"
 
 namespace myoid::recording {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/core/time_series.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/core/time_series.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::recording {
 

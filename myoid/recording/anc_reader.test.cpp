@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/c3d/c3d_signals.h"
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/recording/c3d/c3d_reader.h"
+#include "myoid/recording/c3d/c3d_signals.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/whole_c3d.h"

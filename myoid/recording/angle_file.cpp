@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "myoid/files/text_file.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::recording {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 namespace myoid::recording {
 

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/error.h"
-#include "myoid/core/json_text.h"
-#include "myoid/core/numbers.h"
-#include "myoid/files/file_words.h"
-#include "myoid/tables/text_table.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/core/numbers.h"
+#include "myoid/ground/files/file_words.h"
+#include "myoid/recording/tables/text_table.h"
 
 namespace myoid::recording {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/time_series.h"
-#include "myoid/files/marker_series.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/core/time_series.h"
+#include "myoid/ground/files/marker_series.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::recording {
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"

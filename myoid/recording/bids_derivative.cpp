@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/error.h"
-#include "myoid/core/json_text.h"
-#include "myoid/core/provenance.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/files/name_ids.h"
-#include "myoid/files/result_record.h"
-#include "myoid/tables/csv_reader.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/core/provenance.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/name_ids.h"
+#include "myoid/ground/files/result_record.h"
+#include "myoid/recording/tables/csv_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 namespace myoid::recording {
 namespace {

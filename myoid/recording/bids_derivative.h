@@ -15,8 +15,8 @@ namespace myoid::recording {
 ///     with ..._motion.json and ..._channels.tsv                 JNTANG in degrees;
 ///                                                               *_tx, *_ty, *_tz POS in m
 ///
-/// A dataset_description.json of another program stays (files/result_record.h). `subject` and the trials' names keep
-/// only letters and digits, as BIDS requires. Returns the files written. Throws ReadError if there is no
+/// A dataset_description.json of another program stays (ground/files/result_record.h). `subject` and the trials' names
+/// keep only letters and digits, as BIDS requires. Returns the files written. Throws ReadError if there is no
 /// parameters.csv, InvalidInput if nothing remains of a name or two trials get one name.
 std::vector<std::filesystem::path> write_bids_derivative(const std::filesystem::path& results,
                                                          const std::filesystem::path& out,

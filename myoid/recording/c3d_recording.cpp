@@ -5,11 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/c3d/c3d_signals.h"
-#include "myoid/core/error.h"
-#include "myoid/files/file_format.h"
-#include "myoid/files/file_words.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/file_words.h"
+#include "myoid/recording/c3d/c3d_reader.h"
+#include "myoid/recording/c3d/c3d_signals.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/recording/plate_unit.h"
 #include "myoid/recording/plate_zero.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/c3d/c3d_file.h"
+#include "myoid/recording/c3d/c3d_file.h"
 #include "myoid/recording/recorded_trial.h"
 
 namespace myoid::recording {

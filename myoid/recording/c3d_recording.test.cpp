@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_frames.h"
-#include "myoid/c3d/c3d_writer.h"
+#include "myoid/recording/c3d/c3d_frames.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 
 #include "tests/support/temporary_folder.h"
 

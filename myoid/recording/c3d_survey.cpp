@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include "myoid/c3d/c3d_frames.h"
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/files/byte_source.h"
+#include "myoid/ground/files/byte_source.h"
+#include "myoid/recording/c3d/c3d_frames.h"
+#include "myoid/recording/c3d/c3d_reader.h"
 #include "myoid/recording/c3d_recording.h"
 
 namespace myoid::recording {

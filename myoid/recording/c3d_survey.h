@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "myoid/c3d/c3d_file.h"
+#include "myoid/recording/c3d/c3d_file.h"
 #include "myoid/recording/force_plate.h"
 
 namespace myoid::recording {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_writer.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 
 #include "tests/support/plate_recording.h"
 #include "tests/support/temporary_folder.h"

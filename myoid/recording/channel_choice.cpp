@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/clock_facts.h"
-#include "myoid/core/error.h"
-#include "myoid/files/label_match.h"
-#include "myoid/files/toml_table.h"
-#include "myoid/tables/instrument_names.h"
+#include "myoid/ground/core/clock_facts.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/label_match.h"
+#include "myoid/ground/files/toml_table.h"
+#include "myoid/recording/tables/instrument_names.h"
 
 namespace myoid::recording {
 namespace {

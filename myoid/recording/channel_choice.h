@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "myoid/files/analog_channels.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/files/analog_channels.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/recording/force_plate.h"
 
 namespace myoid::recording {

@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "myoid/files/file_format.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/tables/storage_writer.h"
+#include "myoid/recording/tables/storage_writer.h"
 
 namespace myoid::recording {
 namespace {

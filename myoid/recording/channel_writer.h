@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/time_series.h"
-#include "myoid/tables/storage_reader.h"
-#include "myoid/tables/text_rows.h"
+#include "myoid/ground/core/time_series.h"
+#include "myoid/recording/tables/storage_reader.h"
+#include "myoid/recording/tables/text_rows.h"
 
 namespace myoid::recording {
 

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/files/text_file.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/recording/emg_reader.h"
-#include "myoid/tables/csv_reader.h"
+#include "myoid/recording/tables/csv_reader.h"
 
 #include "tests/support/temporary_folder.h"
 

@@ -12,15 +12,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/c3d/c3d_signals.h"
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 #include "myoid/recording/anc_reader.h"
+#include "myoid/recording/c3d/c3d_reader.h"
+#include "myoid/recording/c3d/c3d_signals.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/tables/emg_table.h"
-#include "myoid/tables/storage_reader.h"
-#include "myoid/tables/trc_reader.h"
+#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/tables/storage_reader.h"
+#include "myoid/recording/tables/trc_reader.h"
 
 #include "tests/support/repair_lines.h"
 #include "tests/support/whole_c3d.h"

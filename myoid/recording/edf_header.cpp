@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/file_words.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_words.h"
 
 namespace myoid::recording {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "myoid/files/byte_source.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/files/byte_source.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::recording {
 

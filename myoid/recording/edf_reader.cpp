@@ -12,14 +12,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/numbers.h"
-#include "myoid/files/byte_source.h"
-#include "myoid/files/event.h"
-#include "myoid/files/file_words.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/numbers.h"
+#include "myoid/ground/files/byte_source.h"
+#include "myoid/ground/files/event.h"
+#include "myoid/ground/files/file_words.h"
 #include "myoid/recording/edf_header.h"
-#include "myoid/tables/table_layout.h"
-#include "myoid/tables/table_series.h"
+#include "myoid/recording/tables/table_layout.h"
+#include "myoid/recording/tables/table_series.h"
 
 namespace myoid::recording {
 namespace {

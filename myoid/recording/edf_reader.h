@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "myoid/files/analog_channels.h"
-#include "myoid/files/event.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/files/analog_channels.h"
+#include "myoid/ground/files/event.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::recording {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 namespace myoid::recording {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/recording/channel_choice.h"
-#include "myoid/tables/instrument_names.h"
+#include "myoid/recording/tables/instrument_names.h"
 
 namespace myoid::recording {
 namespace {

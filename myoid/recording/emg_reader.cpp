@@ -11,20 +11,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/file_format.h"
-#include "myoid/files/file_words.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/file_words.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/tables/csv_reader.h"
-#include "myoid/tables/emg_table.h"
-#include "myoid/tables/instrument_names.h"
-#include "myoid/tables/marker_table.h"
-#include "myoid/tables/nexus_section.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/tables/csv_reader.h"
+#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/tables/instrument_names.h"
+#include "myoid/recording/tables/marker_table.h"
+#include "myoid/recording/tables/nexus_section.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 namespace myoid::recording {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/time_series.h"
-#include "myoid/files/text_file.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/ground/core/time_series.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 namespace myoid::recording {
 

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 
 #include "tests/support/plate_recording.h"
 #include "tests/support/repair_lines.h"

@@ -8,9 +8,9 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "myoid/core/index.h"
-#include "myoid/core/numbers.h"
-#include "myoid/files/file_words.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/ground/core/numbers.h"
+#include "myoid/ground/files/file_words.h"
 
 namespace myoid::recording {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "myoid/c3d/c3d_file.h"
-#include "myoid/core/geometry.h"
+#include "myoid/ground/core/geometry.h"
+#include "myoid/recording/c3d/c3d_file.h"
 
 namespace myoid::recording {
 

@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_reader.h"
+#include "myoid/recording/c3d/c3d_reader.h"
 
 #include "tests/support/c3d_plates.h"
 #include "tests/support/data_folder.h"

@@ -6,15 +6,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/recording/c3d/c3d_reader.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/tables/marker_table.h"
-#include "myoid/tables/trc_reader.h"
+#include "myoid/recording/tables/marker_table.h"
+#include "myoid/recording/tables/trc_reader.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/repair_lines.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/geometry.h"
-#include "myoid/core/time_series.h"
+#include "myoid/ground/core/geometry.h"
+#include "myoid/ground/core/time_series.h"
 #include "myoid/recording/force_plate.h"
 
 namespace myoid::recording {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/marker_series.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/marker_series.h"
 
 namespace myoid::recording {
 namespace {

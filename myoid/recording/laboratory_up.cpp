@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
-#include "myoid/math/statistics.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/math/statistics.h"
 
 namespace myoid::recording {
 namespace {
@@ -307,7 +307,7 @@ std::optional<Vec3> axis_vector(std::string_view name) {
 
 Mat3 rotation_to_y_up(const Vec3& up_L) {
   const std::string name = axis_name(up_L);
-  if (name.size() == 1) return rotation_to_y_up(name[0]);
+  if (name.size() == 1) return ground::rotation_to_y_up(name[0]);
   Mat3 R = Mat3::Zero();
   if (name[1] == 'x') {
     R << 0, 1, 0, -1, 0, 0, 0, 0, 1;

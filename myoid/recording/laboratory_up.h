@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "myoid/c3d/c3d_file.h"
-#include "myoid/core/geometry.h"
-#include "myoid/files/marker_series.h"
+#include "myoid/ground/core/geometry.h"
+#include "myoid/ground/files/marker_series.h"
+#include "myoid/recording/c3d/c3d_file.h"
 #include "myoid/recording/force_plate.h"
 #include "myoid/recording/recorded_trial.h"
 

@@ -8,17 +8,17 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/files/text_file.h"
-#include "myoid/files/toml_table.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/ground/files/toml_table.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/tables/csv_reader.h"
-#include "myoid/tables/emg_table.h"
-#include "myoid/tables/marker_table.h"
-#include "myoid/tables/storage_reader.h"
-#include "myoid/tables/trc_reader.h"
+#include "myoid/recording/tables/csv_reader.h"
+#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/tables/marker_table.h"
+#include "myoid/recording/tables/storage_reader.h"
+#include "myoid/recording/tables/trc_reader.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/repair_lines.h"

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/byte_source.h"
-#include "myoid/files/file_format.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/byte_source.h"
+#include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::recording {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/core/geometry.h"
+#include "myoid/ground/core/geometry.h"
 
 namespace myoid::recording {
 

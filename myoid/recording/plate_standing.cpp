@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
-#include "myoid/files/file_format.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/files/file_format.h"
 
 namespace myoid::recording {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "myoid/core/geometry.h"
+#include "myoid/ground/core/geometry.h"
 #include "myoid/recording/force_plate.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/recording/recorded_trial.h"

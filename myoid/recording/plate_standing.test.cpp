@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/core/error.h"
-#include "myoid/core/units.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/ground_reaction.h"
 #include "myoid/recording/laboratory_up.h"
 

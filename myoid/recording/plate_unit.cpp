@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "myoid/math/statistics.h"
+#include "myoid/ground/math/statistics.h"
 
 namespace myoid::recording {
 namespace {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_writer.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/plate_standing.h"
 
 #include "tests/support/plate_recording.h"

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "myoid/c3d/c3d_file.h"
+#include "myoid/recording/c3d/c3d_file.h"
 #include "myoid/recording/recorded_trial.h"
 
 namespace myoid::recording {

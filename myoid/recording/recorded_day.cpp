@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/core/day_text.h"
-#include "myoid/files/byte_source.h"
-#include "myoid/files/file_format.h"
+#include "myoid/ground/core/day_text.h"
+#include "myoid/ground/files/byte_source.h"
+#include "myoid/ground/files/file_format.h"
+#include "myoid/recording/c3d/c3d_reader.h"
 
 namespace myoid::recording {
 namespace {

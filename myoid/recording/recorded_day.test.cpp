@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"

@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "myoid/core/geometry.h"
-#include "myoid/files/analog_channels.h"
-#include "myoid/files/event.h"
-#include "myoid/files/marker_series.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/core/geometry.h"
+#include "myoid/ground/files/analog_channels.h"
+#include "myoid/ground/files/event.h"
+#include "myoid/ground/files/marker_series.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/recording/force_plate.h"
 
 namespace myoid::recording {

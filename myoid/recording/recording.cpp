@@ -4,17 +4,17 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/file_format.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_format.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/tables/emg_table.h"
-#include "myoid/tables/marker_table.h"
-#include "myoid/tables/nexus_section.h"
-#include "myoid/tables/storage_reader.h"
-#include "myoid/tables/trc_reader.h"
+#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/tables/marker_table.h"
+#include "myoid/recording/tables/nexus_section.h"
+#include "myoid/recording/tables/storage_reader.h"
+#include "myoid/recording/tables/trc_reader.h"
 
 namespace myoid::recording {
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "myoid/files/text_file.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/recording/recorded_trial.h"
-#include "myoid/tables/marker_file.h"
+#include "myoid/recording/tables/marker_file.h"
 
 namespace myoid::recording {
 

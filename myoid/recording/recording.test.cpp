@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/c3d/make_c3d.h"
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/recording/c3d/c3d_writer.h"
+#include "myoid/recording/c3d/make_c3d.h"
 #include "myoid/recording/emg_reader.h"
 
 #include "tests/support/data_folder.h"

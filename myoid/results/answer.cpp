@@ -6,31 +6,31 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/wrapped_text.h"
-#include "myoid/design/design_study.h"
-#include "myoid/files/quoted_text.h"
-#include "myoid/math/statistics.h"
-#include "myoid/report/light.h"
-#include "myoid/report/muscle_names.h"
-#include "myoid/report/plain_unit.h"
-#include "myoid/report/typeset.h"
+#include "myoid/ground/core/wrapped_text.h"
+#include "myoid/ground/files/quoted_text.h"
+#include "myoid/ground/math/statistics.h"
+#include "myoid/page/light.h"
+#include "myoid/page/muscle_names.h"
+#include "myoid/page/plain_unit.h"
+#include "myoid/page/typeset.h"
 #include "myoid/results/parameter_tables.h"
 #include "myoid/results/voluntary_report.h"
+#include "myoid/run/design/design_study.h"
 #include "myoid/run/prediction_gates.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
-using identification::Verdict;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
+using fit::Verdict;
 
 constexpr std::size_t kMostRows = 10;
 constexpr std::size_t kMostReasons = 4;
 
 /// Returns true for a parameter of its own: no nuisance, not tied to another, and no torque that follows from others.
 bool is_counted(const ParameterEstimate& e) {
-  return !identification::is_nuisance(e) && e.tied_to.empty() && !identification::is_voluntary(e.parameter);
+  return !fit::is_nuisance(e) && e.tied_to.empty() && !fit::is_voluntary(e.parameter);
 }
 
 /// Lists the numbers that are identified: "max isometric force of Biceps, Triceps; emg delay of the person".
@@ -45,22 +45,22 @@ std::string identified_numbers(const IdentificationResult& fit, std::size_t musc
   }
   std::vector<std::string> parts;
   for (const auto& [parameter, muscles] : owners)
-    parts.push_back(fmt::format("{} of {}", report::spelled(parameter), fmt::join(muscles, ", ")));
+    parts.push_back(fmt::format("{} of {}", page::spelled(parameter), fmt::join(muscles, ", ")));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string ends(const std::optional<double>& low, const std::optional<double>& high, double per_si) {
-  return low && high ? report::format_interval(*low * per_si, *high * per_si) : "";
+  return low && high ? page::format_interval(*low * per_si, *high * per_si) : "";
 }
 
 AnswerRow row_of(std::string number, const ParameterEstimate& e, std::string_view place) {
-  const report::PlainUnit unit = report::plain_unit(e.unit);
+  const page::PlainUnit unit = page::plain_unit(e.unit);
   const auto scaled = [&](const std::optional<double>& x) { return x ? std::optional(*x * unit.per_si) : x; };
   AnswerRow row{.number = std::move(number),
-                .value = report::format_beside(e.estimate * unit.per_si, scaled(e.ci_low), scaled(e.ci_high)),
+                .value = page::format_beside(e.estimate * unit.per_si, scaled(e.ci_low), scaled(e.ci_high)),
                 .of_person = ends(e.ci_low, e.ci_high, unit.per_si),
                 .given = ends(e.given_ci_low, e.given_ci_high, unit.per_si),
-                .verdict = report::spelled(identification::name(e.verdict))};
+                .verdict = page::spelled(fit::name(e.verdict))};
   row.outside_given =
       e.given_ci_low && e.given_ci_high && (e.estimate < *e.given_ci_low || e.estimate > *e.given_ci_high);
   if (!unit.symbol.empty()) row.value += fmt::format(" {}", unit.symbol);
@@ -72,10 +72,10 @@ AnswerRow row_of(std::string number, const ParameterEstimate& e, std::string_vie
 std::vector<EstimateLine> told_lines(const IdentificationResult& method, std::size_t muscle_count) {
   std::vector<EstimateLine> lines = estimate_lines(method, muscle_count);
   std::erase_if(lines, [](const EstimateLine& line) {
-    return identification::is_nuisance(*line.estimate) || !is_told(*line.estimate) || !line.estimate->ci_low;
+    return fit::is_nuisance(*line.estimate) || !is_told(*line.estimate) || !line.estimate->ci_low;
   });
   std::ranges::stable_sort(lines, {}, [](const EstimateLine& line) {
-    return std::pair(line.estimate->verdict, relative_half_width(*line.estimate));
+    return std::pair(line.estimate->verdict, run::relative_half_width(*line.estimate));
   });
   return lines;
 }
@@ -102,16 +102,16 @@ std::string count_sentences(const IdentificationResult& fit, std::size_t muscle_
 }
 
 /// Returns true if R2 tells something of the torque: its standard deviation is 5 % of its root mean square or more.
-bool varies(const identification::Score& score) {
+bool varies(const fit::Score& score) {
   constexpr double kShare = 0.05;
   const double variance = score.sst / score.n;
   return score.n > 0.0 && variance > kShare * kShare * (variance + score.mean_nm * score.mean_nm);
 }
 
 /// Returns how well the fit predicts what it left out, with a blank before it; empty without folds.
-std::string fold_sentence(const StudyResult& result) {
+std::string fold_sentence(const run::StudyResult& result) {
   std::vector<double> ours, theirs;
-  for (const identification::Fold& f : result.folds) {
+  for (const fit::Fold& f : result.folds) {
     if (!varies(f.identified)) continue;
     ours.push_back(f.identified.r2());
     theirs.push_back(f.literature.r2());
@@ -122,12 +122,12 @@ std::string fold_sentence(const StudyResult& result) {
   return fmt::format(
       " The {} of {}s left out of the fit is predicted with an R2 of {:.2f} ({}; 1 is perfect, the literature's "
       "muscles with a best gain reach {:.2f}).",
-      torque_of(result.fit) == nullptr ? "force" : "torque", choice_name(result.source.study.identify.folds),
+      run::torque_of(result.fit) == nullptr ? "force" : "torque", choice_name(result.source.study.identify.folds),
       math::median(std::move(ours)), of, math::median(std::move(theirs)));
 }
 
 /// Returns how many intervals of a virtual person hold the truth; empty: no truth is known.
-std::string truth_sentence(const StudyResult& result, const IdentificationResult& method) {
+std::string truth_sentence(const run::StudyResult& result, const IdentificationResult& method) {
   int known = 0, held = 0;
   for (const ParameterEstimate& e : method.estimates) {
     const std::optional<double> truth = truth_of(result, e);
@@ -141,16 +141,16 @@ std::string truth_sentence(const StudyResult& result, const IdentificationResult
 std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
 
 /// Returns a reason in at most two lines, with the expected value where there is room.
-std::string reason_lines(const report::Gate& gate, std::size_t width) {
-  const std::string found = recording::with_short_words(fmt::format("- {}: {}", gate.name, gate.value), width);
+std::string reason_lines(const page::Gate& gate, std::size_t width) {
+  const std::string found = with_short_words(fmt::format("- {}: {}", gate.name, gate.value), width);
   std::string text = wrapped(fmt::format("{} (expected: {})", found, gate.threshold), width);
   for (std::size_t room = 2 * width; line_count(text) > 2; room -= width / 8)
-    text = wrapped(recording::elided(found, room), width);
+    text = wrapped(elided(found, room), width);
   return text;
 }
 
-std::string light_lines(const std::vector<report::Gate>& gates, std::size_t width) {
-  const report::Light light = report::light_of(gates);
+std::string light_lines(const std::vector<page::Gate>& gates, std::size_t width) {
+  const page::Light light = page::light_of(gates);
   std::string text = wrapped(fmt::format("{}. {}{}", light.head, light.answered, light.leads_to), width);
   for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i)
     text += reason_lines(light.reasons[i], width);
@@ -177,7 +177,7 @@ std::string row_lines(const std::vector<AnswerRow>& rows, std::size_t width) {
   };
   std::string text;
   for (const AnswerRow& row : all) {
-    std::string line = padded(recording::elided(row.number, number), number) + "  " + padded(row.value, value) + "  " +
+    std::string line = padded(elided(row.number, number), number) + "  " + padded(row.value, value) + "  " +
                        padded(row.of_person, person) + "  ";
     if (given > 0) line += padded(row.given, given) + "  ";
     text += line + row.verdict + "\n";
@@ -198,14 +198,14 @@ struct TrialRemark {
 };
 
 /// Returns the worst that is known against each trial, the worst first.
-std::vector<TrialRemark> trial_remarks(const StudyResult& result) {
-  const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
+std::vector<TrialRemark> trial_remarks(const run::StudyResult& result) {
+  const std::vector<run::OutlyingFold> outlying = run::outlying_folds(result.folds);
   const auto in_words = [](const Remark& remark) {
     if (remark.code == RemarkCode::general || remark.code == RemarkCode::reading) return std::string("see its remarks");
-    return report::spelled(name(remark.code)) + (remark.about.empty() ? "" : ": " + remark.about);
+    return page::spelled(name(remark.code)) + (remark.about.empty() ? "" : ": " + remark.about);
   };
   std::vector<TrialRemark> found;
-  for (const TrialResult& trial : result.trials) {
+  for (const run::TrialResult& trial : result.trials) {
     TrialRemark remark{.rank = 3, .trial = trial.spec.name};
     const auto worse = [&](int rank, const std::string& says) {
       if (rank >= remark.rank) return;
@@ -215,7 +215,7 @@ std::vector<TrialRemark> trial_remarks(const StudyResult& result) {
     for (const std::vector<Remark>* list : {&trial.faults, &trial.remarks})
       for (const Remark& one : *list)
         if (one.severity <= Severity::warning) worse(2, in_words(one));
-    if (std::ranges::find(outlying, trial.spec.name, &OutlyingFold::trial) != outlying.end())
+    if (std::ranges::find(outlying, trial.spec.name, &run::OutlyingFold::trial) != outlying.end())
       worse(1, "predicted worse than the others");
     if (!trial.failure().empty()) worse(0, "could not be computed");
     if (remark.rank < 3) found.push_back(std::move(remark));
@@ -228,26 +228,26 @@ std::vector<TrialRemark> trial_remarks(const StudyResult& result) {
 
 std::vector<AnswerRow> answer_rows(const IdentificationResult& method, std::size_t muscle_count, std::size_t most) {
   std::vector<AnswerRow> rows;
-  const bool maximal = std::ranges::all_of(method.voluntary, &identification::VoluntaryCurve::from_mvc);
+  const bool maximal = std::ranges::all_of(method.voluntary, &fit::VoluntaryCurve::from_mvc);
   for (const VoluntaryLine& line : voluntary_lines(method)) {
     if (!is_told(*line.torque)) continue;
     const bool placed = line.angle != nullptr && is_told(*line.angle);
-    const identification::VoluntaryCurve& curve = *line.curve;
-    const std::string owner = curve.of_joint ? fmt::format("{} together{}", report::spelled(curve.joint),
+    const fit::VoluntaryCurve& curve = *line.curve;
+    const std::string owner = curve.of_joint ? fmt::format("{} together{}", page::spelled(curve.joint),
                                                            curve.direction > 0 ? "" : " (negative direction)")
                                              : line.name;
     rows.push_back(row_of(owner + (maximal ? ", greatest torque" : ", at the largest EMG"), *line.torque,
                           placed ? line.place : ""));
   }
   for (const EstimateLine& line : told_lines(method, muscle_count))
-    rows.push_back(row_of(fmt::format("{}, {}", plain_owner(line), report::spelled(line.estimate->parameter)),
-                          *line.estimate, ""));
+    rows.push_back(
+        row_of(fmt::format("{}, {}", plain_owner(line), page::spelled(line.estimate->parameter)), *line.estimate, ""));
   if (rows.size() > most) rows.resize(most);
   return rows;
 }
 
-std::string fit_sentences(const StudyResult& result, bool with_names) {
-  const IdentificationResult* best = best_method(result.fit);
+std::string fit_sentences(const run::StudyResult& result, bool with_names) {
+  const IdentificationResult* best = run::best_method(result.fit);
   if (best == nullptr)
     return "Only the source paper's method was asked for. Unless its forces were measured, this recording identifies "
            "nothing by it; its numbers stand at the end.";
@@ -256,15 +256,15 @@ std::string fit_sentences(const StudyResult& result, bool with_names) {
   return text + fold_sentence(result);
 }
 
-std::string next_sentence(const StudyResult& result) {
+std::string next_sentence(const run::StudyResult& result) {
   if (!result.next || result.next->plan.empty()) return "";
-  const DesignStudyResult& next = *result.next;
+  const run::DesignStudyResult& next = *result.next;
   const std::size_t named = std::min<std::size_t>(2, next.plan.size());
   std::vector<std::string> movements;
   for (std::size_t i = 0; i < named; ++i) movements.push_back(next.plan[i].movement.description());
   const std::vector<ParameterEstimate>& then = next.plan[named - 1].expected;
-  const double now = median_half_width(next.beforehand), narrower = median_half_width(then);
-  const int more = identified_count(then) - identified_count(next.beforehand);
+  const double now = run::median_half_width(next.beforehand), narrower = run::median_half_width(then);
+  const int more = run::identified_count(then) - run::identified_count(next.beforehand);
   constexpr double kLittle = 0.95;  // of the interval
   if (more <= 0 && narrower > kLittle * now)
     return fmt::format(
@@ -275,7 +275,7 @@ std::string next_sentence(const StudyResult& result) {
                      more > 0 ? fmt::format(", and {} more would be identified", more) : "");
 }
 
-std::string trials_sentence(const StudyResult& result, std::size_t most) {
+std::string trials_sentence(const run::StudyResult& result, std::size_t most) {
   const std::vector<TrialRemark> found = trial_remarks(result);
   if (found.empty()) return result.trials.empty() ? "" : "No trial has a remark.";
   std::vector<std::string> named;
@@ -285,14 +285,14 @@ std::string trials_sentence(const StudyResult& result, std::size_t most) {
   return fmt::format("Trials with remarks: {}{}.", fmt::join(named, ", "), more);
 }
 
-std::string answer_text(const StudyResult& result, const std::vector<report::Gate>& gates, std::size_t width) {
+std::string answer_text(const run::StudyResult& result, const std::vector<page::Gate>& gates, std::size_t width) {
   constexpr std::size_t kMostLines = 24;
   const std::string light = gates.empty() ? "" : light_lines(gates, width) + "\n";
   std::string rest = wrapped(fit_sentences(result, false), width);
   for (const std::string& more : {trials_sentence(result), next_sentence(result)})
     if (!more.empty()) rest += wrapped(more, width);
   const std::size_t taken = line_count(light) + line_count(rest) + 4;  // a heading, a legend, a line between
-  const IdentificationResult* best = best_method(result.fit);
+  const IdentificationResult* best = run::best_method(result.fit);
   std::string rows;
   if (best != nullptr && taken < kMostLines)
     rows = row_lines(answer_rows(*best, result.fit_input.data.muscles.size(), std::min(kMostRows, kMostLines - taken)),
@@ -300,4 +300,4 @@ std::string answer_text(const StudyResult& result, const std::vector<report::Gat
   return light + rows + (rows.empty() ? "" : "\n") + rest;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "myoid/intervals/result.h"
-#include "myoid/report/report.h"
+#include "myoid/fit/intervals/result.h"
+#include "myoid/page/report.h"
 #include "myoid/run/study_result.h"
 
-namespace myoid {
+namespace myoid::results {
 
 /// Columns of an answer on a terminal, at most.
 inline constexpr std::size_t kAnswerColumns = 110;
@@ -25,25 +25,25 @@ struct AnswerRow {
 
 /// Returns the numbers that the recording tells, at most `most`: first the greatest voluntary torques, then the others
 /// by verdict and relative width of the interval. Numbers of electrodes and joints are left out.
-[[nodiscard]] std::vector<AnswerRow> answer_rows(const identification::IdentificationResult& method,
+[[nodiscard]] std::vector<AnswerRow> answer_rows(const fit::IdentificationResult& method,
                                                  std::size_t muscle_count,
                                                  std::size_t most);
 
 /// Returns how many parameters the method identifies and how well it predicts the trials left out, in sentences.
 /// `with_names` lists the identified ones.
-[[nodiscard]] std::string fit_sentences(const StudyResult& result, bool with_names);
+[[nodiscard]] std::string fit_sentences(const run::StudyResult& result, bool with_names);
 
 /// Returns the movements to record next and their gain; empty without a plan.
-[[nodiscard]] std::string next_sentence(const StudyResult& result);
+[[nodiscard]] std::string next_sentence(const run::StudyResult& result);
 
 /// Returns "Trials with remarks: press (emg clipped: BIC), lift (predicted worse than the others)." with at most `most`
 /// trials by name, the worst first.
-[[nodiscard]] std::string trials_sentence(const StudyResult& result, std::size_t most = 4);
+[[nodiscard]] std::string trials_sentence(const run::StudyResult& result, std::size_t most = 4);
 
 /// Returns the answer of a run for a terminal, at most 24 lines of at most `width` columns: may the numbers be
 /// believed and why not, the numbers with both readings, the fit in sentences, trials with remarks, the next recording.
-[[nodiscard]] std::string answer_text(const StudyResult& result,
-                                      const std::vector<report::Gate>& gates,
+[[nodiscard]] std::string answer_text(const run::StudyResult& result,
+                                      const std::vector<page::Gate>& gates,
                                       std::size_t width);
 
-}  // namespace myoid
+}  // namespace myoid::results

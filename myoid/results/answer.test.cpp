@@ -5,16 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/units.h"
-#include "myoid/core/wrapped_text.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/core/wrapped_text.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
-using identification::Verdict;
-using identification::VoluntaryCurve;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
+using fit::Verdict;
+using fit::VoluntaryCurve;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -37,7 +37,7 @@ ParameterEstimate number(const std::string& muscle,
 /// A triceps that alone extends the elbow, and an optimal fiber length that is known better than a force.
 IdentificationResult triceps() {
   IdentificationResult method;
-  method.method = identification::Method::torque;
+  method.method = fit::Method::torque;
   VoluntaryCurve curve{.owner = "TRI", .joint = "elbow_flexion", .direction = -1, .muscles = {"TRI"}};
   curve.angle_rad = Eigen::Vector3d(40.0, 54.0, 90.0) * kDegree;
   curve.torque_nm = Eigen::Vector3d(50.0, 54.5, 45.0);
@@ -78,7 +78,7 @@ TEST(AnswerRows, SayThatAnEffortWasNotMaximal) {
 }
 
 TEST(TrialsSentence, NamesTheWorstTrialsFirst) {
-  StudyResult result;
+  run::StudyResult result;
   EXPECT_EQ(trials_sentence(result), "");
   result.trials.resize(4);
   for (std::size_t i = 0; i < 4; ++i) result.trials[i].spec.name = "t" + std::to_string(i);
@@ -93,7 +93,7 @@ TEST(TrialsSentence, NamesTheWorstTrialsFirst) {
 }
 
 TEST(AnswerText, HasAtMost24LinesOfTheWidth) {
-  StudyResult result;
+  run::StudyResult result;
   IdentificationResult method = triceps();
   for (int m = 0; m < 40; ++m) {
     const std::string muscle = "a_muscle_with_a_long_name_" + std::to_string(m);
@@ -101,10 +101,10 @@ TEST(AnswerText, HasAtMost24LinesOfTheWidth) {
         number(muscle, "optimal_fiber_length", Unit::meter, 0.106, 0.115, 0.124, Verdict::identified));
   }
   result.fit.methods = {method};
-  std::vector<report::Gate> gates;
+  std::vector<page::Gate> gates;
   for (int g = 0; g < 12; ++g)
     gates.push_back({.name = "Question " + std::to_string(g),
-                     .status = report::GateStatus::fail,
+                     .status = page::GateStatus::fail,
                      .value = std::string(150, 'v'),
                      .threshold = "less"});
   for (const std::size_t width : {40, 80, 110}) {
@@ -123,10 +123,10 @@ TEST(AnswerText, AsksForAMovementOnlyIfItTellsMore) {
     return std::vector{
         number("BIC", "optimal_fiber_length", Unit::meter, 0.1 - half_width, 0.1, 0.1 + half_width, verdict)};
   };
-  StudyResult result;
+  run::StudyResult result;
   result.fit.methods = {triceps()};
   const auto text_after = [&](double half_width, Verdict verdict) {
-    DesignStudyResult next;
+    run::DesignStudyResult next;
     next.beforehand = expected(0.02, Verdict::weak);
     next.plan.resize(1);
     next.plan[0].expected = expected(half_width, verdict);
@@ -139,10 +139,10 @@ TEST(AnswerText, AsksForAMovementOnlyIfItTellsMore) {
 }
 
 TEST(FitSentences, TakeTheR2OfTrialsWhoseTorqueVaries) {
-  StudyResult result;
+  run::StudyResult result;
   result.fit.methods = {triceps()};
   const auto fold = [](double spread_nm, double error_nm) {
-    identification::Fold f;
+    fit::Fold f;
     f.identified = f.literature = {
         .n = 100.0, .sse = 100.0 * error_nm * error_nm, .sst = 100.0 * spread_nm * spread_nm, .mean_nm = 2.0};
     return f;
@@ -156,4 +156,4 @@ TEST(FitSentences, TakeTheR2OfTrialsWhoseTorqueVaries) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

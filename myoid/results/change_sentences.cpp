@@ -6,31 +6,30 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/counted.h"
-#include "myoid/report/muscle_names.h"
-#include "myoid/report/plain_unit.h"
-#include "myoid/report/tables.h"
-#include "myoid/report/typeset.h"
+#include "myoid/ground/core/counted.h"
+#include "myoid/page/muscle_names.h"
+#include "myoid/page/plain_unit.h"
+#include "myoid/page/tables.h"
+#include "myoid/page/typeset.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 /// Returns "stronger", "optimal fiber length larger".
 std::string direction(const std::string& parameter, double difference) {
   const bool more = difference > 0.0;
-  const bool torque =
-      identification::is_voluntary(parameter) && !parameter.starts_with(identification::kVoluntaryAngle);
+  const bool torque = fit::is_voluntary(parameter) && !parameter.starts_with(fit::kVoluntaryAngle);
   if (parameter == "max_isometric_force" || torque) return more ? "stronger" : "weaker";
-  return fmt::format("{} {}", report::spelled(parameter), more ? "larger" : "smaller");
+  return fmt::format("{} {}", page::spelled(parameter), more ? "larger" : "smaller");
 }
 
 std::string with_unit(double value, Unit unit) {
-  const report::PlainUnit plain = report::plain_unit(unit);
-  return report::format_value(value * plain.per_si) + (plain.symbol.empty() ? "" : fmt::format(" {}", plain.symbol));
+  const page::PlainUnit plain = page::plain_unit(unit);
+  return page::format_value(value * plain.per_si) + (plain.symbol.empty() ? "" : fmt::format(" {}", plain.symbol));
 }
 
 /// Returns the owners for people: "Biceps" of BIC, "elbow flexion" of a joint; several as they are.
-std::string owner_of(const ComparedParameter& p) { return report::spelled(report::plain_muscle(p.muscle)); }
+std::string owner_of(const ComparedParameter& p) { return page::spelled(page::plain_muscle(p.muscle)); }
 
 /// Returns "8 %", or the size itself where the number of the first session is no scale.
 std::string share_or_size(const ComparedParameter& p, double size) {
@@ -40,10 +39,10 @@ std::string share_or_size(const ComparedParameter& p, double size) {
 
 }  // namespace
 
-bool rests_on_measurement(identification::Method method) { return method != identification::Method::paper; }
+bool rests_on_measurement(fit::Method method) { return method != fit::Method::paper; }
 
 std::vector<const ComparedParameter*> counted_parameters(const RunComparison& comparison) {
-  const auto is_torque = [](const auto& p) { return p.first.method == identification::Method::torque; };
+  const auto is_torque = [](const auto& p) { return p.first.method == fit::Method::torque; };
   const bool torque = std::ranges::any_of(comparison.parameters, is_torque);
   std::vector<const ComparedParameter*> counted;
   for (const ComparedParameter& p : comparison.parameters) {
@@ -57,9 +56,9 @@ std::string change_text(const ComparedParameter& p) {
     if (!rests_on_measurement(p.first.method))
       return fmt::format("{}: not compared: method {} fits forces that nobody measured", owner_of(p),
                          name(p.first.method));
-    const auto told = [](const identification::ParameterEstimate& e) {
-      return e.verdict == identification::Verdict::identified || e.verdict == identification::Verdict::reproducible ||
-             e.verdict == identification::Verdict::weak;
+    const auto told = [](const fit::ParameterEstimate& e) {
+      return e.verdict == fit::Verdict::identified || e.verdict == fit::Verdict::reproducible ||
+             e.verdict == fit::Verdict::weak;
     };
     if (told(p.first) && told(p.second))
       return fmt::format("{}: not compared: a gate of a session failed, or the recorded range ends there", owner_of(p));
@@ -69,12 +68,12 @@ std::string change_text(const ComparedParameter& p) {
   const double seen = *p.smallest_detectable, size = std::abs(p.difference);
   const std::string unseen = fmt::format("a change below {} would not have been seen", share_or_size(p, seen));
   if (p.change == Change::no_change)
-    return fmt::format("{}: no change of {} shows; {}", owner_of(p), report::spelled(p.first.parameter), unseen);
+    return fmt::format("{}: no change of {} shows; {}", owner_of(p), page::spelled(p.first.parameter), unseen);
   const std::string share =
       std::abs(p.of_first.value) > 0.0 ? fmt::format("{:.2g} %, ", 100.0 * size / std::abs(p.of_first.value)) : "";
   return fmt::format("{} {} by {} ({}95 % {} to {}); {}", owner_of(p), direction(p.first.parameter, p.difference),
                      with_unit(size, p.first.unit), share,
-                     report::format_value((size - seen) * report::plain_unit(p.first.unit).per_si),
+                     page::format_value((size - seen) * page::plain_unit(p.first.unit).per_si),
                      with_unit(size + seen, p.first.unit), unseen);
 }
 
@@ -109,4 +108,4 @@ std::string changes_sentence(const RunComparison& comparison) {
   return fmt::format("{}{}. {}.", fmt::join(found, ". "), more > 0 ? fmt::format(". And {} more", more) : "", rest);
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -6,11 +6,11 @@
 
 #include "myoid/results/compare_runs.h"
 
-namespace myoid {
+namespace myoid::results {
 
 /// True if a method's numbers rest on measurements of the person. Method `paper` fits forces that the program shared
 /// among the muscles itself.
-[[nodiscard]] bool rests_on_measurement(identification::Method method);
+[[nodiscard]] bool rests_on_measurement(fit::Method method);
 
 /// Returns the numbers that a headline may announce: those of method torque if both sessions hold any, else those of
 /// the other methods that rest on measurements.
@@ -32,4 +32,4 @@ namespace myoid {
 /// group's page both print it.
 [[nodiscard]] std::string changes_sentence(const RunComparison& comparison);
 
-}  // namespace myoid
+}  // namespace myoid::results

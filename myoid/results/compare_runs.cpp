@@ -13,19 +13,19 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/day_text.h"
-#include "myoid/core/error.h"
-#include "myoid/core/json_text.h"
-#include "myoid/core/normal.h"
-#include "myoid/files/text_file.h"
-#include "myoid/identification/parameter_fields.h"
-#include "myoid/intervals/estimate_columns.h"
-#include "myoid/report/read_gates.h"
-#include "myoid/report/tables.h"
+#include "myoid/fit/intervals/estimate_columns.h"
+#include "myoid/fit/measurement/parameter_fields.h"
+#include "myoid/ground/core/day_text.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/core/normal.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/page/read_gates.h"
+#include "myoid/page/tables.h"
 #include "myoid/results/change_sentences.h"
 #include "myoid/study/run_identity.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 using nlohmann::json;
@@ -36,8 +36,8 @@ constexpr double kOfTorques = 0.6;
 /// The effort that a person's maximal contraction reaches differs by this share from session to session (judgment).
 constexpr double kEffortSd = 0.02;
 
-using identification::ParameterEstimate;
-using identification::Verdict;
+using fit::ParameterEstimate;
+using fit::Verdict;
 
 std::optional<double> number(const json& object, const char* key) {
   const auto found = object.find(key);
@@ -46,7 +46,7 @@ std::optional<double> number(const json& object, const char* key) {
 }
 
 /// Muscle, parameter, method, case.
-using Key = std::tuple<std::string, std::string, identification::Method, std::string>;
+using Key = std::tuple<std::string, std::string, fit::Method, std::string>;
 using MethodAndTrial = std::pair<std::string, std::string>;
 
 struct Run {
@@ -61,7 +61,7 @@ struct Run {
 /// Returns true for a torque or an angle of a joint that one muscle makes: it is that muscle's number.
 bool repeats_a_muscle(const Run& run, const ParameterEstimate& e) {
   const std::size_t end = std::min(e.parameter.rfind("_positive"), e.parameter.rfind("_negative"));
-  if (!identification::is_voluntary(e.parameter) || end == std::string::npos) return false;
+  if (!fit::is_voluntary(e.parameter) || end == std::string::npos) return false;
   return std::ranges::any_of(run.order, [&](const Key& key) {
     const ParameterEstimate& other = run.estimates.at(key);
     return other.parameter == e.parameter.substr(0, end) && other.method == e.method && other.estimate == e.estimate &&
@@ -73,12 +73,12 @@ Run read_run(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "parameters.json";
   Run run;
   try {
-    const json content = parse_json(recording::read_text_file(path));
+    const json content = parse_json(read_text_file(path));
     for (const json& method : content.at("methods")) {
       run.posterior |= !method.value("noise", json::array()).empty();
       for (const json& row : method.at("estimates")) {
-        std::optional<ParameterEstimate> e = identification::estimate_of_json(row);
-        if (!e || identification::is_voluntary_power(e->parameter)) continue;  // a power follows from the torque
+        std::optional<ParameterEstimate> e = fit::estimate_of_json(row);
+        if (!e || fit::is_voluntary_power(e->parameter)) continue;  // a power follows from the torque
         // One unknown of several muscles is one number, in the list of its first owner.
         const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method, e->fit_case};
         if (!e->tied_to.empty()) {
@@ -120,7 +120,7 @@ bool told(const ParameterEstimate& e) {
 double repeat_error(const ParameterEstimate& e) {
   double own = 1.0;
   if (e.variance_shares) {
-    for (const identification::Source same : {identification::Source::geometry, identification::Source::torque_scale})
+    for (const fit::Source same : {fit::Source::geometry, fit::Source::torque_scale})
       own -= (*e.variance_shares)[static_cast<std::size_t>(same)];
   }
   return *e.std_error * std::sqrt(std::max(own, 0.0));
@@ -128,8 +128,8 @@ double repeat_error(const ParameterEstimate& e) {
 
 /// Returns true if changes of the number are shares of it.
 bool is_ratio_scale(const std::string& parameter) {
-  return identification::is_voluntary(parameter) ? !identification::is_voluntary_angle(parameter)
-                                                 : identification::parameter_field(parameter).logarithmic;
+  return fit::is_voluntary(parameter) ? !fit::is_voluntary_angle(parameter)
+                                      : fit::parameter_field(parameter).logarithmic;
 }
 
 /// A number in one session, and its standard error between sessions.
@@ -140,8 +140,7 @@ struct OfSession {
 
 /// Returns true if the number refers to the effort of the maximal contraction.
 bool is_strength(const std::string& parameter) {
-  return parameter == "max_isometric_force" ||
-         (identification::is_voluntary(parameter) && !identification::is_voluntary_angle(parameter));
+  return parameter == "max_isometric_force" || (fit::is_voluntary(parameter) && !fit::is_voluntary_angle(parameter));
 }
 
 /// Returns the number given geometry and sensors; empty without one. Of a number that is searched for by its
@@ -234,8 +233,8 @@ std::string_view name(Change change) {
   return kNames[static_cast<std::size_t>(change)];
 }
 
-std::vector<identification::Method> methods_of(const RunComparison& comparison) {
-  std::vector<identification::Method> methods;
+std::vector<fit::Method> methods_of(const RunComparison& comparison) {
+  std::vector<fit::Method> methods;
   for (const ComparedParameter& p : comparison.parameters) {
     if (std::ranges::find(methods, p.first.method) == methods.end()) methods.push_back(p.first.method);
   }
@@ -247,11 +246,12 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   const Run b = read_run(second);
   RunComparison comparison{
       .first = first, .second = second, .first_date = day_of(first), .second_date = day_of(second)};
-  IdentityDifferences unlike = differences(read_run_identity(first), read_run_identity(second));
+  study::IdentityDifferences unlike =
+      study::differences(study::read_run_identity(first), study::read_run_identity(second));
   comparison.unlike = std::move(unlike.grave);
   std::ranges::move(unlike.other, std::back_inserter(comparison.unlike));
   const auto add_failed = [&](std::string_view which, const std::filesystem::path& folder) {
-    if (const report::UnpassedGates gates = report::read_gates(folder); !gates.failed.empty())
+    if (const page::UnpassedGates gates = page::read_gates(folder); !gates.failed.empty())
       comparison.failed.push_back(fmt::format("the {} session failed: {}", which, fmt::join(gates.failed, "; ")));
   };
   add_failed("first", first);
@@ -270,10 +270,10 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   for (const Key& key : b.order) {
     if (!a.estimates.contains(key)) comparison.remarks.push_back(text_of(key) + " is in the second session only");
   }
-  for (const identification::Method method : methods_of(comparison)) {
+  for (const fit::Method method : methods_of(comparison)) {
     std::vector<ComparedParameter*> torques, others;
     for (ComparedParameter& p : comparison.parameters) {
-      const bool torque = is_strength(p.first.parameter) && identification::is_voluntary(p.first.parameter);
+      const bool torque = is_strength(p.first.parameter) && fit::is_voluntary(p.first.parameter);
       if (p.first.method == method && p.p_value) (torque ? torques : others).push_back(&p);
     }
     const double share = torques.empty() ? 0.0 : others.empty() ? 1.0 : kOfTorques;
@@ -284,4 +284,4 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   return comparison;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/intervals/result.h"
+#include "myoid/fit/intervals/result.h"
 
-namespace myoid {
+namespace myoid::results {
 
 /// The answer to whether a number differs between two sessions.
 enum class Change {
@@ -27,7 +27,7 @@ struct ComparedValue {
 /// One number of both sessions.
 struct ComparedParameter {
   std::string muscle;  ///< All owners of the number, separated by commas.
-  identification::ParameterEstimate first, second;
+  fit::ParameterEstimate first, second;
   ComparedValue of_first, of_second;
   double difference = 0.0;                    ///< Second minus first, in the compared reading.
   std::optional<double> smallest_detectable;  ///< 1.96 standard errors of the difference.
@@ -52,7 +52,7 @@ struct RunComparison {
 };
 
 /// Returns the methods of the compared numbers, in order of appearance.
-[[nodiscard]] std::vector<identification::Method> methods_of(const RunComparison& comparison);
+[[nodiscard]] std::vector<fit::Method> methods_of(const RunComparison& comparison);
 
 /// Compares two finished runs number by number, of one person on two days or of one recording by two studies: z =
 /// (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, with p-values adjusted for their number by
@@ -65,4 +65,4 @@ struct RunComparison {
 /// of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second);
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/files/text_file.h"
-#include "myoid/methods/torque.h"
+#include "myoid/fit/methods/torque.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/results/change_sentences.h"
 #include "myoid/results/comparison_report.h"
 #include "myoid/results/parameter_files.h"
@@ -16,7 +16,7 @@
 #include "tests/support/elbow_study.h"
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 struct Row {
@@ -41,10 +41,9 @@ std::filesystem::path run(const std::filesystem::path& folder, const std::vector
         r.torque_scale);
   }
   std::filesystem::create_directories(folder);
-  recording::write_file(folder / "parameters.json",
-                        fmt::format(R"({{"methods": [{{"method": "torque", "estimates": [{}],
+  write_file(folder / "parameters.json", fmt::format(R"({{"methods": [{{"method": "torque", "estimates": [{}],
                   "trials": [{{"trial": "a", "rmse_nm": {}}}]}}]}})",
-                                    estimates, rmse_nm));
+                                                     estimates, rmse_nm));
   return folder;
 }
 
@@ -71,10 +70,9 @@ TEST(CompareRuns, ASessionWithAFailedGateTellsNoChange) {
   const auto second = run(folder.path() / "two", {{"BIC", 900, 5, "weak"}}, 1.0);
   EXPECT_EQ(compare_runs(first, second).parameters[0].change, Change::differs);
   for (const char* status : {"warn", "fail"}) {
-    recording::write_file(second / "report.json",
-                          fmt::format(R"({{"gates": [{{"name": "Markers fit", "status": "pass"}},
+    write_file(second / "report.json", fmt::format(R"({{"gates": [{{"name": "Markers fit", "status": "pass"}},
                                                      {{"name": "Predicts", "status": "{}"}}]}})",
-                                      status));
+                                                   status));
     const RunComparison c = compare_runs(first, second);
     const bool fails = std::string_view(status) == "fail";
     EXPECT_EQ(c.parameters[0].change, fails ? Change::cannot_tell : Change::differs);
@@ -99,12 +97,12 @@ TEST(CompareRuns, WhatErrsAlikeInBothSessionsHidesNoChange) {
 /// One session of a person whose moment arms the study has wrong by 10 to 15 %, and whose biceps is
 /// `stronger` times as strong as in the first session.
 std::filesystem::path session(const std::filesystem::path& folder, double stronger, std::uint64_t seed) {
-  identification::StudyData data =
+  fit::StudyData data =
       test::elbow_study(
           {.trials = 4, .seconds = 12.0, .emg_cv = 0.08, .torque_sd_nm = 0.5, .with_priors = true, .seed = seed})
           .data;
   const Eigen::Vector4d wrong(0.87, 1.12, 0.9, 1.15);
-  for (identification::TrialData& trial : data.trials) {
+  for (fit::TrialData& trial : data.trials) {
     trial.torque_nm += (stronger - 1.0) * trial.moment_arm_m.col(0).cwiseProduct(trial.force_n.col(0));
     trial.moment_arm_m *= wrong.asDiagonal();
     trial.velocity_mps *= wrong.asDiagonal();
@@ -114,14 +112,14 @@ std::filesystem::path session(const std::filesystem::path& folder, double strong
       trial.length_m.col(k).array() = middle + wrong[k] * (trial.length_m.col(k).array() - middle);
     }
   }
-  identification::EstimatorOptions options;
+  fit::EstimatorOptions options;
   options.predictions = false;
-  for (const identification::MuscleSetup& muscle : data.muscles) {
+  for (const fit::MuscleSetup& muscle : data.muscles) {
     options.state(muscle.emg_channel).gain_sd = 0.05;
     options.state(muscle.emg_channel).bandwidth_hz = 400.0;
   }
   std::filesystem::create_directories(folder);
-  write_parameter_files({identification::identify_torque(data, options)}, {}, {}, {}, folder);
+  write_parameter_files({fit::identify_torque(data, options)}, {}, {}, {}, folder);
   return folder;
 }
 
@@ -189,7 +187,7 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
   ASSERT_EQ(c.remarks.size(), 1u);
   EXPECT_NE(c.remarks[0].find("ANC"), std::string::npos);
   EXPECT_EQ(*c.trials[0].rmse_second_nm, 2.0);
-  report::validate(comparison_report(c));
+  page::validate(comparison_report(c));
   // 180 N of 600 N, 1.96 standard errors 98 N; 11 % are 1.96 * sqrt(40^2 + 40^2) of 900 N.
   EXPECT_EQ(
       changes_sentence(c),
@@ -203,11 +201,11 @@ TEST(CompareRuns, APowerFollowsFromTheTorqueAndIsNoFurtherComparison) {
   const test::TemporaryFolder folder;
   const auto session = [&](const char* name, double torque) {
     const auto path = run(folder.path() / name, {{"BIC", torque, 1, "identified"}, {"TRI", 50, 1, "identified"}}, 1.0);
-    std::string json = recording::read_text_file(path / "parameters.json");
+    std::string json = read_text_file(path / "parameters.json");
     const std::string_view strength = "max_isometric_force";
     json.replace(json.find(strength), strength.size(), "voluntary_torque");
     json.replace(json.find(strength), strength.size(), "voluntary_power_60");
-    recording::write_file(path / "parameters.json", json);
+    write_file(path / "parameters.json", json);
     return path;
   };
   const RunComparison c = compare_runs(session("one", 40), session("two", 50));
@@ -222,11 +220,11 @@ TEST(CompareRuns, AJointsTorqueThatOneMuscleMakesIsThatMusclesNumber) {
   const auto session = [&](const char* name, double torque, double of_joint) {
     const auto path =
         run(folder.path() / name, {{"TRI", torque, 1, "identified"}, {"elbow", of_joint, 1, "identified"}}, 1.0);
-    std::string json = recording::read_text_file(path / "parameters.json");
+    std::string json = read_text_file(path / "parameters.json");
     const std::string_view strength = "max_isometric_force";
     json.replace(json.find(strength), strength.size(), "voluntary_torque");
     json.replace(json.find(strength), strength.size(), "voluntary_torque_negative");
-    recording::write_file(path / "parameters.json", json);
+    write_file(path / "parameters.json", json);
     return path;
   };
   const RunComparison c = compare_runs(session("one", 40, 40), session("two", 50, 50));
@@ -241,24 +239,24 @@ TEST(CompareRuns, AnnouncesNothingFromMethodPaper) {
   const test::TemporaryFolder folder;
   const auto session = [&](const char* name, double shared, double measured) {
     const auto path = run(folder.path() / name, {{"BIC", measured, 30, "identified"}}, 1.0);
-    std::string json = recording::read_text_file(path / "parameters.json");
+    std::string json = read_text_file(path / "parameters.json");
     const std::string paper = fmt::format(
         R"({{"method": "paper", "trials": [], "estimates": [{{"muscle": "BIC", "parameter": "max_isometric_force",
             "unit": "N", "method": "paper", "case": "both", "estimate": {}, "std_error": 5, "ci_low": {}, "ci_high": {},
             "verdict": "identified"}}]}}, )",
         shared, shared - 10, shared + 10);
     json.insert(json.find("[{\"method\"") + 1, paper);
-    recording::write_file(path / "parameters.json", json);
+    write_file(path / "parameters.json", json);
     return path;
   };
   const RunComparison c = compare_runs(session("one", 500, 600), session("two", 700, 610));
   ASSERT_EQ(c.parameters.size(), 2U);
-  EXPECT_EQ(c.parameters[0].first.method, identification::Method::paper);
+  EXPECT_EQ(c.parameters[0].first.method, fit::Method::paper);
   EXPECT_EQ(c.parameters[0].change, Change::cannot_tell);
   EXPECT_FALSE(c.parameters[0].p_value);
   ASSERT_EQ(counted_parameters(c).size(), 1U);
   EXPECT_EQ(counted_parameters(c)[0]->change, Change::no_change);
-  const report::Report page = comparison_report(c);
+  const page::Report page = comparison_report(c);
   EXPECT_TRUE(page.headline.starts_with("No number changed")) << page.headline;
   // The answer comes first, method paper last.
   ASSERT_EQ(page.sections.front().changes.rows.size(), 1U);
@@ -279,7 +277,7 @@ TEST(CompareRuns, AGreatestTorqueIsTestedByItselfAndMayBeOfAnotherEffort) {
               "given_ci_low": {6}, "given_ci_high": {7}, "verdict": "reproducible", "tied_to": ""}})",
           parameter, unit, value, half, value - 2.0 * half, value + 2.0 * half, value - half, value + half);
     };
-    recording::write_file(
+    write_file(
         folder / name / "parameters.json",
         fmt::format(R"({{"methods": [{{"method": "torque", "estimates": [{}, {}], "trials": []}}]}})",
                     row("voluntary_torque", "N m", torque_nm, 3.92), row("optimal_fiber_length", "m", 0.1, 0.005)));
@@ -300,11 +298,11 @@ TEST(CompareRuns, AFolderWithoutARunIsRefused) {
   const auto good = run(folder.path() / "one", {{"BIC", 600, 30, "identified"}}, 1.0);
   EXPECT_THROW(static_cast<void>(compare_runs(good, folder.path() / "none")), InvalidInput);
   std::filesystem::create_directories(folder.path() / "bad");
-  recording::write_file(folder.path() / "bad" / "parameters.json", "{\"methods\": [{}]}");
+  write_file(folder.path() / "bad" / "parameters.json", "{\"methods\": [{}]}");
   EXPECT_THROW(static_cast<void>(compare_runs(good, folder.path() / "bad")), InvalidInput);
   // A file that a full disk cut off: the words are the program's, with the file and a remedy.
-  const std::string whole = recording::read_text_file(good / "parameters.json");
-  recording::write_file(folder.path() / "cut/parameters.json", whole.substr(0, whole.size() / 2));
+  const std::string whole = read_text_file(good / "parameters.json");
+  write_file(folder.path() / "cut/parameters.json", whole.substr(0, whole.size() / 2));
   try {
     static_cast<void>(compare_runs(good, folder.path() / "cut"));
     ADD_FAILURE() << "accepted";
@@ -322,11 +320,11 @@ TEST(CompareRuns, SaysWhenTheTwoAreNotOfOneKind) {
   const test::TemporaryFolder folder;
   const auto write = [&](const char* name, const char* model, double mass_kg) {
     std::filesystem::create_directories(folder / name);
-    recording::write_file(folder / name / "parameters.json",
-                          fmt::format(R"({{"provenance": {{"options": {{"subject": {{"mass_kg": {}}},
+    write_file(folder / name / "parameters.json",
+               fmt::format(R"({{"provenance": {{"options": {{"subject": {{"mass_kg": {}}},
                         "model": {{"builtin": "{}", "coordinate": ["elbow_flexion"]}},
                         "muscle": [{{"name": "BIC"}}]}}}}, "methods": []}})",
-                                      mass_kg, model));
+                           mass_kg, model));
     return folder / name;
   };
   const auto first = write("a", "arm4", 60.0);
@@ -340,8 +338,8 @@ TEST(CompareRuns, SaysWhenTheEstimatorsDiffer) {
   const test::TemporaryFolder folder;
   const auto write = [&](const char* name, const char* noise) {
     std::filesystem::create_directories(folder / name);
-    recording::write_file(folder / name / "parameters.json",
-                          fmt::format(R"({{"methods": [{{"noise": [{}], "estimates": [], "trials": []}}]}})", noise));
+    write_file(folder / name / "parameters.json",
+               fmt::format(R"({{"methods": [{{"noise": [{}], "estimates": [], "trials": []}}]}})", noise));
     return folder / name;
   };
   const auto earlier = write("a", "");
@@ -352,4 +350,4 @@ TEST(CompareRuns, SaysWhenTheEstimatorsDiffer) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

@@ -8,25 +8,25 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/report/muscle_names.h"
-#include "myoid/report/plain_unit.h"
-#include "myoid/report/tables.h"
-#include "myoid/report/typeset.h"
+#include "myoid/page/muscle_names.h"
+#include "myoid/page/plain_unit.h"
+#include "myoid/page/tables.h"
+#include "myoid/page/typeset.h"
 #include "myoid/results/change_sentences.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::ParameterEstimate;
-using report::PlainUnit;
+using fit::ParameterEstimate;
+using page::PlainUnit;
 
-report::Badge badge(Change change) {
-  return change == Change::differs     ? report::Badge::info
-         : change == Change::no_change ? report::Badge::good
-                                       : report::Badge::weak;
+page::Badge badge(Change change) {
+  return change == Change::differs     ? page::Badge::info
+         : change == Change::no_change ? page::Badge::good
+                                       : page::Badge::weak;
 }
 
-std::string verdict(const ComparedParameter& p) { return report::spelled(name(p.change)); }
+std::string verdict(const ComparedParameter& p) { return page::spelled(name(p.change)); }
 
 /// Returns "second (2026-03-01)".
 std::string session_name(std::string_view which, const std::string& day) {
@@ -34,20 +34,20 @@ std::string session_name(std::string_view which, const std::string& day) {
 }
 
 std::string number_name(const ParameterEstimate& e) {
-  return report::spelled(e.parameter) + branch_text(e.fit_case, " (", ")");
+  return page::spelled(e.parameter) + branch_text(e.fit_case, " (", ")");
 }
 
-std::string owner_name(const ComparedParameter& p) { return report::spelled(report::plain_muscle_and_name(p.muscle)); }
+std::string owner_name(const ComparedParameter& p) { return page::spelled(page::plain_muscle_and_name(p.muscle)); }
 
 /// Returns the number in the unit for people.
-report::SessionValue shown(const ComparedValue& of, const PlainUnit& unit) {
+page::SessionValue shown(const ComparedValue& of, const PlainUnit& unit) {
   const auto scaled = [&](const std::optional<double>& x) { return x ? std::optional(*x * unit.per_si) : x; };
   return {of.value * unit.per_si, scaled(of.low), scaled(of.high)};
 }
 
-std::string value_text(const report::SessionValue& of) {
-  const std::string value = report::format_beside(of.value, of.lower, of.upper);
-  return of.lower && of.upper ? fmt::format("{} ({})", value, report::format_interval(*of.lower, *of.upper)) : value;
+std::string value_text(const page::SessionValue& of) {
+  const std::string value = page::format_beside(of.value, of.lower, of.upper);
+  return of.lower && of.upper ? fmt::format("{} ({})", value, page::format_interval(*of.lower, *of.upper)) : value;
 }
 
 std::string percent_text(const ComparedParameter& p) {
@@ -55,14 +55,14 @@ std::string percent_text(const ComparedParameter& p) {
 }
 
 /// Draws the numbers that both sessions tell, the greatest torques first.
-report::ChangeForest changes_of(const RunComparison& comparison) {
-  report::ChangeForest forest{.first = session_name("first", comparison.first_date),
-                              .second = session_name("second", comparison.second_date)};
+page::ChangeForest changes_of(const RunComparison& comparison) {
+  page::ChangeForest forest{.first = session_name("first", comparison.first_date),
+                            .second = session_name("second", comparison.second_date)};
   for (const bool torques : {true, false}) {
     for (const ComparedParameter* p : counted_parameters(comparison)) {
-      if (!p->smallest_detectable || identification::is_voluntary(p->first.parameter) != torques) continue;
-      const PlainUnit unit = report::plain_unit(p->first.unit);
-      forest.rows.push_back({.owner = report::spelled(report::plain_muscle(p->muscle)),
+      if (!p->smallest_detectable || fit::is_voluntary(p->first.parameter) != torques) continue;
+      const PlainUnit unit = page::plain_unit(p->first.unit);
+      forest.rows.push_back({.owner = page::spelled(page::plain_muscle(p->muscle)),
                              .name = number_name(p->first),
                              .unit = std::string(unit.symbol),
                              .first = shown(p->of_first, unit),
@@ -75,22 +75,22 @@ report::ChangeForest changes_of(const RunComparison& comparison) {
   return forest;
 }
 
-report::Section method_section(const RunComparison& comparison, identification::Method of) {
+page::Section method_section(const RunComparison& comparison, fit::Method of) {
   const std::string method(name(of));
-  report::Table table{.id = "compared_" + method,
-                      .title = "Parameters",
-                      .caption = "Number with its 95 % interval. p-values are adjusted for their number (Holm).",
-                      .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
-                                  session_name("second", comparison.second_date), "difference", "%", "verdict"}};
+  page::Table table{.id = "compared_" + method,
+                    .title = "Parameters",
+                    .caption = "Number with its 95 % interval. p-values are adjusted for their number (Holm).",
+                    .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
+                                session_name("second", comparison.second_date), "difference", "%", "verdict"}};
   for (const ComparedParameter& p : comparison.parameters) {
     if (p.first.method != of) continue;
-    const PlainUnit unit = report::plain_unit(p.first.unit);
+    const PlainUnit unit = page::plain_unit(p.first.unit);
     table.rows.push_back({{owner_name(p)},
                           {number_name(p.first)},
                           {unit.symbol.empty() ? "–" : std::string(unit.symbol)},
                           {value_text(shown(p.of_first, unit))},
                           {value_text(shown(p.of_second, unit))},
-                          {report::format_value(p.difference * unit.per_si)},
+                          {page::format_value(p.difference * unit.per_si)},
                           {percent_text(p)},
                           {verdict(p), badge(p.change), change_text(p)}});
   }
@@ -101,13 +101,13 @@ report::Section method_section(const RunComparison& comparison, identification::
           .tables = {std::move(table)}};
 }
 
-report::Section errors_section(const RunComparison& comparison) {
-  report::Table errors{.id = "trial_errors",
-                       .title = "Root mean square error of the torque",
-                       .columns = {"trial", "method", "first [N m]", "second [N m]"}};
-  const auto cell = [](const std::optional<double>& x) { return x ? report::format_value(*x) : "-"; };
+page::Section errors_section(const RunComparison& comparison) {
+  page::Table errors{.id = "trial_errors",
+                     .title = "Root mean square error of the torque",
+                     .columns = {"trial", "method", "first [N m]", "second [N m]"}};
+  const auto cell = [](const std::optional<double>& x) { return x ? page::format_value(*x) : "-"; };
   for (const ComparedTrial& t : comparison.trials)
-    errors.rows.push_back(report::text_row({t.trial, t.method, cell(t.rmse_first_nm), cell(t.rmse_second_nm)}));
+    errors.rows.push_back(page::text_row({t.trial, t.method, cell(t.rmse_first_nm), cell(t.rmse_second_nm)}));
   return {.id = "trials",
           .heading = "How well the trials are predicted",
           .paragraphs = comparison.remarks,
@@ -123,8 +123,8 @@ std::string headline(const RunComparison& comparison) {
 
 }  // namespace
 
-report::Report comparison_report(const RunComparison& comparison) {
-  report::Report page{
+page::Report comparison_report(const RunComparison& comparison) {
+  page::Report page{
       .title = "Two sessions compared",
       .subtitle = comparison.first.string() + " and " + comparison.second.string(),
       .headline = headline(comparison),
@@ -133,12 +133,12 @@ report::Report comparison_report(const RunComparison& comparison) {
           "A number that a session calls prior_dominated, not_identifiable or non_physical is not compared.",
           "Method paper fits forces that the program shared among the muscles: its numbers are shown, not compared.",
           "The days are those on which the results were written."}};
-  report::Section both{.id = "changes", .heading = "Both sessions", .changes = changes_of(comparison)};
+  page::Section both{.id = "changes", .heading = "Both sessions", .changes = changes_of(comparison)};
   if (std::string reading = reading_sentence(comparison); !reading.empty())
     both.paragraphs.push_back(std::move(reading));
   page.sections.push_back(std::move(both));
   const auto add_methods = [&](bool measured) {
-    for (const identification::Method method : methods_of(comparison))
+    for (const fit::Method method : methods_of(comparison))
       if (rests_on_measurement(method) == measured) page.sections.push_back(method_section(comparison, method));
   };
   add_methods(true);
@@ -147,4 +147,4 @@ report::Report comparison_report(const RunComparison& comparison) {
   return page;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "myoid/report/report.h"
+#include "myoid/page/report.h"
 #include "myoid/results/compare_runs.h"
 
-namespace myoid {
+namespace myoid::results {
 
 /// Returns the comparison as a report: the answer, both sessions of every number in one drawing, then a table for each
 /// method. Numbers have plain names and units. Method `paper`, which is not compared, comes last.
-[[nodiscard]] report::Report comparison_report(const RunComparison& comparison);
+[[nodiscard]] page::Report comparison_report(const RunComparison& comparison);
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -7,16 +7,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/normal.h"
-#include "myoid/math/statistics.h"
-#include "myoid/report/tables.h"
-#include "myoid/report/typeset.h"
+#include "myoid/ground/core/normal.h"
+#include "myoid/ground/math/statistics.h"
+#include "myoid/page/tables.h"
+#include "myoid/page/typeset.h"
 #include "myoid/results/change_sentences.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using report::Badge;
+using page::Badge;
 
 constexpr std::size_t kFewestForGroup = 3;
 
@@ -24,8 +24,8 @@ Badge mark_of(Change change) {
   return change == Change::differs ? Badge::weak : change == Change::no_change ? Badge::good : Badge::none;
 }
 
-report::StripCell change_cell(const ComparedParameter& p) {
-  report::StripCell cell{.value = p.difference, .verdict = report::spelled(name(p.change)), .badge = mark_of(p.change)};
+page::StripCell change_cell(const ComparedParameter& p) {
+  page::StripCell cell{.value = p.difference, .verdict = page::spelled(name(p.change)), .badge = mark_of(p.change)};
   if (p.smallest_detectable) {
     cell.lower = p.difference - *p.smallest_detectable;
     cell.upper = p.difference + *p.smallest_detectable;
@@ -34,16 +34,16 @@ report::StripCell change_cell(const ComparedParameter& p) {
 }
 
 /// Returns a number's place among the grids; adds a new place if there is none.
-report::StripCell& place(std::vector<report::StripGrid>& grids,
-                         const std::vector<PersonChange>& changes,
-                         std::size_t person,
-                         const ComparedParameter& p) {
+page::StripCell& place(std::vector<page::StripGrid>& grids,
+                       const std::vector<PersonChange>& changes,
+                       std::size_t person,
+                       const ComparedParameter& p) {
   const std::string id = "change_" + p.first.parameter + (p.first.fit_case == "both" ? "" : "_" + p.first.fit_case);
-  auto grid = std::ranges::find(grids, id, &report::StripGrid::id);
+  auto grid = std::ranges::find(grids, id, &page::StripGrid::id);
   if (grid == grids.end()) {
-    report::StripGrid made{
+    page::StripGrid made{
         .id = id,
-        .title = "Change of " + report::spelled(p.first.parameter) +
+        .title = "Change of " + page::spelled(p.first.parameter) +
                  (p.first.fit_case == "both" ? "" : ", " + p.first.fit_case),
         .caption =
             "Second session minus first, both given geometry and sensors where the fits have that "
@@ -53,21 +53,21 @@ report::StripCell& place(std::vector<report::StripGrid>& grids,
     for (const PersonChange& change : changes) made.rows.push_back({.person = change.person, .page = change.page});
     grid = grids.insert(grids.end(), std::move(made));
   }
-  auto column = std::ranges::find(grid->columns, p.muscle, &report::StripColumn::name);
+  auto column = std::ranges::find(grid->columns, p.muscle, &page::StripColumn::name);
   if (column == grid->columns.end()) {
     const std::string unit(symbol(p.first.unit));
     column = grid->columns.insert(column, {.name = p.muscle, .unit = unit == "1" ? "" : unit, .middle = 0.0});
-    for (report::StripRow& row : grid->rows) row.cells.emplace_back();
+    for (page::StripRow& row : grid->rows) row.cells.emplace_back();
   }
   return grid->rows[person].cells[static_cast<std::size_t>(column - grid->columns.begin())];
 }
 
 /// Adds one number over the persons whose two recordings determine it.
-void add_row(const report::StripGrid& grid, std::size_t column, report::Table& table) {
+void add_row(const page::StripGrid& grid, std::size_t column, page::Table& table) {
   std::vector<double> differences, detectable;
   std::size_t differ = 0;
-  for (const report::StripRow& row : grid.rows) {
-    const report::StripCell& cell = row.cells[column];
+  for (const page::StripRow& row : grid.rows) {
+    const page::StripCell& cell = row.cells[column];
     if (!cell.value || !cell.lower) continue;
     differences.push_back(*cell.value);
     detectable.push_back(*cell.value - *cell.lower);
@@ -79,17 +79,17 @@ void add_row(const report::StripGrid& grid, std::size_t column, report::Table& t
   double squares = 0.0;
   for (const double d : differences) squares += (d - mean) * (d - mean);
   const std::string group =
-      differences.size() < kFewestForGroup ? "-" : report::format_value(kNormal95 * std::sqrt(squares / (n - 1.0)));
+      differences.size() < kFewestForGroup ? "-" : page::format_value(kNormal95 * std::sqrt(squares / (n - 1.0)));
   table.rows.push_back(
-      report::text_row({grid.title.substr(std::string("Change of ").size()), grid.columns[column].name,
-                        grid.columns[column].unit, fmt::format("{}", differences.size()), fmt::format("{}", differ),
-                        report::format_value(mean), report::format_value(math::median(std::move(detectable))), group}));
+      page::text_row({grid.title.substr(std::string("Change of ").size()), grid.columns[column].name,
+                      grid.columns[column].unit, fmt::format("{}", differences.size()), fmt::format("{}", differ),
+                      page::format_value(mean), page::format_value(math::median(std::move(detectable))), group}));
 }
 
 }  // namespace
 
-report::Section change_section(const std::vector<PersonChange>& changes) {
-  report::Section section{.id = "changes", .heading = "From the first session to the second"};
+page::Section change_section(const std::vector<PersonChange>& changes) {
+  page::Section section{.id = "changes", .heading = "From the first session to the second"};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     for (const ComparedParameter* p : counted_parameters(changes[i].comparison))
       place(section.grids, changes, i, *p) = change_cell(*p);
@@ -97,7 +97,7 @@ report::Section change_section(const std::vector<PersonChange>& changes) {
       section.paragraphs.push_back(fmt::format("{}: the sessions are not of one kind: {}.", changes[i].person,
                                                fmt::join(changes[i].comparison.unlike, "; ")));
   }
-  report::Table table{
+  page::Table table{
       .id = "changes",
       .title = "Changes over the persons",
       .caption =
@@ -107,10 +107,10 @@ report::Section change_section(const std::vector<PersonChange>& changes) {
           "persons who did not change, it holds every error of a repetition, placing the electrodes anew included.",
       .columns = {"parameter", "muscle", "unit", "persons", "differ", "mean difference",
                   "smallest detectable change, median person", "of the group"}};
-  for (const report::StripGrid& grid : section.grids)
+  for (const page::StripGrid& grid : section.grids)
     for (std::size_t c = 0; c < grid.columns.size(); ++c) add_row(grid, c, table);
   if (!table.rows.empty()) section.tables.push_back(std::move(table));
   return section;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

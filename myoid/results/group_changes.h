@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "myoid/report/report.h"
+#include "myoid/page/report.h"
 #include "myoid/results/compare_runs.h"
 
-namespace myoid {
+namespace myoid::results {
 
 /// The two sessions of one person.
 struct PersonChange {
@@ -20,6 +20,6 @@ struct PersonChange {
 /// either side, and a table lists all persons. From three persons on, the table has the group's smallest detectable
 /// change, 1.96 times the standard deviation of the differences between persons. For persons who did not change, this
 /// deviation contains all errors of a repetition.
-[[nodiscard]] report::Section change_section(const std::vector<PersonChange>& changes);
+[[nodiscard]] page::Section change_section(const std::vector<PersonChange>& changes);
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::Method;
+using fit::Method;
 
-ComparedParameter compared(identification::Method method, double difference, Change change) {
+ComparedParameter compared(fit::Method method, double difference, Change change) {
   ComparedParameter p;
   p.muscle = "BIC";
   p.first.method = p.second.method = method;
@@ -26,7 +26,7 @@ PersonChange person(const std::string& name, std::vector<ComparedParameter> para
 }
 
 TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
-  const report::Section section = change_section(
+  const page::Section section = change_section(
       {person("A", {compared(Method::paper, 900.0, Change::differs), compared(Method::torque, 80.0, Change::differs)}),
        person("B", {compared(Method::torque, 10.0, Change::no_change)}),
        person("C", {compared(Method::torque, 700.0, Change::cannot_tell)}), person("D", {})});
@@ -36,7 +36,7 @@ TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
   EXPECT_EQ(section.grids[0].rows[0].cells[0].lower, 30.0);
   EXPECT_FALSE(section.grids[0].rows[2].cells[0].lower);
   EXPECT_FALSE(section.grids[0].rows[3].cells[0].value);
-  const std::vector<report::Cell>& row = section.tables.at(0).rows.at(0);
+  const std::vector<page::Cell>& row = section.tables.at(0).rows.at(0);
   EXPECT_EQ(row[3].text, "2");
   EXPECT_EQ(row[4].text, "1");
   EXPECT_EQ(row[5].text, "45");
@@ -46,10 +46,10 @@ TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
 TEST(ChangeSection, NamesPersonsWhoseSessionsAreNotOfOneKind) {
   PersonChange unlike = person("A", {compared(Method::torque, 1.0, Change::no_change)});
   unlike.comparison.unlike = {"the model", "the estimator"};
-  const report::Section section = change_section({unlike});
+  const page::Section section = change_section({unlike});
   ASSERT_EQ(section.paragraphs.size(), 1U);
   EXPECT_EQ(section.paragraphs[0], "A: the sessions are not of one kind: the model; the estimator.");
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

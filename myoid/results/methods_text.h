@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/provenance.h"
-#include "myoid/report/report.h"
+#include "myoid/ground/core/provenance.h"
+#include "myoid/page/report.h"
 #include "myoid/run/study_result.h"
 
-namespace myoid {
+namespace myoid::results {
 
 /// The methods section of a paper about a run, in the past tense of papers.
 struct MethodsText {
@@ -18,7 +18,7 @@ struct MethodsText {
 
 /// Describes the processing of this run's data: trials, motion with its cut-off, torque, EMG with its filters and the
 /// normalization in the CEDE consensus's terms, law of the muscles, estimator, intervals, validation and version.
-[[nodiscard]] MethodsText methods_text(const StudyResult& result, const Provenance& provenance);
+[[nodiscard]] MethodsText methods_text(const run::StudyResult& result, const Provenance& provenance);
 
 /// Returns the paragraph and the references as plain text (methods.txt).
 [[nodiscard]] std::string methods_file(const MethodsText& text);
@@ -27,6 +27,6 @@ struct MethodsText {
 [[nodiscard]] std::string methods_bibtex(const MethodsText& text);
 
 /// Returns the paragraph with the table of references, for the report.
-[[nodiscard]] report::Section methods_section(const MethodsText& text);
+[[nodiscard]] page::Section methods_section(const MethodsText& text);
 
-}  // namespace myoid
+}  // namespace myoid::results

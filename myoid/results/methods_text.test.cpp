@@ -7,7 +7,7 @@
 
 #include "myoid/results/references.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 using testing::AllOf;
@@ -16,42 +16,42 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A study of two movements and a maximal contraction with raw EMG, as far as the text reads it.
-StudyResult small_study() {
-  StudyResult result;
-  Study& study = result.source.study;
+run::StudyResult small_study() {
+  run::StudyResult result;
+  study::Study& study = result.source.study;
   study.model.coordinate = "elbow_flexion";
   study.emg.lowpass_hz = 4.0;
-  study.motion.smoothing = Smoothing::cutoff;
+  study.motion.smoothing = study::Smoothing::cutoff;
   study.motion.cutoff_hz = 5.0;
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(101, 0.0, 1.0);
-  for (const Use use : {Use::calibration, Use::calibration, Use::mvc}) {
-    TrialResult trial;
+  for (const study::Use use : {study::Use::calibration, study::Use::calibration, study::Use::mvc}) {
+    run::TrialResult trial;
     trial.spec.use = use;
     trial.emg.activation = TimeSeries(t, {{"BIC", Unit::dimensionless}}, Eigen::VectorXd(0.1 * t));
     trial.motion.joints.q =
-        TimeSeries(t, {{"elbow_flexion", Unit::radian}}, Eigen::VectorXd((use == Use::mvc ? 0.0 : 1.5) * t));
+        TimeSeries(t, {{"elbow_flexion", Unit::radian}}, Eigen::VectorXd((use == study::Use::mvc ? 0.0 : 1.5) * t));
     trial.motion.ik.emplace();
     result.trials.push_back(std::move(trial));
   }
   result.emg.normalisation.resize(2);
   result.emg.normalisation[1].channel = "TRI";
-  for (signals::ChannelNormalisation& channel : result.emg.normalisation) channel.from_mvc = true;
+  for (recording::ChannelNormalisation& channel : result.emg.normalisation) channel.from_mvc = true;
   result.fit_input.data.muscles.resize(2);
   result.fit_input.data.muscles[0].name = "BIC";
   result.fit_input.data.muscles[1].name = "TRI";
   result.fit.methods.resize(1);
-  result.fit.methods[0].method = identification::Method::torque;
+  result.fit.methods[0].method = fit::Method::torque;
   result.fit.methods[0].samples_used = 321;
   return result;
 }
 
-MethodsText methods_of(const StudyResult& result) {
+MethodsText methods_of(const run::StudyResult& result) {
   Provenance provenance;
   provenance.version = "9.8.7";
   return methods_text(result, provenance);
 }
 
-std::string text_of(const StudyResult& result) { return methods_of(result).paragraph; }
+std::string text_of(const run::StudyResult& result) { return methods_of(result).paragraph; }
 
 TEST(MethodsText, NamesTrialsFiltersEstimatorAndVersion) {
   EXPECT_THAT(text_of(small_study()),
@@ -67,35 +67,35 @@ TEST(MethodsText, NamesTrialsFiltersEstimatorAndVersion) {
 TEST(MethodsText, ChangesWithTheStudy) {
   const std::string before = text_of(small_study());
   const auto changed = [&](const auto& change) {
-    StudyResult result = small_study();
+    run::StudyResult result = small_study();
     change(result);
     const std::string text = text_of(result);
     EXPECT_NE(text, before);
     return text;
   };
-  EXPECT_THAT(changed([](StudyResult& r) { r.source.study.emg.lowpass_hz = 3.0; }),
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.emg.lowpass_hz = 3.0; }),
               AllOf(HasSubstr("cut-off frequency 3 Hz"), Not(HasSubstr("frequency 4 Hz"))));
-  EXPECT_THAT(changed([](StudyResult& r) { r.source.study.motion.cutoff_hz = 8.0; }),
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.motion.cutoff_hz = 8.0; }),
               HasSubstr("cut-off frequency of 8 Hz"));
-  EXPECT_THAT(changed([](StudyResult& r) { r.source.study.motion.smoothing = Smoothing::none; }),
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.motion.smoothing = study::Smoothing::none; }),
               HasSubstr("Angles were not smoothed"));
-  EXPECT_THAT(changed([](StudyResult& r) { r.source.study.identify.elastic_tendon = false; }),
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.identify.elastic_tendon = false; }),
               HasSubstr("a rigid tendon"));
-  EXPECT_THAT(changed([](StudyResult& r) { r.source.study.emg.delay_s = 0.05; }), HasSubstr("a delay of 50 ms"));
-  EXPECT_THAT(changed([](StudyResult& r) { r.source.study.identify.posterior_draws = 500; }),
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.emg.delay_s = 0.05; }), HasSubstr("a delay of 50 ms"));
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.identify.posterior_draws = 500; }),
               HasSubstr("500 draws by Hamiltonian Monte Carlo"));
-  EXPECT_THAT(changed([](StudyResult& r) { r.fit.methods[0].exact = true; }), HasSubstr("plain least squares"));
-  EXPECT_THAT(changed([](StudyResult& r) { r.trials[1].spec.use = Use::validation; }),
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.fit.methods[0].exact = true; }), HasSubstr("plain least squares"));
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.trials[1].spec.use = study::Use::validation; }),
               HasSubstr("1 of movement, 1 of maximal voluntary contraction (MVC) and 1 held back"));
-  EXPECT_THAT(changed([](StudyResult& r) {
+  EXPECT_THAT(changed([](run::StudyResult& r) {
                 r.fit.methods.emplace_back();
-                r.fit.methods[1].method = identification::Method::paper;
+                r.fit.methods[1].method = fit::Method::paper;
               }),
               HasSubstr("For comparison the method as published (Venture et al. 2006)"));
 }
 
 TEST(MethodsText, NamesTheNormalizationAsTheConsensusDoes) {
-  StudyResult result = small_study();
+  run::StudyResult result = small_study();
   EXPECT_THAT(text_of(result), AllOf(HasSubstr("CEDE consensus (Besomi et al. 2020)"),
                                      HasSubstr("normalization to a standardized isometric MVC.")));
   // A maximal contraction in which the joint moves is none of a standardized isometric kind.
@@ -105,7 +105,7 @@ TEST(MethodsText, NamesTheNormalizationAsTheConsensusDoes) {
   EXPECT_THAT(text_of(result), HasSubstr("normalization to MVC, and for TRI to the peak EMG"));
   result.emg.normalisation[0].from_mvc = false;
   EXPECT_THAT(text_of(result), HasSubstr("was normalization to the peak EMG amplitude in the task"));
-  result.source.study.emg.kind = EmgKind::activation;
+  result.source.study.emg.kind = study::EmgKind::activation;
   EXPECT_THAT(text_of(result), HasSubstr("was not known to the program"));
 }
 
@@ -138,4 +138,4 @@ TEST(References, HaveKeysOfTheirOwnAndTheFieldsOfTheirKind) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

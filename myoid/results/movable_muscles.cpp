@@ -5,22 +5,21 @@
 #include <string>
 #include <utility>
 
-#include "myoid/core/index.h"
-#include "myoid/identification/parameter_fields.h"
-#include "myoid/intervals/log_covariance.h"
-#include "myoid/report/typeset.h"
+#include "myoid/fit/intervals/log_covariance.h"
+#include "myoid/fit/measurement/parameter_fields.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/page/typeset.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
+using fit::IdentificationResult;
 
-/// Returns the names of a muscle's numbers in the order of identification::MuscleField.
+/// Returns the names of a muscle's numbers in the order of fit::MuscleField.
 std::vector<std::string> field_names() {
-  std::vector<std::string> names(identification::kMuscleFieldCount);
-  for (const identification::ParameterField& field : identification::parameter_fields()) {
-    if (field.scope == identification::Scope::muscle && field.field >= 0 &&
-        field.field < identification::kMuscleFieldCount)
+  std::vector<std::string> names(fit::kMuscleFieldCount);
+  for (const fit::ParameterField& field : fit::parameter_fields()) {
+    if (field.scope == fit::Scope::muscle && field.field >= 0 && field.field < fit::kMuscleFieldCount)
       names[at(field.field)] = std::string(field.name);
   }
   return names;
@@ -29,16 +28,16 @@ std::vector<std::string> field_names() {
 /// Returns draws of a muscle's numbers; a held number is the same in all draws. For an unknown that
 /// several muscles share, the fit has the first muscle's value; the others keep their ratio to it.
 Eigen::MatrixXd draws_of(const IdentificationResult& fit,
-                         const std::vector<identification::MuscleSetup>& muscles,
+                         const std::vector<fit::MuscleSetup>& muscles,
                          std::size_t m,
-                         const std::vector<report::MovableNumber>& numbers,
+                         const std::vector<page::MovableNumber>& numbers,
                          const std::vector<std::string>& fields) {
   Eigen::MatrixXd draws(static_cast<Eigen::Index>(numbers.size()), fit.draws.cols());
   for (Eigen::Index k = 0; k < draws.rows(); ++k) {
     const std::size_t f = at(numbers[at(k)].field);
     const double found = fit.values.muscles[m][f];
     draws.row(k).setConstant(found);
-    const std::optional<Eigen::Index> row = identification::unknown_of(fit, muscles[m].name, fields[f]);
+    const std::optional<Eigen::Index> row = fit::unknown_of(fit, muscles[m].name, fields[f]);
     if (!row || *row >= fit.draws.rows()) continue;
     const std::string& label = fit.free_parameters[at(*row)];
     const std::string first = label.substr(0, label.find_first_of("+."));
@@ -48,34 +47,34 @@ Eigen::MatrixXd draws_of(const IdentificationResult& fit,
   return draws;
 }
 
-report::MovableMuscle movable(const IdentificationResult& fit,
-                              const std::vector<identification::MuscleSetup>& muscles,
-                              std::size_t m,
-                              const std::vector<std::string>& fields) {
-  const identification::MuscleSetup& setup = muscles[m];
-  const identification::MuscleValues start = identification::muscle_values(setup.start, setup.extras);
-  const identification::MuscleValues& found = fit.values.muscles[m];
-  report::MovableMuscle muscle{setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}};
+page::MovableMuscle movable(const IdentificationResult& fit,
+                            const std::vector<fit::MuscleSetup>& muscles,
+                            std::size_t m,
+                            const std::vector<std::string>& fields) {
+  const fit::MuscleSetup& setup = muscles[m];
+  const fit::MuscleValues start = fit::muscle_values(setup.start, setup.extras);
+  const fit::MuscleValues& found = fit.values.muscles[m];
+  page::MovableMuscle muscle{setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}};
   std::vector<std::string> names;
-  for (const int field : {identification::kFiberLength, identification::kWidth, identification::kMaxForce}) {
+  for (const int field : {fit::kFiberLength, fit::kWidth, fit::kMaxForce}) {
     const std::size_t f = at(field);
     names.push_back(fields[f]);
     std::string verdict;
-    for (const identification::ParameterEstimate& e : fit.estimates) {
+    for (const fit::ParameterEstimate& e : fit.estimates) {
       if (e.muscle != setup.name || e.parameter != fields[f]) continue;
-      verdict = report::spelled(identification::name(e.verdict));
+      verdict = page::spelled(fit::name(e.verdict));
       if (e.prior_mean) muscle.literature[f] = *e.prior_mean;
     }
-    report::MovableNumber number{.field = field,
-                                 .name = report::spelled(fields[f]),
-                                 .unit = std::string(symbol(identification::parameter_field(fields[f]).unit)),
-                                 .lower = 0.5 * std::min(muscle.literature[f], found[f]),
-                                 .upper = 1.6 * std::max(muscle.literature[f], found[f]),
-                                 .sd_log = 0.0,
-                                 .verdict = std::move(verdict)};
+    page::MovableNumber number{.field = field,
+                               .name = page::spelled(fields[f]),
+                               .unit = std::string(symbol(fit::parameter_field(fields[f]).unit)),
+                               .lower = 0.5 * std::min(muscle.literature[f], found[f]),
+                               .upper = 1.6 * std::max(muscle.literature[f], found[f]),
+                               .sd_log = 0.0,
+                               .verdict = std::move(verdict)};
     muscle.numbers.push_back(std::move(number));
   }
-  const Eigen::MatrixXd covariance = identification::log_covariance(fit, setup.name, names);
+  const Eigen::MatrixXd covariance = fit::log_covariance(fit, setup.name, names);
   const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
   muscle.correlation = Eigen::MatrixXd::Identity(sd.size(), sd.size());
   for (Eigen::Index i = 0; i < sd.size(); ++i) {
@@ -93,11 +92,11 @@ report::MovableMuscle movable(const IdentificationResult& fit,
 }  // namespace
 
 void add_movable_muscles(const IdentificationResult& fit,
-                         const std::vector<identification::MuscleSetup>& muscles,
-                         report::Workbench& workbench) {
+                         const std::vector<fit::MuscleSetup>& muscles,
+                         page::Workbench& workbench) {
   workbench.fields = field_names();
   for (std::size_t m = 0; m < muscles.size(); ++m)
     workbench.muscles.push_back(movable(fit, muscles, m, workbench.fields));
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -9,21 +9,21 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/counted.h"
-#include "myoid/files/text_file.h"
-#include "myoid/report/tables.h"
-#include "myoid/report/verdict_mark.h"
+#include "myoid/ground/core/counted.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/page/tables.h"
+#include "myoid/page/verdict_mark.h"
 #include "myoid/results/parameter_tables.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
-using identification::PublishedSearch;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
+using fit::PublishedSearch;
 using math::Termination;
-using report::Cell;
-using report::Table;
+using page::Cell;
+using page::Table;
 
 /// A column of the paper's tables.
 struct PaperColumn {
@@ -70,11 +70,11 @@ const ParameterEstimate* estimate_of(const IdentificationResult& method,
 
 Cell estimate_cell(const ParameterEstimate* e, bool searched) {
   if (e == nullptr) return {"held"};
-  if (!searched || !std::isfinite(e->estimate)) return {"–", report::Badge::none, e->reason};
-  std::string text = report::format_value(e->estimate);
+  if (!searched || !std::isfinite(e->estimate)) return {"–", page::Badge::none, e->reason};
+  std::string text = page::format_value(e->estimate);
   if (e->ci_low && e->ci_high && !is_undetermined(*e))
-    text += fmt::format(" ({})", report::format_interval(*e->ci_low, *e->ci_high));
-  return {std::move(text), report::verdict_badge(identification::name(e->verdict)), e->reason};
+    text += fmt::format(" ({})", page::format_interval(*e->ci_low, *e->ci_high));
+  return {std::move(text), page::verdict_badge(fit::name(e->verdict)), e->reason};
 }
 
 Table branch_table(const IdentificationResult& method,
@@ -96,11 +96,11 @@ Table branch_table(const IdentificationResult& method,
     std::vector<Cell> start{{search.muscle}, {"x_init"}}, found{{search.muscle}, {"x̂"}};
     for (const PaperColumn& column : columns) {
       const ParameterEstimate* e = estimate_of(method, search, column.parameter);
-      start.push_back({e == nullptr ? "held" : report::format_value(e->initial)});
+      start.push_back({e == nullptr ? "held" : page::format_value(e->initial)});
       found.push_back(estimate_cell(e, searched));
     }
-    start.push_back({searched ? report::format_value(search.start_cost, 4) : "–"});
-    found.push_back({searched ? report::format_value(search.cost, 4) : "–"});
+    start.push_back({searched ? page::format_value(search.start_cost, 4) : "–"});
+    found.push_back({searched ? page::format_value(search.cost, 4) : "–"});
     table.rows.push_back(std::move(start));
     table.rows.push_back(std::move(found));
   }
@@ -130,22 +130,22 @@ std::vector<Table> paper_tables(const IdentificationResult& method) {
           std::move(searches)};
 }
 
-Table solver_table(const std::vector<identification::NamedContest>& contests) {
+Table solver_table(const std::vector<fit::NamedContest>& contests) {
   Table table{.id = "solvers",
               .title = "Solvers of the published criterion: cost [N²], distance from the best minimum",
               .columns = {"fit", "solver", "start", "cost", "distance", "evaluations", "seconds", "termination"}};
-  using recording::format_number;
+  using ground::format_number;
   for (const auto& [fit, contest] : contests)
-    for (const identification::SolverRun& run : contest.runs)
-      table.rows.push_back(report::text_row({fit, run.solver, fmt::format("{}", run.start), format_number(run.cost),
-                                             format_number(run.distance), fmt::format("{}", run.evaluations),
-                                             format_number(run.seconds), std::string(math::name(run.termination))}));
+    for (const fit::SolverRun& run : contest.runs)
+      table.rows.push_back(page::text_row({fit, run.solver, fmt::format("{}", run.start), format_number(run.cost),
+                                           format_number(run.distance), fmt::format("{}", run.evaluations),
+                                           format_number(run.seconds), std::string(math::name(run.termination))}));
   return table;
 }
 
-report::Section paper_section(const StudyFit& fit, bool shared) {
-  const IdentificationResult& paper = *method_of(fit, identification::Method::paper);
-  report::Section section{
+page::Section paper_section(const run::StudyFit& fit, bool shared) {
+  const IdentificationResult& paper = *run::method_of(fit, fit::Method::paper);
+  page::Section section{
       .id = "paper",
       .heading = "The source paper's method beside it",
       .folded = true,
@@ -160,4 +160,4 @@ report::Section paper_section(const StudyFit& fit, bool shared) {
   return section;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

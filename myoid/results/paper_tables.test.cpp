@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
-using identification::PublishedSearch;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
+using fit::PublishedSearch;
 using math::Termination;
 
 ParameterEstimate number(const std::string& muscle, const std::string& branch, const std::string& name, double value) {
@@ -18,17 +18,17 @@ ParameterEstimate number(const std::string& muscle, const std::string& branch, c
   e.muscle = muscle;
   e.fit_case = branch;
   e.parameter = name;
-  e.method = identification::Method::paper;
+  e.method = fit::Method::paper;
   e.initial = 0.14;
   e.estimate = value;
-  e.verdict = identification::Verdict::prior_dominated;
+  e.verdict = fit::Verdict::prior_dominated;
   e.reason = "nobody measured the force";
   return e;
 }
 
 IdentificationResult two_branches() {
   IdentificationResult method;
-  method.method = identification::Method::paper;
+  method.method = fit::Method::paper;
   method.estimates = {number("BIC", "shortening", "optimal_fiber_length", 0.131),
                       number("BIC", "shortening", "concentric_curvature", 0.27),
                       number("BIC", "lengthening", "optimal_fiber_length", 0.14)};
@@ -45,13 +45,13 @@ IdentificationResult two_branches() {
 }
 
 TEST(PaperTables, HaveThePapersColumnsAndStartAndMinimumOfEachMuscle) {
-  const std::vector<report::Table> tables = paper_tables(two_branches());
+  const std::vector<page::Table> tables = paper_tables(two_branches());
   ASSERT_EQ(tables.size(), 3U);
   EXPECT_EQ(tables[0].id, "table_1_shortening");
   EXPECT_EQ(tables[1].id, "table_2_lengthening");
   ASSERT_EQ(tables[0].columns.size(), 6U);  // muscle, x, three unknowns, the criterion
   ASSERT_EQ(tables[1].columns.size(), 7U);
-  for (const report::Table& table : tables) {
+  for (const page::Table& table : tables) {
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.id;
   }
   const auto& rows = tables[0].rows;
@@ -84,18 +84,18 @@ TEST(PaperTables, SayHowBothSearchesEnded) {
 }
 
 TEST(PaperSection, IsFoldedAndHasTheSolversThatTheStudyCompares) {
-  StudyFit fit;
+  run::StudyFit fit;
   fit.methods = {two_branches()};
-  const report::Section section = paper_section(fit, true);
+  const page::Section section = paper_section(fit, true);
   EXPECT_TRUE(section.folded);
   EXPECT_EQ(section.tables.size(), 3U);
   fit.contests = {{"BIC shortening", {.runs = {{.solver = "gauss_newton", .cost = 0.1234567890123}}}},
                   {"BIC lengthening", {}}};
-  const report::Table solvers = paper_section(fit, false).tables.at(3);
+  const page::Table solvers = paper_section(fit, false).tables.at(3);
   ASSERT_EQ(solvers.rows.size(), 1U);
   EXPECT_EQ(solvers.rows[0][0].text, "BIC shortening");
   EXPECT_EQ(solvers.rows[0][3].text, "0.1234567890123") << "solvers.csv has every digit";
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

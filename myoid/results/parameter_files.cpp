@@ -10,31 +10,31 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/json_text.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/files/quoted_text.h"
-#include "myoid/files/text_file.h"
-#include "myoid/intervals/estimate_columns.h"
-#include "myoid/methods/prediction.h"
-#include "myoid/report/json_values.h"
-#include "myoid/report/tables.h"
+#include "myoid/fit/intervals/estimate_columns.h"
+#include "myoid/fit/methods/prediction.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/quoted_text.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/page/json_values.h"
+#include "myoid/page/tables.h"
 #include "myoid/results/voluntary_report.h"
 #include "myoid/run/prediction_gates.h"
 #include "myoid/study/study_model.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::EstimateColumn;
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
+using fit::EstimateColumn;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
+using ground::csv_cell;
+using ground::csv_quoted;
 using nlohmann::ordered_json;
-using recording::csv_cell;
-using recording::csv_quoted;
-using report::number_or_null;
+using page::number_or_null;
 
 std::string number_or_empty(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? recording::format_number(*value) : "";
+  return value && std::isfinite(*value) ? format_number(*value) : "";
 }
 
 struct CsvCell {
@@ -43,8 +43,8 @@ struct CsvCell {
   std::string operator()(double value) const { return number_or_empty(value); }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(Unit unit) const { return std::string(symbol(unit)); }
-  std::string operator()(identification::Verdict verdict) const { return std::string(name(verdict)); }
-  std::string operator()(identification::Method method) const { return std::string(name(method)); }
+  std::string operator()(fit::Verdict verdict) const { return std::string(name(verdict)); }
+  std::string operator()(fit::Method method) const { return std::string(name(method)); }
 };
 
 struct JsonValue {
@@ -61,12 +61,12 @@ auto cell_of(const ParameterEstimate& e, const EstimateColumn& column, Format fo
 
 ordered_json estimate_json(const ParameterEstimate& e) {
   ordered_json object;
-  for (const EstimateColumn& column : identification::estimate_columns())
+  for (const EstimateColumn& column : fit::estimate_columns())
     object[std::string(column.name)] = cell_of(e, column, JsonValue{});
   if (!e.tied_to.empty()) object["tied_to"] = e.tied_to;
   if (e.variance_shares) {
-    for (std::size_t s = 0; s < identification::kSourceColumns.size(); ++s)
-      object["variance_shares"][std::string(identification::kSourceColumns[s])] = (*e.variance_shares)[s];
+    for (std::size_t s = 0; s < fit::kSourceColumns.size(); ++s)
+      object["variance_shares"][std::string(fit::kSourceColumns[s])] = (*e.variance_shares)[s];
   }
   return object;
 }
@@ -81,37 +81,37 @@ bool with_shares(const std::vector<IdentificationResult>& methods) {
 /// Returns a row of parameters.csv without its end of line.
 std::string estimate_row(const ParameterEstimate& e, bool shares) {
   std::vector<std::string> cells;
-  for (const EstimateColumn& column : identification::estimate_columns()) {
+  for (const EstimateColumn& column : fit::estimate_columns()) {
     if (column.kind == EstimateColumn::Kind::json) continue;
     const std::string cell = cell_of(e, column, CsvCell{});
     cells.push_back(column.kind == EstimateColumn::Kind::sentence ? csv_quoted(cell) : csv_cell(cell));
   }
-  for (std::size_t s = 0; shares && s < identification::kSourceColumns.size(); ++s)
+  for (std::size_t s = 0; shares && s < fit::kSourceColumns.size(); ++s)
     cells.push_back(e.variance_shares ? number_or_empty((*e.variance_shares)[s]) : "");
   return fmt::format("{}", fmt::join(cells, ","));
 }
 
-ordered_json basin_json(const identification::BasinRow& basin) {
+ordered_json basin_json(const fit::BasinRow& basin) {
   return {{"cost", number_or_null(basin.cost)}, {"starts", basin.starts},
           {"converged", basin.converged},       {"distance", number_or_null(basin.distance)},
           {"as_good_as_the_best", basin.rival}, {"of_the_given_start", basin.given}};
 }
 
-ordered_json basins_json(const identification::BasinTable& table) {
+ordered_json basins_json(const fit::BasinTable& table) {
   return {{"fit", table.fit},
           {"starts", table.starts},
           {"starts_without_a_minimum", table.failed},
           {"basins", array_of(table.basins, basin_json)}};
 }
 
-ordered_json distance_json(const identification::PriorDistance& d) {
+ordered_json distance_json(const fit::PriorDistance& d) {
   return {{"muscle", d.muscle},
           {"standard_deviations", d.distance},
           {"farthest", d.farthest},
           {"farthest_standard_deviations", d.farthest_distance}};
 }
 
-ordered_json branch_test_json(const identification::BranchTest& test) {
+ordered_json branch_test_json(const fit::BranchTest& test) {
   return {{"muscle", test.muscle},
           {"optimal_fiber_length_difference", test.length_difference_m},
           {"force_length_width_difference", test.width_difference_m},
@@ -119,7 +119,7 @@ ordered_json branch_test_json(const identification::BranchTest& test) {
           {"p_value", number_or_null(test.p_value)}};
 }
 
-ordered_json published_json(const identification::PublishedSearch& search) {
+ordered_json published_json(const fit::PublishedSearch& search) {
   return {{"muscle", search.muscle},
           {"case", search.fit_case},
           {"termination", std::string(math::name(search.termination))},
@@ -135,7 +135,7 @@ ordered_json published_json(const identification::PublishedSearch& search) {
 
 /// Converts a trial. `number` writes numbers that method paper does not have.
 template <typename Number>
-ordered_json trial_json(const identification::TrialFit& t, Number number) {
+ordered_json trial_json(const fit::TrialFit& t, Number number) {
   return {{"trial", t.trial},
           {"joint", t.joint},
           {"calibration", t.calibration},
@@ -145,12 +145,12 @@ ordered_json trial_json(const identification::TrialFit& t, Number number) {
           {"band_rmse_nm", number(t.band.rmse_nm())},
           {"band_nrmse_range", number(t.band.nrmse_range())},
           {"band_r2", number(t.band.r2())},
-          {"covered", number(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}};
+          {"covered", number(fit::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}};
 }
 
 ordered_json method_json(const IdentificationResult& method) {
   // Method paper has neither noise nor delay, and predicts forces, not torque.
-  const bool paper = method.method == identification::Method::paper;
+  const bool paper = method.method == fit::Method::paper;
   const auto unless_paper = [&](double value) { return paper ? ordered_json(nullptr) : number_or_null(value); };
   return {{"method", std::string(name(method.method))},
           {"termination", std::string(math::name(method.termination))},
@@ -164,7 +164,7 @@ ordered_json method_json(const IdentificationResult& method) {
           {"r2", number_or_null(method.r2)},
           {"model_error", unless_paper(method.model_error)},
           {"emg_delay_s", unless_paper(method.delay_s)},
-          {"emg_lag", paper ? ordered_json(nullptr) : ordered_json(identification::name(method.lag))},
+          {"emg_lag", paper ? ordered_json(nullptr) : ordered_json(fit::name(method.lag))},
           {"estimates", array_of(method.estimates, estimate_json)},
           {"exact_data", method.exact},
           {"left_open_by_the_data", method.undetermined},
@@ -176,11 +176,11 @@ ordered_json method_json(const IdentificationResult& method) {
           {"searches", array_of(method.basins, basins_json)},
           {"covariance",
            {{"parameters", method.free_parameters},
-            {"mean", report::to_vector(method.solution)},
+            {"mean", page::to_vector(method.solution)},
             {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"},
-            {"matrix", report::matrix_json(method.covariance)}}},
-          {"envelope_variance", report::to_vector(method.envelope_variance)},
-          {"noise", report::to_vector(method.noise)},
+            {"matrix", page::matrix_json(method.covariance)}}},
+          {"envelope_variance", page::to_vector(method.envelope_variance)},
+          {"noise", page::to_vector(method.noise)},
           {"trials", array_of(method.trials, [&](const auto& trial) { return trial_json(trial, unless_paper); })}};
 }
 
@@ -188,7 +188,7 @@ ordered_json fold_value_json(const ParameterEstimate& e) {
   return {{"muscle", e.muscle}, {"parameter", e.parameter}, {"estimate", number_or_null(e.estimate)}};
 }
 
-ordered_json score_json(const identification::Score& s) {
+ordered_json score_json(const fit::Score& s) {
   return {{"rmse_nm", number_or_null(s.rmse_nm())},
           {"nrmse_range", number_or_null(s.nrmse_range())},
           {"nrmse_sd", number_or_null(s.nrmse_sd())},
@@ -196,7 +196,7 @@ ordered_json score_json(const identification::Score& s) {
           {"vaf", number_or_null(s.vaf())}};
 }
 
-ordered_json fold_json(const identification::Fold& f) {
+ordered_json fold_json(const fit::Fold& f) {
   return {{"trial", f.trial},
           {"joint", f.joint},
           {"identified", score_json(f.identified)},
@@ -209,11 +209,11 @@ ordered_json fold_json(const identification::Fold& f) {
           {"covered", number_or_null(f.covered)},
           {"unseen_effort", {{"channel", f.unseen.channel}, {"ratio", number_or_null(f.unseen.ratio)}}},
           {"converged", f.converged},
-          {"emg_lag", identification::name(f.lag)},
+          {"emg_lag", fit::name(f.lag)},
           {"parameters", array_of(f.parameters, fold_value_json)}};
 }
 
-ordered_json phase_json(const std::string& trial, const Phase& phase) {
+ordered_json phase_json(const std::string& trial, const study::Phase& phase) {
   return {{"trial", trial},
           {"phase", std::string(choice_name(phase.kind))},
           {"begin_s", phase.begin_s},
@@ -224,12 +224,12 @@ ordered_json phase_json(const std::string& trial, const Phase& phase) {
           {"reason", phase.reason}};
 }
 
-ordered_json resting_json(const identification::RestingJoint& joint) {
+ordered_json resting_json(const fit::RestingJoint& joint) {
   return {{"joint", joint.joint},
           {"trials", joint.trials},
           {"lowest_rad", joint.torque.lowest_rad},
           {"highest_rad", joint.torque.highest_rad},
-          {"legendre_nm", report::to_vector(joint.torque.coefficient_nm)},
+          {"legendre_nm", page::to_vector(joint.torque.coefficient_nm)},
           {"weight_sin_nm", joint.torque.weight_sin_nm},
           {"weight_cos_nm", joint.torque.weight_cos_nm},
           {"viscosity_nms", joint.torque.viscosity_nms},
@@ -239,7 +239,7 @@ ordered_json resting_json(const identification::RestingJoint& joint) {
 /// Returns true if a trial took no part in the fits and was predicted.
 bool any_held_back(const std::vector<IdentificationResult>& methods) {
   return std::ranges::any_of(methods, [](const IdentificationResult& method) {
-    return std::ranges::any_of(method.trials, [](const identification::TrialFit& trial) { return !trial.calibration; });
+    return std::ranges::any_of(method.trials, [](const fit::TrialFit& trial) { return !trial.calibration; });
   });
 }
 
@@ -248,11 +248,11 @@ bool any_held_back(const std::vector<IdentificationResult>& methods) {
 std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
   const bool shares = with_shares(methods);
   std::vector<std::string> names;
-  for (const EstimateColumn& column : identification::estimate_columns()) {
+  for (const EstimateColumn& column : fit::estimate_columns()) {
     if (column.kind != EstimateColumn::Kind::json) names.emplace_back(column.name);
   }
-  for (std::size_t s = 0; shares && s < identification::kSourceColumns.size(); ++s)
-    names.push_back(fmt::format("variance_{}", identification::kSourceColumns[s]));
+  for (std::size_t s = 0; shares && s < fit::kSourceColumns.size(); ++s)
+    names.push_back(fmt::format("variance_{}", fit::kSourceColumns[s]));
   std::string text = fmt::format("{}\n", fmt::join(names, ","));
   for (const IdentificationResult& method : methods) {
     for (const ParameterEstimate& e : method.estimates) text += estimate_row(e, shares) + "\n";
@@ -272,58 +272,57 @@ std::string posterior_csv(const IdentificationResult& method) {
   return text;
 }
 
-std::string fold_parameters_csv(const std::vector<identification::Fold>& folds) {
+std::string fold_parameters_csv(const std::vector<fit::Fold>& folds) {
   std::string text = "left_out,muscle,parameter,unit,estimate,emg_lag\n";
   std::set<std::string> written;
-  for (const identification::Fold& fold : folds) {
+  for (const fit::Fold& fold : folds) {
     for (const ParameterEstimate& e : fold.parameters) {
       // One fit predicts all joints of a trial.
       const std::string row = fmt::format("{},{},{}", csv_quoted(fold.trial), csv_cell(e.muscle), e.parameter);
       if (!written.insert(row).second) continue;
-      text += fmt::format("{},{},{},{}\n", row, symbol(e.unit), number_or_empty(e.estimate),
-                          identification::name(fold.lag));
+      text += fmt::format("{},{},{},{}\n", row, symbol(e.unit), number_or_empty(e.estimate), fit::name(fold.lag));
     }
   }
   return text;
 }
 
 std::string parameters_json(const std::vector<IdentificationResult>& methods,
-                            const std::vector<identification::Fold>& folds,
+                            const std::vector<fit::Fold>& folds,
                             const Provenance& provenance,
                             const ParameterContext& context) {
-  ordered_json object{{"provenance", report::provenance_json(provenance)},
+  ordered_json object{{"provenance", page::provenance_json(provenance)},
                       {"methods", array_of(methods, method_json)},
                       {"segments", ordered_json::array()}};
-  for (const TrialPhases& trial : context.phases) {
-    for (const Phase& phase : trial.phases) object["segments"].push_back(phase_json(trial.trial, phase));
+  for (const study::TrialPhases& trial : context.phases) {
+    for (const study::Phase& phase : trial.phases) object["segments"].push_back(phase_json(trial.trial, phase));
   }
   object["left_out"] = !folds.empty() ? context.left_out : any_held_back(methods) ? "validation" : "none";
-  object["max_rate_hz"] = identification::EstimatorOptions{}.max_rate_hz;
+  object["max_rate_hz"] = fit::EstimatorOptions{}.max_rate_hz;
   if (!context.starting_values.empty()) object["starting_values"] = context.starting_values;
   object["resting_torque"] = array_of(context.resting, resting_json);
   object["leave_one_trial_out"] = array_of(folds, fold_json);
   return json_text(object) + "\n";
 }
 
-ParameterContext parameter_context(const StudyResult& result) {
+ParameterContext parameter_context(const run::StudyResult& result) {
   return {.phases = result.fit_input.phases,
           .resting = result.resting,
           .left_out = std::string(choice_name(result.source.study.identify.folds)),
-          .starting_values = assumed_starts(result.source.study)};
+          .starting_values = study::assumed_starts(result.source.study)};
 }
 
 void write_parameter_files(const std::vector<IdentificationResult>& methods,
-                           const std::vector<identification::Fold>& folds,
+                           const std::vector<fit::Fold>& folds,
                            const Provenance& provenance,
                            const ParameterContext& context,
                            const std::filesystem::path& folder) {
-  recording::write_file(folder / "parameters.json", parameters_json(methods, folds, provenance, context));
-  recording::write_file(folder / "parameters.csv", parameters_csv(methods));
-  if (!folds.empty()) recording::write_file(folder / "fold_parameters.csv", fold_parameters_csv(folds));
+  write_file(folder / "parameters.json", parameters_json(methods, folds, provenance, context));
+  write_file(folder / "parameters.csv", parameters_csv(methods));
+  if (!folds.empty()) write_file(folder / "fold_parameters.csv", fold_parameters_csv(folds));
   const auto drawn = std::ranges::find_if(methods, [](const auto& method) { return method.draws.size() > 0; });
   const auto told = std::ranges::find_if(methods, [](const auto& method) { return !method.voluntary.empty(); });
-  if (told != methods.end()) recording::write_file(folder / "voluntary_torque.csv", voluntary_csv(*told));
-  if (drawn != methods.end()) recording::write_file(folder / "posterior.csv", posterior_csv(*drawn));
+  if (told != methods.end()) write_file(folder / "voluntary_torque.csv", voluntary_csv(*told));
+  if (drawn != methods.end()) write_file(folder / "posterior.csv", posterior_csv(*drawn));
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -5,36 +5,36 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/files/atomic_file.h"
-#include "myoid/intervals/estimate_columns.h"
-#include "myoid/tables/csv_reader.h"
+#include "myoid/fit/intervals/estimate_columns.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/recording/tables/csv_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-identification::IdentificationResult one_estimate() {
-  identification::ParameterEstimate e;
+fit::IdentificationResult one_estimate() {
+  fit::ParameterEstimate e;
   e.muscle = "BIC";
   e.parameter = "optimal_fiber_length";
   e.unit = Unit::meter;
-  e.method = identification::Method::torque;
+  e.method = fit::Method::torque;
   e.fit_case = "both";
   e.initial = 0.1;
   e.estimate = 0.1 + 0.2;
   e.std_error = std::numeric_limits<double>::infinity();
   e.ci_low = 0.25;
   e.reason = "known to \"12 %\", about";
-  identification::IdentificationResult result;
-  result.method = identification::Method::torque;
+  fit::IdentificationResult result;
+  result.method = fit::Method::torque;
   result.estimates = {e};
   return result;
 }
 
 TEST(ParametersCsv, ANumberReadsBackTheSameAndWhatIsAbsentOrInfiniteIsAnEmptyCell) {
   const test::TemporaryFolder folder;
-  recording::write_file(folder / "p.csv", parameters_csv({one_estimate()}));
+  write_file(folder / "p.csv", parameters_csv({one_estimate()}));
   const recording::CsvTable table = recording::read_csv_table(folder / "p.csv");
   const auto cell = [&](const std::string& name) {
     const auto it = std::find(table.names.begin(), table.names.end(), name);
@@ -50,12 +50,12 @@ TEST(ParametersCsv, ANumberReadsBackTheSameAndWhatIsAbsentOrInfiniteIsAnEmptyCel
 TEST(ParametersCsv, ThePosteriorHasTheSourcesOfTheVarianceAndItsSecondReading) {
   const std::string plain = parameters_csv({one_estimate()});
   EXPECT_EQ(plain.find("variance_"), std::string::npos);
-  identification::IdentificationResult result = one_estimate();
+  fit::IdentificationResult result = one_estimate();
   result.estimates[0].variance_shares = {0.5, 0.25, 0.125, 0.0625, 0.0625, 0.0};
   result.estimates[0].given_estimate = 0.28;
   result.estimates[0].given_ci_low = 0.25;
   const test::TemporaryFolder folder;
-  recording::write_file(folder / "p.csv", parameters_csv({result}));
+  write_file(folder / "p.csv", parameters_csv({result}));
   const recording::CsvTable table = recording::read_csv_table(folder / "p.csv");
   const auto cell = [&](const std::string& name) {
     const auto it = std::find(table.names.begin(), table.names.end(), name);
@@ -70,7 +70,7 @@ TEST(ParametersCsv, ThePosteriorHasTheSourcesOfTheVarianceAndItsSecondReading) {
 }
 
 TEST(PosteriorCsv, HasARowForEachDrawAndAColumnForEachUnknown) {
-  identification::IdentificationResult result = one_estimate();
+  fit::IdentificationResult result = one_estimate();
   result.free_parameters = {"BIC.optimal_fiber_length", "subject.emg_delay"};
   result.draws.resize(2, 3);
   result.draws << 0.125, 0.25, 0.5, 0.0625, 0.03125, 0.5;
@@ -87,35 +87,35 @@ TEST(PosteriorCsv, HasARowForEachDrawAndAColumnForEachUnknown) {
 }
 
 TEST(ParametersJson, ARowReadsBackTheSameInEveryColumn) {
-  identification::IdentificationResult result = one_estimate();
-  identification::ParameterEstimate& e = result.estimates.front();
+  fit::IdentificationResult result = one_estimate();
+  fit::ParameterEstimate& e = result.estimates.front();
   e.std_error = 0.01;
   e.prior_mean = 0.11;
   e.prior_distance = 1.0 / 3.0;
   e.at_bound = true;
-  e.verdict = identification::Verdict::prior_dominated;
+  e.verdict = fit::Verdict::prior_dominated;
   e.tied_to = "BRA";
   const auto json = nlohmann::json::parse(parameters_json({result}, {}, {}));
   const nlohmann::json& row = json.at("methods").at(0).at("estimates").at(0);
-  const auto read = identification::estimate_of_json(row);
+  const auto read = fit::estimate_of_json(row);
   ASSERT_TRUE(read);
-  for (const identification::EstimateColumn& column : identification::estimate_columns()) {
+  for (const fit::EstimateColumn& column : fit::estimate_columns()) {
     std::visit([&](const auto member) { EXPECT_EQ(*read.*member, e.*member) << column.name; }, column.member);
   }
   EXPECT_EQ(read->tied_to, "BRA");
   nlohmann::json without = row;
   without["estimate"] = nullptr;
-  EXPECT_FALSE(identification::estimate_of_json(without));
+  EXPECT_FALSE(fit::estimate_of_json(without));
   without = row;
   without.erase("verdict");
-  EXPECT_THROW(static_cast<void>(identification::estimate_of_json(without)), nlohmann::json::exception);
+  EXPECT_THROW(static_cast<void>(fit::estimate_of_json(without)), nlohmann::json::exception);
 }
 
 TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
-  identification::IdentificationResult torque = one_estimate();
+  fit::IdentificationResult torque = one_estimate();
   torque.delay_s = 0.05;
-  identification::IdentificationResult paper = torque;
-  paper.method = identification::Method::paper;
+  fit::IdentificationResult paper = torque;
+  paper.method = fit::Method::paper;
   const auto json = nlohmann::json::parse(parameters_json({torque, paper}, {}, {}));
   EXPECT_EQ(json.at("methods").at(0).at("emg_delay_s"), 0.05);
   EXPECT_TRUE(json.at("methods").at(1).at("emg_delay_s").is_null());
@@ -123,11 +123,11 @@ TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
 }
 
 TEST(ParametersJson, LeftOutIsTheKindOfAFoldOrThatTrialsWereHeldBack) {
-  const auto left_out = [](const identification::IdentificationResult& result, std::size_t folds) {
-    const std::vector<identification::Fold> of(folds);
+  const auto left_out = [](const fit::IdentificationResult& result, std::size_t folds) {
+    const std::vector<fit::Fold> of(folds);
     return nlohmann::json::parse(parameters_json({result}, of, {}, {.left_out = "block"})).at("left_out");
   };
-  identification::IdentificationResult result = one_estimate();
+  fit::IdentificationResult result = one_estimate();
   EXPECT_EQ(left_out(result, 0), "none");
   EXPECT_EQ(left_out(result, 2), "block");
   result.trials.resize(2);
@@ -137,7 +137,7 @@ TEST(ParametersJson, LeftOutIsTheKindOfAFoldOrThatTrialsWereHeldBack) {
 }
 
 TEST(ParametersJson, SearchesTellWhereTheirStartsEnded) {
-  identification::IdentificationResult torque = one_estimate();
+  fit::IdentificationResult torque = one_estimate();
   const auto none = nlohmann::json::parse(parameters_json({torque}, {}, {}));
   EXPECT_TRUE(none.at("methods").at(0).at("searches").empty());
   torque.basins = {
@@ -162,4 +162,4 @@ TEST(ParametersJson, SearchesTellWhereTheirStartsEnded) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

@@ -8,32 +8,32 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/identification/parameter_fields.h"
-#include "myoid/report/muscle_names.h"
-#include "myoid/report/parameter_words.h"
-#include "myoid/report/plain_unit.h"
-#include "myoid/report/tables.h"
-#include "myoid/report/typeset.h"
-#include "myoid/report/verdict_mark.h"
+#include "myoid/fit/measurement/parameter_fields.h"
+#include "myoid/page/muscle_names.h"
+#include "myoid/page/parameter_words.h"
+#include "myoid/page/plain_unit.h"
+#include "myoid/page/tables.h"
+#include "myoid/page/typeset.h"
+#include "myoid/page/verdict_mark.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
-using identification::Verdict;
-using report::Badge;
-using report::Cell;
-using report::format_rounded;
-using report::format_value;
-using report::Table;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
+using fit::Verdict;
+using page::Badge;
+using page::Cell;
+using page::format_rounded;
+using page::format_value;
+using page::Table;
 
-Badge badge(Verdict verdict) { return report::verdict_badge(identification::name(verdict)); }
+Badge badge(Verdict verdict) { return page::verdict_badge(fit::name(verdict)); }
 
 /// Rounds a value to the digits of its interval's ends, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {
   if (!std::isfinite(value)) return "-";
-  return is_undetermined(e) ? format_value(value) : report::format_beside(value, e.ci_low, e.ci_high);
+  return is_undetermined(e) ? format_value(value) : page::format_beside(value, e.ci_low, e.ci_high);
 }
 
 std::string unit(const ParameterEstimate& e) {
@@ -42,12 +42,12 @@ std::string unit(const ParameterEstimate& e) {
 
 std::string interval(const ParameterEstimate& e) {
   if (is_undetermined(e)) return "not determined";
-  return e.ci_low && e.ci_high ? report::format_interval(*e.ci_low, *e.ci_high) : "none";
+  return e.ci_low && e.ci_high ? page::format_interval(*e.ci_low, *e.ci_high) : "none";
 }
 
 std::string given_interval(const ParameterEstimate& e) {
   if (is_undetermined(e) || !e.given_ci_low || !e.given_ci_high) return "-";
-  return report::format_interval(*e.given_ci_low, *e.given_ci_high);
+  return page::format_interval(*e.given_ci_low, *e.given_ci_high);
 }
 
 std::string prior(const ParameterEstimate& e) {
@@ -55,11 +55,9 @@ std::string prior(const ParameterEstimate& e) {
   return fmt::format("{} ± {}", format_rounded(*e.prior_mean, *e.prior_sd), format_rounded(*e.prior_sd, *e.prior_sd));
 }
 
-Cell verdict_cell(const ParameterEstimate& e) {
-  return {report::spelled(identification::name(e.verdict)), badge(e.verdict)};
-}
+Cell verdict_cell(const ParameterEstimate& e) { return {page::spelled(fit::name(e.verdict)), badge(e.verdict)}; }
 
-Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
+Cell truth_cell(const run::StudyResult& result, const ParameterEstimate& e) {
   const std::optional<double> truth = truth_of(result, e);
   if (!truth) return {"-"};
   if (!e.ci_low || !e.ci_high) return {value_of(e, *truth)};
@@ -68,11 +66,11 @@ Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
 }
 
 /// Describes the resting torques from passive trials, for the table of nuisances.
-std::string measured_at_rest(const StudyResult& result) {
+std::string measured_at_rest(const run::StudyResult& result) {
   constexpr double kDegrees = 180.0 / kPi;
   std::string text;
-  for (const identification::RestingJoint& joint : result.resting) {
-    const identification::RestingTorque& torque = joint.torque;
+  for (const fit::RestingJoint& joint : result.resting) {
+    const fit::RestingTorque& torque = joint.torque;
     text += fmt::format(
         " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. It is part of every "
         "torque predicted, and the joint's numbers here come on top of it.",
@@ -87,20 +85,19 @@ Table meanings_table(const IdentificationResult& method) {
   Table table{fmt::format("meanings_{}", name(method.method)), "Meaning of the numbers", {}, {"number", "meaning"}};
   std::vector<std::string> seen;
   for (const ParameterEstimate& e : method.estimates) {
-    const std::string meaning(report::parameter_meaning(e.parameter));
-    if (identification::is_voluntary(e.parameter) || meaning.empty() ||
-        std::ranges::find(seen, e.parameter) != seen.end())
+    const std::string meaning(page::parameter_meaning(e.parameter));
+    if (fit::is_voluntary(e.parameter) || meaning.empty() || std::ranges::find(seen, e.parameter) != seen.end())
       continue;
     seen.push_back(e.parameter);
-    table.rows.push_back(report::text_row({report::spelled(e.parameter), meaning}));
+    table.rows.push_back(page::text_row({page::spelled(e.parameter), meaning}));
   }
   return table;
 }
 
 }  // namespace
 
-std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
-  for (const TrueValue& t : result.source.truth) {
+std::optional<double> truth_of(const run::StudyResult& result, const ParameterEstimate& e) {
+  for (const run::TrueValue& t : result.source.truth) {
     if (t.parameter == e.parameter && (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
       return t.value;
   }
@@ -110,8 +107,7 @@ std::optional<double> truth_of(const StudyResult& result, const ParameterEstimat
 bool is_undetermined(const ParameterEstimate& e) {
   constexpr double kMeaningless = 1e3;
   // A number that is 0 by nature is compared with its usual spread between people.
-  const double usual =
-      identification::zero_by_nature(e.parameter) ? identification::parameter_field(e.parameter).prior_sd : 1e-12;
+  const double usual = fit::zero_by_nature(e.parameter) ? fit::parameter_field(e.parameter).prior_sd : 1e-12;
   const double size = std::max({std::abs(e.initial), std::abs(e.estimate), usual});
   return e.ci_low && e.ci_high && *e.ci_high - *e.ci_low > kMeaningless * size;
 }
@@ -124,7 +120,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std
   std::vector<Group> groups;
   for (const bool nuisance : {false, true}) {
     for (const ParameterEstimate& e : method.estimates) {
-      if (identification::is_nuisance(e) != nuisance || identification::is_voluntary(e.parameter)) continue;
+      if (fit::is_nuisance(e) != nuisance || fit::is_voluntary(e.parameter)) continue;
       const auto same = std::ranges::find_if(groups, [&](const Group& group) {
         const ParameterEstimate& first = *group.first;
         // Parameters tied by a ratio have different values.
@@ -139,7 +135,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std
   }
   // An unknown shared by all muscles comes after the unknowns of single muscles.
   std::stable_partition(groups.begin(), groups.end(), [](const Group& group) {
-    return group.owners.size() == 1 && !identification::is_nuisance(*group.first) && group.first->muscle != "subject";
+    return group.owners.size() == 1 && !fit::is_nuisance(*group.first) && group.first->muscle != "subject";
   });
   std::vector<EstimateLine> lines;
   for (const Group& group : groups) {
@@ -152,15 +148,15 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std
 
 std::string plain_owner(const EstimateLine& line) {
   if (line.owners == "subject") return "Person";
-  return line.owners == line.estimate->muscle ? report::plain_muscle(line.owners) : line.owners;
+  return line.owners == line.estimate->muscle ? page::plain_muscle(line.owners) : line.owners;
 }
 
-std::vector<Table> estimate_tables(const StudyResult& result, const IdentificationResult& method) {
+std::vector<Table> estimate_tables(const run::StudyResult& result, const IdentificationResult& method) {
   const bool known = !result.source.truth.empty();
   const bool readings = std::ranges::any_of(method.estimates, [](const auto& e) { return e.given_ci_low.has_value(); });
   const std::string truth = known ? " Truth: green where it lies in the interval, else yellow." : "";
   const std::string by =
-      method.method == identification::Method::force
+      method.method == fit::Method::force
           ? "Every muscle alone, both branches at once, against the force that force sharing assigned to it. "
           : "All muscles and both branches at once against the joint torque. ";
   Table muscles{
@@ -183,12 +179,12 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   others.columns.front() = "of";
   for (const EstimateLine& line : estimate_lines(method, result.fit_input.data.muscles.size())) {
     const ParameterEstimate& e = *line.estimate;
-    std::vector<Cell> row = report::text_row(
-        {line.owners, report::spelled(e.parameter), unit(e), prior(e), value_of(e, e.estimate), interval(e)});
+    std::vector<Cell> row = page::text_row(
+        {line.owners, page::spelled(e.parameter), unit(e), prior(e), value_of(e, e.estimate), interval(e)});
     if (readings) row.push_back({given_interval(e)});
     if (known) row.push_back(truth_cell(result, e));
     row.insert(row.end(), {verdict_cell(e), {e.reason}});
-    (identification::is_nuisance(e) ? others : muscles).rows.push_back(std::move(row));
+    (fit::is_nuisance(e) ? others : muscles).rows.push_back(std::move(row));
   }
   std::vector<Table> tables{std::move(muscles)};
   if (!others.rows.empty()) tables.push_back(std::move(others));
@@ -196,30 +192,30 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   return tables;
 }
 
-std::vector<report::ForestRow> forest_rows(const StudyResult& result, const IdentificationResult& method) {
-  std::vector<report::ForestRow> rows;
+std::vector<page::ForestRow> forest_rows(const run::StudyResult& result, const IdentificationResult& method) {
+  std::vector<page::ForestRow> rows;
   for (const EstimateLine& line : estimate_lines(method, result.fit_input.data.muscles.size())) {
     const ParameterEstimate& e = *line.estimate;
     if (!std::isfinite(e.estimate)) continue;
-    const report::PlainUnit plain = report::plain_unit(e.unit);
+    const page::PlainUnit plain = page::plain_unit(e.unit);
     const auto scaled = [&](const std::optional<double>& x) { return x ? std::optional(*x * plain.per_si) : x; };
-    report::ForestRow row{.owner = plain_owner(line),
-                          .name = report::spelled(e.parameter),
-                          .unit = std::string(plain.symbol),
-                          .estimate = e.estimate * plain.per_si,
-                          .lower = scaled(e.ci_low),
-                          .upper = scaled(e.ci_high),
-                          .given_estimate = scaled(e.given_estimate),
-                          .given_lower = scaled(e.given_ci_low),
-                          .given_upper = scaled(e.given_ci_high),
-                          .prior_mean = scaled(e.prior_mean),
-                          .prior_sd = scaled(e.prior_sd),
-                          .truth = scaled(truth_of(result, e)),
-                          .verdict = report::spelled(identification::name(e.verdict)),
-                          .badge = badge(e.verdict),
-                          .why = e.reason,
-                          .about = std::string(report::parameter_meaning(e.parameter)),
-                          .beside = identification::is_nuisance(e)};
+    page::ForestRow row{.owner = plain_owner(line),
+                        .name = page::spelled(e.parameter),
+                        .unit = std::string(plain.symbol),
+                        .estimate = e.estimate * plain.per_si,
+                        .lower = scaled(e.ci_low),
+                        .upper = scaled(e.ci_high),
+                        .given_estimate = scaled(e.given_estimate),
+                        .given_lower = scaled(e.given_ci_low),
+                        .given_upper = scaled(e.given_ci_high),
+                        .prior_mean = scaled(e.prior_mean),
+                        .prior_sd = scaled(e.prior_sd),
+                        .truth = scaled(truth_of(result, e)),
+                        .verdict = page::spelled(fit::name(e.verdict)),
+                        .badge = badge(e.verdict),
+                        .why = e.reason,
+                        .about = std::string(page::parameter_meaning(e.parameter)),
+                        .beside = fit::is_nuisance(e)};
     if (is_undetermined(e)) row.lower = row.upper = row.given_lower = row.given_upper = std::nullopt;
     rows.push_back(std::move(row));
   }
@@ -235,8 +231,8 @@ std::vector<Table> basin_tables(const IdentificationResult& method) {
       "minimum, root mean square over the unknowns, in these standard deviations. A second minimum of equal cost is an "
       "equally good answer.",
       {"fit", "cost", "starts", "of them converged", "distance", "the given start"}};
-  for (const identification::BasinTable& searches : method.basins) {
-    for (const identification::BasinRow& basin : searches.basins) {
+  for (const fit::BasinTable& searches : method.basins) {
+    for (const fit::BasinRow& basin : searches.basins) {
       const bool other_answer = basin.rival && &basin != searches.basins.data();
       table.rows.push_back(
           {{searches.fit},
@@ -254,4 +250,4 @@ std::vector<Table> basin_tables(const IdentificationResult& method) {
   return {table};
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -2,20 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/identification/parameter_fields.h"
-#include "myoid/report/parameter_words.h"
+#include "myoid/fit/measurement/parameter_fields.h"
+#include "myoid/page/parameter_words.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
 
 ParameterEstimate estimate(std::string owner, std::string parameter, double value) {
   ParameterEstimate e;
   e.muscle = std::move(owner);
   e.parameter = std::move(parameter);
-  e.method = identification::Method::torque;
+  e.method = fit::Method::torque;
   e.fit_case = "both";
   e.estimate = value;
   e.ci_low = value - 0.01;
@@ -25,7 +25,7 @@ ParameterEstimate estimate(std::string owner, std::string parameter, double valu
 
 IdentificationResult two_muscles() {
   IdentificationResult method;
-  method.method = identification::Method::torque;
+  method.method = fit::Method::torque;
   method.estimates = {estimate("BIC", "optimal_fiber_length", 0.14), estimate("BIC", "length_activation", 0.1),
                       estimate("TRI", "length_activation", 0.1), estimate("TRI", "optimal_fiber_length", 0.12),
                       estimate("BIC", "emg_gain", 1.0)};
@@ -34,8 +34,8 @@ IdentificationResult two_muscles() {
 }
 
 TEST(EstimateTables, EveryNumberHasAMeaningForPeople) {
-  for (const identification::ParameterField& field : identification::parameter_fields())
-    EXPECT_NE(report::parameter_meaning(field.name), "") << field.name;
+  for (const fit::ParameterField& field : fit::parameter_fields())
+    EXPECT_NE(page::parameter_meaning(field.name), "") << field.name;
 }
 
 TEST(EstimateLines, TellTiedNumbersOnceAndNuisancesLast) {
@@ -57,10 +57,10 @@ TEST(EstimateLines, KeepApartWhatIsTiedByARatio) {
 }
 
 TEST(EstimateTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
-  StudyResult result;
+  run::StudyResult result;
   result.source.truth = {{"BIC", "optimal_fiber_length", 0.145}, {"TRI", "optimal_fiber_length", 0.15}};
   result.fit_input.data.muscles.resize(2);
-  const std::vector<report::Table> tables = estimate_tables(result, two_muscles());
+  const std::vector<page::Table> tables = estimate_tables(result, two_muscles());
   ASSERT_EQ(tables.size(), 3U);
   const auto& rows = tables[0].rows;
   ASSERT_EQ(rows.size(), 3U);
@@ -68,8 +68,8 @@ TEST(EstimateTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
   EXPECT_EQ(rows[0][4].text, "0.140");
   EXPECT_EQ(rows[0][5].text, "0.130 to 0.150");
   EXPECT_EQ(rows[0][6].text, "0.145");
-  EXPECT_EQ(rows[0][6].badge, report::Badge::good);
-  EXPECT_EQ(rows[1][6].badge, report::Badge::weak);
+  EXPECT_EQ(rows[0][6].badge, page::Badge::good);
+  EXPECT_EQ(rows[1][6].badge, page::Badge::weak);
   EXPECT_EQ(rows[2][6].text, "-");
   ASSERT_EQ(tables[1].rows.size(), 1U);
   EXPECT_EQ(tables[1].rows[0][1].text, "emg gain");
@@ -96,8 +96,8 @@ TEST(EstimateTables, ANumberThatIsZeroHasItsInterval) {
 
 TEST(EstimateTables, AreCalledByTheirMethod) {
   IdentificationResult method = two_muscles();
-  method.method = identification::Method::force;
-  const std::vector<report::Table> tables = estimate_tables({}, method);
+  method.method = fit::Method::force;
+  const std::vector<page::Table> tables = estimate_tables({}, method);
   ASSERT_EQ(tables.size(), 3U);
   EXPECT_EQ(tables[0].id, "parameters_force");
   EXPECT_EQ(tables[0].title, "Identified parameters (method force)");
@@ -117,12 +117,12 @@ TEST(BasinTables, HaveARowForEachMinimumAndOneForStartsThatFoundNone) {
        .basins = {{.cost = 4.5, .starts = 8, .converged = 7, .rival = true},
                   {.cost = 5.5, .starts = 2, .converged = 2, .distance = 1.25, .rival = true, .given = true}}},
       {.fit = "TRI", .starts = 12, .basins = {{.cost = 1.0, .starts = 12}}}};
-  const std::vector<report::Table> tables = basin_tables(method);
+  const std::vector<page::Table> tables = basin_tables(method);
   ASSERT_EQ(tables.size(), 1U);
   const auto& rows = tables[0].rows;
   ASSERT_EQ(rows.size(), 4U);
   for (const auto& row : rows) EXPECT_EQ(row.size(), tables[0].columns.size());
-  EXPECT_EQ(rows[0][3].badge, report::Badge::weak);
+  EXPECT_EQ(rows[0][3].badge, page::Badge::weak);
   EXPECT_EQ(rows[0][4].hint, "") << "the best is no rival of its own";
   EXPECT_EQ(rows[1][1].text, "5.5");
   EXPECT_EQ(rows[1][4].text, "1.2");
@@ -133,4 +133,4 @@ TEST(BasinTables, HaveARowForEachMinimumAndOneForStartsThatFoundNone) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

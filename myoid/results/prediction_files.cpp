@@ -7,23 +7,23 @@
 
 #include <fmt/format.h>
 
-#include "myoid/files/atomic_file.h"
-#include "myoid/files/result_names.h"
-#include "myoid/files/text_file.h"
-#include "myoid/math/statistics.h"
-#include "myoid/methods/prediction.h"
-#include "myoid/report/tables.h"
+#include "myoid/fit/methods/prediction.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/result_names.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/ground/math/statistics.h"
+#include "myoid/page/tables.h"
+#include "myoid/recording/tables/storage_writer.h"
 #include "myoid/results/stage_files.h"
-#include "myoid/tables/storage_writer.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 /// Returns each text of a member once, in the order in which the texts appear.
-std::vector<std::string> unique_values(const std::vector<identification::TrialFit>& predictions,
-                                       std::string identification::TrialFit::*member) {
+std::vector<std::string> unique_values(const std::vector<fit::TrialFit>& predictions,
+                                       std::string fit::TrialFit::*member) {
   std::vector<std::string> values;
-  for (const identification::TrialFit& each : predictions) {
+  for (const fit::TrialFit& each : predictions) {
     if (std::ranges::find(values, each.*member) == values.end()) values.push_back(each.*member);
   }
   return values;
@@ -37,9 +37,9 @@ Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd) {
   return {mean - reach * sd, mean + reach * sd};
 }
 
-std::string band_sentence(const std::vector<identification::TrialFit>& predictions) {
+std::string band_sentence(const std::vector<fit::TrialFit>& predictions) {
   const bool by_posterior =
-      std::ranges::any_of(predictions, [](const identification::TrialFit& trial) { return !trial.drive.empty(); });
+      std::ranges::any_of(predictions, [](const fit::TrialFit& trial) { return !trial.drive.empty(); });
   return by_posterior
              ? "Bands are of the person: that of a torque holds the parameters, the errors of moment arms, tendons and "
                "sensors as far as the fitted trials show them, and the noise; that of a force holds the parameters, "
@@ -47,14 +47,13 @@ std::string band_sentence(const std::vector<identification::TrialFit>& predictio
              : "The run fitted data without noise: there are no bands.";
 }
 
-recording::NameIds prediction_folders(const std::vector<identification::TrialFit>& predictions) {
-  return recording::NameIds(unique_values(predictions, &identification::TrialFit::trial), recording::IdFor::file,
-                            recording::result_names());
+NameIds prediction_folders(const std::vector<fit::TrialFit>& predictions) {
+  return NameIds(unique_values(predictions, &fit::TrialFit::trial), IdFor::file, result_names());
 }
 
-void write_prediction(const identification::TrialFit& prediction,
+void write_prediction(const fit::TrialFit& prediction,
                       const std::vector<std::string>& muscles,
-                      const recording::NameIds& joints,
+                      const NameIds& joints,
                       const std::filesystem::path& folder,
                       const std::vector<std::string>& comments) {
   SeriesColumns torque;
@@ -86,44 +85,44 @@ void write_prediction(const identification::TrialFit& prediction,
     recording::write_storage(folder / "drive.sto", prediction.drive, {.title = "Drive", .comments = comments});
 }
 
-void write_predictions(const std::vector<identification::TrialFit>& predictions,
+void write_predictions(const std::vector<fit::TrialFit>& predictions,
                        const std::vector<std::string>& muscles,
                        const Provenance& provenance,
                        const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version),
                                           band_sentence(predictions)};
-  const recording::NameIds folders = prediction_folders(predictions);
-  const recording::NameIds joints(unique_values(predictions, &identification::TrialFit::joint));
-  for (const identification::TrialFit& trial : predictions)
+  const NameIds folders = prediction_folders(predictions);
+  const NameIds joints(unique_values(predictions, &fit::TrialFit::joint));
+  for (const fit::TrialFit& trial : predictions)
     write_prediction(trial, muscles, joints, folder / folders.of(trial.trial), comments);
-  recording::write_file(folder / "predictions.csv", predictions_csv(predictions));
+  write_file(folder / "predictions.csv", predictions_csv(predictions));
 }
 
-void write_held_back(const identification::IdentificationResult& fit,
-                     const identification::StudyData& data,
+void write_held_back(const fit::IdentificationResult& fit,
+                     const fit::StudyData& data,
                      const Provenance& provenance,
                      const std::filesystem::path& folder) {
-  std::vector<identification::TrialFit> held_back;
+  std::vector<fit::TrialFit> held_back;
   std::copy_if(fit.trials.begin(), fit.trials.end(), std::back_inserter(held_back),
-               [](const identification::TrialFit& trial) { return !trial.calibration; });
+               [](const fit::TrialFit& trial) { return !trial.calibration; });
   if (held_back.empty()) return;
   std::vector<std::string> muscles;
-  for (const identification::MuscleSetup& muscle : data.muscles) muscles.push_back(muscle.name);
+  for (const fit::MuscleSetup& muscle : data.muscles) muscles.push_back(muscle.name);
   write_predictions(held_back, muscles, provenance, folder);
 }
 
-std::string predictions_csv(const std::vector<identification::TrialFit>& predictions) {
-  report::Table table{.columns = {"trial", "joint", "fitted", "samples", "rmse_nm", "nrmse_range", "r2", "band_rmse_nm",
-                                  "band_r2", "covered"}};
-  for (const identification::TrialFit& p : predictions) {
-    const double covered = identification::covered_share(p.torque_nm, p.torque_fit_nm, p.torque_sd_nm);
+std::string predictions_csv(const std::vector<fit::TrialFit>& predictions) {
+  page::Table table{.columns = {"trial", "joint", "fitted", "samples", "rmse_nm", "nrmse_range", "r2", "band_rmse_nm",
+                                "band_r2", "covered"}};
+  for (const fit::TrialFit& p : predictions) {
+    const double covered = fit::covered_share(p.torque_nm, p.torque_fit_nm, p.torque_sd_nm);
     std::vector<std::string> row{p.trial, p.joint, p.calibration ? "true" : "false"};
     for (const double value :
          {p.score.n, p.score.rmse_nm(), p.score.nrmse_range(), p.score.r2(), p.band.rmse_nm(), p.band.r2(), covered})
-      row.push_back(std::isfinite(value) ? recording::format_number(value) : "");
-    table.rows.push_back(report::text_row(std::move(row)));
+      row.push_back(std::isfinite(value) ? format_number(value) : "");
+    table.rows.push_back(page::text_row(std::move(row)));
   }
-  return report::table_csv(table);
+  return page::table_csv(table);
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

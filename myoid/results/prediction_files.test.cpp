@@ -7,18 +7,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/files/text_file.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 using testing::HasSubstr;
 
-identification::TrialFit prediction() {
-  identification::TrialFit fit;
+fit::TrialFit prediction() {
+  fit::TrialFit fit;
   fit.trial = "fast, heavy";
   fit.joint = "elbow_flexion";
   fit.calibration = false;
@@ -28,7 +28,7 @@ identification::TrialFit prediction() {
   fit.torque_sd_nm = Eigen::Vector3d::Constant(0.5);
   fit.force_fit_n = Eigen::Vector3d(0.5, 20.0, 30.0);
   fit.force_sd_n = Eigen::Vector3d(1.0, 2.0, 3.0);
-  fit.score = identification::score(fit.torque_nm, fit.torque_fit_nm);
+  fit.score = fit::score(fit.torque_nm, fit.torque_fit_nm);
   return fit;
 }
 
@@ -46,10 +46,8 @@ TEST(PredictionFiles, HoldTheBandsAndNoForceBelowZero) {
 
 TEST(PredictionFiles, SayTheReadingOfTheBandsAndHoldTheDrive) {
   const test::TemporaryFolder folder;
-  std::vector<identification::TrialFit> predictions{prediction()};
-  const auto head = [&] {
-    return recording::read_text_file(folder / "fast_heavy/predicted_forces.sto").substr(0, 600);
-  };
+  std::vector<fit::TrialFit> predictions{prediction()};
+  const auto head = [&] { return read_text_file(folder / "fast_heavy/predicted_forces.sto").substr(0, 600); };
   write_predictions(predictions, {"BIC"}, {}, folder.path());
   EXPECT_THAT(head(), HasSubstr("without noise: there are no bands"));
   EXPECT_FALSE(std::filesystem::exists(folder / "fast_heavy/drive.sto"));
@@ -61,7 +59,7 @@ TEST(PredictionFiles, SayTheReadingOfTheBandsAndHoldTheDrive) {
 
 TEST(PredictionFiles, AnyNamesOfTrialsAndJointsHaveFilesOfTheirOwn) {
   const test::TemporaryFolder folder;
-  std::vector<identification::TrialFit> predictions;
+  std::vector<fit::TrialFit> predictions;
   for (const char* trial : {"a/b", "a b", "..", "predictions.csv"}) {
     for (const char* joint : {"knee r", "knee_r", "Knee_r"}) {
       predictions.push_back(prediction());
@@ -84,4 +82,4 @@ TEST(PredictionFiles, TheTableHasARowForEachTrialAndJoint) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

@@ -9,16 +9,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/error.h"
-#include "myoid/core/index.h"
-#include "myoid/core/json_text.h"
-#include "myoid/files/text_file.h"
-#include "myoid/identification/parameters.h"
+#include "myoid/fit/measurement/parameters.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/text_file.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::EmgLag;
+using fit::EmgLag;
 using nlohmann::json;
 
 double number(const json& cell) {
@@ -40,13 +40,13 @@ Eigen::VectorXd numbers(const std::filesystem::path& path,
 EmgLag lag_of(const json& method) {
   const json& word = method.at("emg_lag");
   for (const EmgLag lag : {EmgLag::shared, EmgLag::equation_1}) {
-    if (word.is_string() && word.get<std::string>() == identification::name(lag)) return lag;
+    if (word.is_string() && word.get<std::string>() == fit::name(lag)) return lag;
   }
   return EmgLag::delay;
 }
 
-identification::IdentificationResult fit_of(const std::filesystem::path& path, const json& method) {
-  identification::IdentificationResult fit;
+fit::IdentificationResult fit_of(const std::filesystem::path& path, const json& method) {
+  fit::IdentificationResult fit;
   fit.lag = lag_of(method);
   fit.exact = method.at("exact_data").get<bool>();
   fit.torque_sd_nm = number(method.at("torque_sd_nm"));
@@ -68,24 +68,24 @@ identification::IdentificationResult fit_of(const std::filesystem::path& path, c
 
 }  // namespace
 
-identification::IdentificationResult read_fit(const std::filesystem::path& folder,
-                                              const identification::StudyData& data,
-                                              const identification::EstimatorOptions& options) {
+fit::IdentificationResult read_fit(const std::filesystem::path& folder,
+                                   const fit::StudyData& data,
+                                   const fit::EstimatorOptions& options) {
   const std::filesystem::path path = folder / "parameters.json";
   try {
-    const json content = parse_json(recording::read_text_file(path));
+    const json content = parse_json(read_text_file(path));
     for (const json& method : content.at("methods")) {
       if (method.at("method") != "torque") continue;
-      identification::IdentificationResult fit = fit_of(path, method);
-      const identification::ParameterMap map(data, options);
+      fit::IdentificationResult fit = fit_of(path, method);
+      const fit::ParameterMap map(data, options);
       std::vector<std::string> labels;
-      for (const identification::Unknown& unknown : map.free()) labels.push_back(unknown.label);
+      for (const fit::Unknown& unknown : map.free()) labels.push_back(unknown.label);
       if (labels != fit.free_parameters || fit.solution.size() != map.size())
         throw InvalidInput(fmt::format(
             "{} has {} unknowns, the study {} or others: its settings are not those of the run; run the study again",
             path.string(), fit.free_parameters.size(), labels.size()));
       fit.values = map.values(fit.solution);
-      fit.delay_s = fit.values.channels.front()[identification::kDelay];
+      fit.delay_s = fit.values.channels.front()[fit::kDelay];
       return fit;
     }
   } catch (const json::exception& error) {
@@ -95,4 +95,4 @@ identification::IdentificationResult read_fit(const std::filesystem::path& folde
   throw InvalidInput(fmt::format("{} has no method torque; add it to method in [identify]", path.string()));
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

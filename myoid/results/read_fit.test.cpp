@@ -3,27 +3,27 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/identification/parameters.h"
+#include "myoid/fit/measurement/parameters.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
 #include "myoid/results/parameter_files.h"
 
 #include "tests/support/elbow_study.h"
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
+using fit::IdentificationResult;
 
 /// A fit with numbers that no decimal text of few digits holds.
-IdentificationResult made_fit(const test::ElbowStudy& study, const identification::EstimatorOptions& options) {
-  const identification::ParameterMap map(study.data, options);
+IdentificationResult made_fit(const test::ElbowStudy& study, const fit::EstimatorOptions& options) {
+  const fit::ParameterMap map(study.data, options);
   IdentificationResult fit;
-  fit.method = identification::Method::torque;
+  fit.method = fit::Method::torque;
   fit.solution = map.start() + Eigen::VectorXd::Constant(map.size(), 1.0 / 300.0);
   fit.covariance = Eigen::MatrixXd::Identity(map.size(), map.size()) / 7.0;
-  for (const identification::Unknown& unknown : map.free()) fit.free_parameters.push_back(unknown.label);
+  for (const fit::Unknown& unknown : map.free()) fit.free_parameters.push_back(unknown.label);
   fit.values = map.values(fit.solution);
   fit.torque_sd_nm = 1.0 / 3.0;
   fit.envelope_variance = Eigen::Vector3d(0.1, 0.2, 0.3) / 9.0;
@@ -35,7 +35,7 @@ TEST(ReadFit, GivesBackTheNumbersThatWereWritten) {
   const test::TemporaryFolder folder;
   const test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 4.0});
   const IdentificationResult made = made_fit(study, {});
-  recording::write_file(folder / "parameters.json", parameters_json({made}, {}, {}));
+  write_file(folder / "parameters.json", parameters_json({made}, {}, {}));
   const IdentificationResult read = read_fit(folder.path(), study.data, {});
   EXPECT_EQ(read.solution, made.solution);
   EXPECT_EQ(read.covariance, made.covariance);
@@ -55,7 +55,7 @@ TEST(ReadFit, RefusesListsOfAnotherLengthAndCellsThatAreNoNumbers) {
   const auto refuses = [&](const auto& damage) {
     nlohmann::json content = good;
     damage(content.at("methods").at(0));
-    recording::write_file(folder / "parameters.json", content.dump());
+    write_file(folder / "parameters.json", content.dump());
     EXPECT_THROW((void)read_fit(folder.path(), study.data, {}), ReadError);
   };
   refuses([](auto& method) { method.at("covariance").at("matrix").at(1).push_back(1.0); });
@@ -70,14 +70,14 @@ TEST(ReadFit, RefusesOtherUnknownsAndOtherFiles) {
   const test::TemporaryFolder folder;
   test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 4.0});
   EXPECT_THROW((void)read_fit(folder.path(), study.data, {}), ReadError);
-  recording::write_file(folder / "parameters.json", parameters_json({made_fit(study, {})}, {}, {}));
+  write_file(folder / "parameters.json", parameters_json({made_fit(study, {})}, {}, {}));
   study.data.rules = {test::freed("emg_exponent")};
   EXPECT_THROW((void)read_fit(folder.path(), study.data, {}), InvalidInput);
-  recording::write_file(folder / "parameters.json", "{\"methods\": [{\"method\": \"torque\"}]}");
+  write_file(folder / "parameters.json", "{\"methods\": [{\"method\": \"torque\"}]}");
   EXPECT_THROW((void)read_fit(folder.path(), study.data, {}), ReadError);
-  recording::write_file(folder / "parameters.json", "{\"methods\": []}");
+  write_file(folder / "parameters.json", "{\"methods\": []}");
   EXPECT_THROW((void)read_fit(folder.path(), study.data, {}), InvalidInput);
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

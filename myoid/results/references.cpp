@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 constexpr auto kReferences = std::to_array<Reference>({
@@ -155,4 +155,4 @@ std::string bibtex(const Reference& r) {
   return text + "}\n";
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace myoid {
+namespace myoid::results {
 
 /// A publication that a methods section cites. Fields that its kind lacks are empty.
 struct Reference {
@@ -29,4 +29,4 @@ struct Reference {
 /// Returns the BibTeX entry, in lines.
 [[nodiscard]] std::string bibtex(const Reference& reference);
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -7,10 +7,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/json_text.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/report/json_values.h"
-#include "myoid/report/tables.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/page/json_values.h"
+#include "myoid/page/tables.h"
+#include "myoid/recording/tables/storage_writer.h"
 #include "myoid/results/methods_text.h"
 #include "myoid/results/paper_tables.h"
 #include "myoid/results/parameter_files.h"
@@ -21,20 +22,19 @@
 #include "myoid/run/study_emg.h"
 #include "myoid/study/study_ids.h"
 #include "myoid/study/study_model.h"
-#include "myoid/tables/storage_writer.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
 using nlohmann::ordered_json;
 
 /// Returns reference, literature and identified force of every muscle, on the clock of the motion.
-TimeSeries identified_forces(const StudyResult& result,
-                             const identification::TrialData& data,
+TimeSeries identified_forces(const run::StudyResult& result,
+                             const fit::TrialData& data,
                              const IdentificationResult& method) {
-  const identification::TrialFit* fit = trial_of(method, data.name);
+  const fit::TrialFit* fit = run::trial_of(method, data.name);
   SeriesColumns columns;
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
     const std::string& muscle = result.fit_input.data.muscles[m].name;
@@ -49,16 +49,16 @@ TimeSeries identified_forces(const StudyResult& result,
   return columns.series(data.time_s);
 }
 
-void write_informed_forces(const StudyResult& result,
-                           const identification::InformedForces& forces,
+void write_informed_forces(const run::StudyResult& result,
+                           const run::InformedForces& forces,
                            const std::filesystem::path& folder,
                            const std::vector<std::string>& comments) {
   std::vector<Channel> in_newtons, activations;
-  for (const identification::MuscleSetup& muscle : result.fit_input.data.muscles) {
+  for (const fit::MuscleSetup& muscle : result.fit_input.data.muscles) {
     in_newtons.push_back({muscle.name, Unit::newton});
     activations.push_back({muscle.name, Unit::dimensionless});
   }
-  for (const std::string& name : study_coordinates(result.source.study.model))
+  for (const std::string& name : study::study_coordinates(result.source.study.model))
     in_newtons.push_back({name + "_reserve", Unit::newton_meter});
   Eigen::MatrixXd values(forces.force_n.rows(), forces.force_n.cols() + forces.reserve_nm.cols());
   values << forces.force_n, forces.reserve_nm;
@@ -71,28 +71,27 @@ void write_informed_forces(const StudyResult& result,
 
 /// Writes only numbers that are `identified`, and F_max only if EMG is relative to an MVC. Writes
 /// no model if the motion failed its gates or no number changes.
-void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
-  if (result.source.study.model.is_none() || motion_is_unreliable(result.source.study, result.trials)) return;
-  const IdentificationResult* torque = torque_of(result.fit);
+void write_identified_model(const run::StudyResult& result, const std::filesystem::path& folder) {
+  if (result.source.study.model.is_none() || run::motion_is_unreliable(result.source.study, result.trials)) return;
+  const IdentificationResult* torque = run::torque_of(result.fit);
   if (torque == nullptr) return;
-  const Study& study = result.source.study;
-  const bool from_mvc = from_maximal_effort(study.emg);
+  const study::Study& study = result.source.study;
+  const bool from_mvc = run::from_maximal_effort(study.emg);
   bool any = false;
-  std::vector<IdentifiedMuscle> muscles;
+  std::vector<study::IdentifiedMuscle> muscles;
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
-    const identification::MuscleSetup& setup = result.fit_input.data.muscles[m];
-    IdentifiedMuscle muscle{setup.name, setup.start, torque->muscles[m], {}};
+    const fit::MuscleSetup& setup = result.fit_input.data.muscles[m];
+    study::IdentifiedMuscle muscle{setup.name, setup.start, torque->muscles[m], {}};
     for (const ParameterEstimate& e : torque->estimates) {
-      const bool sure =
-          e.verdict == identification::Verdict::identified && (from_mvc || e.parameter != "max_isometric_force");
+      const bool sure = e.verdict == fit::Verdict::identified && (from_mvc || e.parameter != "max_isometric_force");
       if (e.muscle == muscle.group && sure) muscle.changed.push_back(e.parameter);
     }
     any = any || !muscle.changed.empty();
     muscles.push_back(std::move(muscle));
   }
   if (!any) return;
-  recording::write_file(folder / identified_model_name(study),
-                        identified_model(study, result.source.model_text, muscles));
+  write_file(folder / study::identified_model_name(study),
+             study::identified_model(study, result.source.model_text, muscles));
 }
 
 ordered_json fault_json(const Remark& fault) {
@@ -105,7 +104,7 @@ ordered_json fault_json(const Remark& fault) {
           {"message", sentence(fault)}};
 }
 
-ordered_json trial_record(const TrialResult& trial, const recording::NameIds& ids) {
+ordered_json trial_record(const run::TrialResult& trial, const NameIds& ids) {
   ordered_json record = {{"name", trial.spec.name},
                          {"folder", ids.of(trial.spec.name)},
                          {"use", std::string(choice_name(trial.spec.use))},
@@ -124,16 +123,16 @@ ordered_json trial_record(const TrialResult& trial, const recording::NameIds& id
   return record;
 }
 
-ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
-  ordered_json run = report::provenance_json(provenance);
+ordered_json run_json(const run::StudyResult& result, const Provenance& provenance) {
+  ordered_json run = page::provenance_json(provenance);
   run["study"] = std::filesystem::absolute(result.source.study.file).string();
-  run["start_s"] = report::number_or_null(result.start_s);
-  run["end_s"] = report::number_or_null(result.end_s);
+  run["start_s"] = page::number_or_null(result.start_s);
+  run["end_s"] = page::number_or_null(result.end_s);
   run["seconds"] = ordered_json::object();
-  for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
-  const recording::NameIds ids = trial_ids(result.source.study);
-  run["trials"] = array_of(result.trials, [&](const TrialResult& trial) { return trial_record(trial, ids); });
-  const signals::EmgChain emg = emg_chain(result, nullptr);
+  for (const run::StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
+  const NameIds ids = study::trial_ids(result.source.study);
+  run["trials"] = array_of(result.trials, [&](const run::TrialResult& trial) { return trial_record(trial, ids); });
+  const recording::EmgChain emg = run::emg_chain(result, nullptr);
   run["emg"] = {{"steps", emg.steps}, {"methods", emg.methods}};
   run["faults"] = array_of(result.level_faults, fault_json);
   return run;
@@ -141,16 +140,16 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
 
 }  // namespace
 
-void write_results(const StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
+void write_results(const run::StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
   const auto with_emg = [&](const IdentificationResult* method) {
     std::vector<std::string> lines = comments;
-    for (std::string& line : signals::header_lines(emg_chain(result, method))) lines.push_back(std::move(line));
+    for (std::string& line : recording::header_lines(run::emg_chain(result, method))) lines.push_back(std::move(line));
     return lines;
   };
   const std::vector<std::string> of_activation = with_emg(nullptr);
-  const recording::NameIds ids = trial_ids(result.source.study);
-  for (const TrialResult& trial : result.trials) {
+  const NameIds ids = study::trial_ids(result.source.study);
+  for (const run::TrialResult& trial : result.trials) {
     const std::filesystem::path place = folder / ids.of(trial.spec.name);
     if (!trial.emg.activation.empty())
       recording::write_storage(place / "activation.sto", trial.emg.activation,
@@ -159,7 +158,7 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
     if (trial.motion.joints.q.channel_count() > 0)
       write_motion(*trial.motion.model, trial.motion.joints.q, place / "ik.mot", comments);
     if (trial.motion.ik) write_marker_errors(*trial.motion.ik, place / "ik_marker_errors.sto");
-    kinematics::MuscleKinematics paths = trial.forces.muscles;
+    body::MuscleKinematics paths = trial.forces.muscles;
     if (trial.forces.generalized.empty())
       paths.moment_arm.clear();
     else
@@ -169,30 +168,30 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
     if (!trial.spec.given.forces) write_shared_forces(trial.forces.shared, place);
   }
   for (const IdentificationResult& method : result.fit.methods) {
-    if (method.method != identification::Method::torque && result.fit.methods.size() > 1) continue;
-    for (const identification::TrialData& data : result.fit_input.data.trials) {
+    if (method.method != fit::Method::torque && result.fit.methods.size() > 1) continue;
+    for (const fit::TrialData& data : result.fit_input.data.trials) {
       recording::write_storage(folder / ids.of(data.name) / "identified_forces.sto",
                                identified_forces(result, data, method),
                                {.title = "Forces", .comments = with_emg(&method)});
-      if (const TimeSeries& drive = trial_of(method, data.name)->drive; !drive.empty())
+      if (const TimeSeries& drive = run::trial_of(method, data.name)->drive; !drive.empty())
         recording::write_storage(folder / ids.of(data.name) / "drive.sto", drive,
                                  {.title = "Drive", .comments = of_activation});
     }
   }
-  for (const identification::InformedForces& forces : result.fit.informed)
-    write_informed_forces(result, forces, folder / ids.of(forces.trial), with_emg(torque_of(result.fit)));
-  if (const IdentificationResult* torque = torque_of(result.fit))
+  for (const run::InformedForces& forces : result.fit.informed)
+    write_informed_forces(result, forces, folder / ids.of(forces.trial), with_emg(run::torque_of(result.fit)));
+  if (const IdentificationResult* torque = run::torque_of(result.fit))
     write_held_back(*torque, result.fit_input.data, provenance, folder);
   write_identified_model(result, folder);
   if (!result.fit.contests.empty())
-    recording::write_file(folder / "solvers.csv", report::table_csv(solver_table(result.fit.contests)));
+    write_file(folder / "solvers.csv", page::table_csv(solver_table(result.fit.contests)));
   write_parameter_files(result.fit.methods, result.folds,
                         without_places(provenance, result.source.study.file.parent_path()), parameter_context(result),
                         folder);
   const MethodsText methods = methods_text(result, provenance);
-  recording::write_file(folder / "methods.txt", methods_file(methods));
-  recording::write_file(folder / "methods.bib", methods_bibtex(methods));
-  recording::write_file(folder / "run.json", json_text(run_json(result, provenance)) + "\n");
+  write_file(folder / "methods.txt", methods_file(methods));
+  write_file(folder / "methods.bib", methods_bibtex(methods));
+  write_file(folder / "run.json", json_text(run_json(result, provenance)) + "\n");
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

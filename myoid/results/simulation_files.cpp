@@ -5,23 +5,23 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/index.h"
-#include "myoid/core/json_text.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/files/name_ids.h"
+#include "myoid/body/simulation/arm_model.h"
+#include "myoid/body/simulation/forward_simulation.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/name_ids.h"
 #include "myoid/muscle/force_length.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/literature.h"
-#include "myoid/report/json_values.h"
+#include "myoid/page/json_values.h"
+#include "myoid/recording/tables/storage_writer.h"
 #include "myoid/results/stage_files.h"
-#include "myoid/simulation/arm_model.h"
-#include "myoid/simulation/forward_simulation.h"
-#include "myoid/tables/storage_writer.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using simulation::Simulation;
+using body::Simulation;
 
 std::string made_by(const Provenance& provenance) {
   return fmt::format("{} {}: {}", provenance.program, provenance.version, provenance.command);
@@ -83,25 +83,25 @@ TimeSeries states(const Simulation& s) {
   return columns.series(s.motion.time_s());
 }
 
-void add(report::Panel& target,
+void add(page::Panel& target,
          const TimeSeries& series,
          Eigen::Index column,
          std::string name,
-         report::Role role,
+         page::Role role,
          double scale = 1.0) {
   target.series.push_back({.name = std::move(name),
-                           .x = report::to_vector(series.time_s()),
-                           .y = report::to_vector(scale * series.values().col(column)),
+                           .x = page::to_vector(series.time_s()),
+                           .y = page::to_vector(scale * series.values().col(column)),
                            .role = role});
 }
 
-constexpr report::Role kRoles[] = {report::Role::reference, report::Role::identified, report::Role::literature,
-                                   report::Role::truth};
+constexpr page::Role kRoles[] = {page::Role::reference, page::Role::identified, page::Role::literature,
+                                 page::Role::truth};
 
 /// Returns a panel of one quantity of at most four muscles: colors and dashes tell the roles apart.
-report::Panel muscle_panel(
+page::Panel muscle_panel(
     std::string title, std::string label, std::string unit, const TimeSeries& series, double scale = 1.0) {
-  report::Panel panel = report::time_panel(std::move(title), std::move(label), std::move(unit));
+  page::Panel panel = page::time_panel(std::move(title), std::move(label), std::move(unit));
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(series.channel_count(), 4); ++i) {
     const auto k = static_cast<std::size_t>(i);
     add(panel, series, i, series.channels()[k].name, kRoles[k], scale);
@@ -109,28 +109,28 @@ report::Panel muscle_panel(
   return panel;
 }
 
-report::Figure curves_figure() {
-  report::Figure figure{.id = "figure2",
-                        .title = "Force over velocity and force over length",
-                        .caption =
-                            "Figure 2 of the source paper: equations (4) and (3) with its initial values V_sh 0.3, "
-                            "V_sh V_shl 0.12, V_ml 1.3 and the widths of its tables; v over v_max, l_m over l_m0.",
-                        .columns = 2};
-  report::Panel velocity{
+page::Figure curves_figure() {
+  page::Figure figure{.id = "figure2",
+                      .title = "Force over velocity and force over length",
+                      .caption =
+                          "Figure 2 of the source paper: equations (4) and (3) with its initial values V_sh 0.3, "
+                          "V_sh V_shl 0.12, V_ml 1.3 and the widths of its tables; v over v_max, l_m over l_m0.",
+                      .columns = 2};
+  page::Panel velocity{
       .title = "f_v", .x = {.label = "fiber velocity / v_max"}, .y = {.label = "f_v", .lower = 0.0, .upper = 1.4}};
   const muscle::VelocityHyperbola<double> law{muscle::kPaperCurvature, muscle::kPaperCurvatureProduct,
                                               muscle::kPaperPlateau};
-  report::Series curve{.name = "", .role = report::Role::reference};
+  page::Series curve{.name = "", .role = page::Role::reference};
   for (int k = -120; k <= 120; ++k) {
     curve.x.push_back(0.01 * k);
     curve.y.push_back(muscle::force_velocity(law, 0.01 * k).value);
   }
   velocity.series.push_back(std::move(curve));
-  report::Panel length{
+  page::Panel length{
       .title = "f_l", .x = {.label = "fiber length / l_m0"}, .y = {.label = "f_l", .lower = 0.0, .upper = 1.1}};
   std::size_t role = 0;
   for (const muscle::PaperMuscle& m : muscle::kPaperMuscles) {
-    report::Series line{.name = std::string(m.name), .role = kRoles[role++]};
+    page::Series line{.name = std::string(m.name), .role = kRoles[role++]};
     for (int k = 40; k <= 160; ++k) {
       line.x.push_back(0.01 * k);
       line.y.push_back(
@@ -144,29 +144,29 @@ report::Figure curves_figure() {
 
 /// Simulates flexors and extensor in turn, half a second each, so that the elbow flexes and extends.
 Simulation paper_movement() {
-  simulation::ArmSetup setup;
+  body::ArmSetup setup;
   setup.horizontal = true;
   setup.model.mode = muscle::TendonMode::mass;
-  const simulation::Burst flex[] = {{0.2, 0.3, 0.06}, {1.7, 0.3, 0.06}};
-  const simulation::Burst extend[] = {{0.55, 0.3, 0.09}, {1.1, 0.3, 0.05}, {2.05, 0.3, 0.09}};
-  simulation::SimulationInput input;
-  const simulation::Signal flexor = simulation::bursts(flex, 0.01);
-  input.excitation = {flexor, flexor, flexor, simulation::bursts(extend, 0.01)};
-  return simulation::simulate(simulation::make_arm_model(setup), input, {.q = {0.7}}, {.end_s = 3.0});
+  const body::Burst flex[] = {{0.2, 0.3, 0.06}, {1.7, 0.3, 0.06}};
+  const body::Burst extend[] = {{0.55, 0.3, 0.09}, {1.1, 0.3, 0.05}, {2.05, 0.3, 0.09}};
+  body::SimulationInput input;
+  const body::Signal flexor = body::bursts(flex, 0.01);
+  input.excitation = {flexor, flexor, flexor, body::bursts(extend, 0.01)};
+  return body::simulate(body::make_arm_model(setup), input, {.q = {0.7}}, {.end_s = 3.0});
 }
 
 }  // namespace
 
-report::Figure movement_figure(const Simulation& s) {
-  report::Figure figure{.id = "movement",
-                        .title = "Simulated movement",
-                        .caption =
-                            "Excitations of the muscles, motion of the joints, and lengths and forces of the muscles; "
-                            "at most four of each quantity.",
-                        .columns = 2};
-  report::Panel angle = report::time_panel("Joint angle", "angle", "deg");
-  report::Panel speed = report::time_panel("Joint speed", "speed", "deg/s");
-  report::Panel torque = report::time_panel("Torque of the muscles", "torque", "N m");
+page::Figure movement_figure(const Simulation& s) {
+  page::Figure figure{.id = "movement",
+                      .title = "Simulated movement",
+                      .caption =
+                          "Excitations of the muscles, motion of the joints, and lengths and forces of the muscles; "
+                          "at most four of each quantity.",
+                      .columns = 2};
+  page::Panel angle = page::time_panel("Joint angle", "angle", "deg");
+  page::Panel speed = page::time_panel("Joint speed", "speed", "deg/s");
+  page::Panel torque = page::time_panel("Torque of the muscles", "torque", "N m");
   std::size_t shown = 0;
   for (std::size_t k = 0; k < coordinate_count(s) && shown < 4; ++k) {
     const auto c = static_cast<Eigen::Index>(k);
@@ -187,12 +187,12 @@ report::Figure movement_figure(const Simulation& s) {
                    muscle_panel("Tendon force", "force", "N", s.tendon_force),
                    muscle_panel("Fiber length", "length", "cm", s.fiber_length, 100.0),
                    muscle_panel("Fiber velocity", "velocity", "cm/s", s.fiber_velocity, 100.0)};
-  std::erase_if(figure.panels, [](const report::Panel& p) { return p.series.empty(); });
+  std::erase_if(figure.panels, [](const page::Panel& p) { return p.series.empty(); });
   return figure;
 }
 
-std::vector<report::Figure> paper_figures() {
-  report::Figure movement = movement_figure(paper_movement());
+std::vector<page::Figure> paper_figures() {
+  page::Figure movement = movement_figure(paper_movement());
   movement.id = "figure4";
   movement.title = "Simulation of the flexion and extension of the elbow";
   movement.caption =
@@ -202,7 +202,7 @@ std::vector<report::Figure> paper_figures() {
 }
 
 std::string simulation_json(const Simulation& s, const Provenance& provenance) {
-  nlohmann::ordered_json json = report::provenance_json(provenance);
+  nlohmann::ordered_json json = page::provenance_json(provenance);
   json.update({{"finished", s.status == math::OdeStatus::done},
                {"message", s.message},
                {"reached_s", s.reached_s},
@@ -213,7 +213,7 @@ std::string simulation_json(const Simulation& s, const Provenance& provenance) {
                {"kinks_located", s.statistics.events},
                {"jumps_passed", s.jumps_passed}});
   if (s.energy.sample_count() > 1) {
-    const simulation::EnergyBalance balance = simulation::energy_balance(s);
+    const body::EnergyBalance balance = body::energy_balance(s);
     json["energy"] = {
         {"turned_over_j", balance.turned_over_j}, {"worst_relative_gap", balance.worst}, {"where", balance.where}};
   }
@@ -221,7 +221,7 @@ std::string simulation_json(const Simulation& s, const Provenance& provenance) {
 }
 
 void write_simulation(const Simulation& s,
-                      const model::BodyModel& body,
+                      const body::BodyModel& body,
                       const HeldCoordinates& held,
                       const Provenance& provenance,
                       const std::filesystem::path& folder) {
@@ -245,7 +245,7 @@ void write_simulation(const Simulation& s,
   const Eigen::Index n = s.fiber_length.channel_count();
   std::vector<std::string> coordinates;
   for (std::size_t k = 0; k < coordinate_count(s); ++k) coordinates.push_back(coordinate_name(s, k));
-  const std::vector<std::string> ids = recording::ids_of(coordinates);
+  const std::vector<std::string> ids = ids_of(coordinates);
   for (std::size_t k = 0; k < coordinate_count(s) && n > 0; ++k) {
     write("MuscleAnalysis_MomentArm_" + ids[k] + ".sto",
           {s.moment_arm.time_s(), s.fiber_length.channels(),
@@ -255,17 +255,17 @@ void write_simulation(const Simulation& s,
   write("torques.sto", torques(s), "Generalized Forces");
   write("states.sto", states(s), "ModelStates");
   write("energy.sto", s.energy, "Energy");
-  recording::write_file(folder / "simulation.json", simulation_json(s, provenance));
+  write_file(folder / "simulation.json", simulation_json(s, provenance));
 }
 
-void write_sensitivities(const simulation::Sensitivities& s,
+void write_sensitivities(const body::Sensitivities& s,
                          const Provenance& provenance,
                          const std::filesystem::path& folder) {
   std::vector<Channel> channels;
   for (const std::string& name : s.parameters) channels.push_back({name, Unit::dimensionless});
   std::vector<std::string> quantities;
-  for (const simulation::Sensitivity& sensitivity : s.of) quantities.push_back(sensitivity.quantity);
-  const std::vector<std::string> ids = recording::ids_of(quantities);
+  for (const body::Sensitivity& sensitivity : s.of) quantities.push_back(sensitivity.quantity);
+  const std::vector<std::string> ids = ids_of(quantities);
   for (std::size_t k = 0; k < ids.size(); ++k) {
     recording::write_storage(
         folder / "sensitivities" / (ids[k] + ".sto"), {s.time_s, channels, s.of[k].by_parameter},
@@ -273,4 +273,4 @@ void write_sensitivities(const simulation::Sensitivities& s,
   }
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -6,38 +6,38 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/dynamics/inverse_dynamics.h"
-#include "myoid/kinematics/joint_motion.h"
-#include "myoid/osim/osim_reader.h"
-#include "myoid/simulation/arm_model.h"
-#include "myoid/simulation/forward_simulation.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/dynamics/inverse_dynamics.h"
+#include "myoid/body/kinematics/joint_motion.h"
+#include "myoid/body/osim/osim_reader.h"
+#include "myoid/body/simulation/arm_model.h"
+#include "myoid/body/simulation/forward_simulation.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-simulation::Simulation slow_movement(double seconds, double rate_hz) {
-  simulation::ArmSetup setup;
+body::Simulation slow_movement(double seconds, double rate_hz) {
+  body::ArmSetup setup;
   setup.model.mode = muscle::TendonMode::equilibrium;
-  simulation::SimulationInput input;
+  body::SimulationInput input;
   for (int i = 0; i < 4; ++i) input.excitation.push_back({{0.0, 0.5 * seconds, seconds}, {0.03, 0.05, 0.03}});
-  return simulation::simulate(simulation::make_arm_model(setup), input, {.q = {0.8}},
-                              {.end_s = seconds, .output_rate_hz = rate_hz, .energy = true});
+  return body::simulate(body::make_arm_model(setup), input, {.q = {0.8}},
+                        {.end_s = seconds, .output_rate_hz = rate_hz, .energy = true});
 }
 
 // Through files, as a user would: only the angles are given, all else is derived from them.
 TEST(SimulationFiles, InverseDynamicsOfTheMotionFileIsTheTorque) {
   const test::TemporaryFolder folder;
-  const model::BodyModel body = model::parse_osim(model::arm4_osim(), "arm4.osim");
-  const simulation::Simulation s = slow_movement(1.0, 1000.0);
+  const body::BodyModel body = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  const body::Simulation s = slow_movement(1.0, 1000.0);
   write_simulation(s, body, {{"shoulder_flexion", 0.0}}, {.options_json = "{}"}, folder.path());
   const recording::Storage file = recording::read_storage(folder.path() / "motion.mot");
   EXPECT_TRUE(file.in_degrees);
   const TimeSeries q = recording::to_si(file, [](const std::string&) { return true; });
-  const TimeSeries torque = dynamics::inverse_dynamics(body, kinematics::joint_motion(body, q).motion);
+  const TimeSeries torque = body::inverse_dynamics(body, body::joint_motion(body, q).motion);
   const Eigen::VectorXd id = torque.column("elbow_flexion_moment");
   const recording::Storage written = recording::read_storage(folder.path() / "torques.sto");
   const Eigen::VectorXd truth = written.data.column("elbow_flexion_moment");
@@ -53,8 +53,8 @@ TEST(SimulationFiles, InverseDynamicsOfTheMotionFileIsTheTorque) {
 
 TEST(SimulationFiles, EveryFileIsThereAndSaysWhatItHolds) {
   const test::TemporaryFolder folder;
-  const model::BodyModel body = model::parse_osim(model::arm4_osim(), "arm4.osim");
-  const simulation::Simulation s = slow_movement(0.2, 100.0);
+  const body::BodyModel body = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  const body::Simulation s = slow_movement(0.2, 100.0);
   write_simulation(s, body, {}, {.command = "myoid simulate", .options_json = "{}"}, folder.path());
   for (const char* file :
        {"motion.mot", "speeds.sto", "accelerations.sto", "excitation.sto", "activation.sto", "forces.sto",
@@ -72,11 +72,11 @@ TEST(SimulationFiles, EveryFileIsThereAndSaysWhatItHolds) {
 }
 
 TEST(PaperFigures, AreTheCurvesAndAMovementThereAndBack) {
-  const std::vector<report::Figure> figures = paper_figures();
+  const std::vector<page::Figure> figures = paper_figures();
   ASSERT_EQ(figures.size(), 2u);
   EXPECT_EQ(figures[0].id, "figure2");
   EXPECT_EQ(figures[0].panels.size(), 2u);
-  const report::Figure& movement = figures[1];
+  const page::Figure& movement = figures[1];
   ASSERT_EQ(movement.panels.size(), 8u);
   const std::vector<double>& angle = movement.panels[2].series[0].y;
   const double highest = *std::max_element(angle.begin(), angle.end());
@@ -87,12 +87,12 @@ TEST(PaperFigures, AreTheCurvesAndAMovementThereAndBack) {
 
 TEST(SensitivityFiles, HaveAColumnPerParameterAndAFilePerQuantity) {
   const test::TemporaryFolder folder;
-  simulation::SimulationInput input;
-  const simulation::SimulationModel arm = simulation::make_arm_model();
-  input.excitation.assign(arm.muscles.size(), simulation::constant(0.1));
+  body::SimulationInput input;
+  const body::SimulationModel arm = body::make_arm_model();
+  input.excitation.assign(arm.muscles.size(), body::constant(0.1));
   const std::vector<std::string> names = {"BIC.max_isometric_force", "forearm_hand.mass", "elbow_flexion.start"};
-  const simulation::Sensitivities s =
-      simulation::simulate_sensitivities(arm, input, {.q = {1.0}}, {.end_s = 0.1, .output_rate_hz = 100.0}, names);
+  const body::Sensitivities s =
+      body::simulate_sensitivities(arm, input, {.q = {1.0}}, {.end_s = 0.1, .output_rate_hz = 100.0}, names);
   write_sensitivities(s, {.options_json = "{}"}, folder.path());
   for (const char* file : {"elbow_flexion_speed", "elbow_flexion_acceleration", "elbow_flexion_muscles",
                            "elbow_flexion_device", "BIC_activation", "TRI_fiber_length", "BRD_tendon_force"}) {
@@ -107,4 +107,4 @@ TEST(SensitivityFiles, HaveAColumnPerParameterAndAFilePerQuantity) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

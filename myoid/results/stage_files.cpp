@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/index.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/files/name_ids.h"
-#include "myoid/files/text_file.h"
-#include "myoid/tables/storage_writer.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/name_ids.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/recording/tables/storage_writer.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 /// Returns marker errors without gaps, which other tools do not read. A distance of 0 for a missing marker would be
@@ -42,7 +42,7 @@ TimeSeries SeriesColumns::series(const Eigen::VectorXd& time_s) const {
   return {time_s, channels, std::move(all)};
 }
 
-void write_motion(const model::BodyModel& model,
+void write_motion(const body::BodyModel& model,
                   const TimeSeries& q,
                   const std::filesystem::path& path,
                   const std::vector<std::string>& comments) {
@@ -50,30 +50,30 @@ void write_motion(const model::BodyModel& model,
   std::vector<Channel> channels = q.channels();
   for (Channel& channel : channels) {
     const auto c = model.find_coordinate(channel.name);
-    if (c && model.coordinates[at(*c)].motion != model::MotionType::rotational) channel.unit = Unit::meter;
+    if (c && model.coordinates[at(*c)].motion != body::MotionType::rotational) channel.unit = Unit::meter;
   }
   recording::write_storage(path, {q.time_s(), std::move(channels), q.values()},
                            {.title = "Coordinates", .angles_in_degrees = true, .comments = comments});
 }
 
-void write_marker_errors(const kinematics::IkResult& ik, const std::filesystem::path& path) {
+void write_marker_errors(const body::IkResult& ik, const std::filesystem::path& path) {
   recording::write_storage(path, without_gaps(ik.errors), {.title = "Model Marker Errors from IK"});
 }
 
-void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles, const std::filesystem::path& folder) {
+void write_muscle_kinematics(const body::MuscleKinematics& muscles, const std::filesystem::path& folder) {
   recording::write_storage(folder / "MuscleAnalysis_Length.sto", muscles.length, {.title = "Length"});
   recording::write_storage(folder / "MuscleAnalysis_MuscleTendonVelocity.sto", muscles.velocity,
                            {.title = "MuscleTendonVelocity"});
   std::vector<std::string> coordinates;
   for (const auto& [coordinate, arms] : muscles.moment_arm) coordinates.push_back(coordinate);
-  const recording::NameIds ids(coordinates);
+  const NameIds ids(coordinates);
   for (const auto& [coordinate, arms] : muscles.moment_arm) {
     recording::write_storage(folder / fmt::format("MuscleAnalysis_MomentArm_{}.sto", ids.of(coordinate)), arms,
                              {.title = "MomentArm_" + coordinate});
   }
 }
 
-void write_shared_forces(const forces::MuscleForces& shared, const std::filesystem::path& folder) {
+void write_shared_forces(const body::MuscleForces& shared, const std::filesystem::path& folder) {
   const auto with_reserves = [&](const TimeSeries& muscles) {
     std::vector<Channel> channels = muscles.channels();
     Eigen::MatrixXd values(muscles.sample_count(), muscles.channel_count() + shared.reserve.channel_count());
@@ -88,10 +88,10 @@ void write_shared_forces(const forces::MuscleForces& shared, const std::filesyst
   std::string status = "time_s,status,kkt_residual\n";
   for (std::size_t i = 0; i < shared.status.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    status += fmt::format("{},{},{}\n", recording::format_number(shared.force.time_s()[row]),
-                          forces::name(shared.status[i]), recording::format_number(shared.kkt_residual[row]));
+    status += fmt::format("{},{},{}\n", format_number(shared.force.time_s()[row]), body::name(shared.status[i]),
+                          format_number(shared.kkt_residual[row]));
   }
-  recording::write_file(folder / "StaticOptimization_status.csv", status);
+  write_file(folder / "StaticOptimization_status.csv", status);
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

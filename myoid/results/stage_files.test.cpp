@@ -4,19 +4,19 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/core/units.h"
-#include "myoid/osim/osim_reader.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/osim/osim_reader.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 TEST(WriteMotion, RotationsAreWrittenInDegrees) {
   const test::TemporaryFolder folder;
-  const model::BodyModel arm = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  const body::BodyModel arm = body::parse_osim(body::arm4_osim(), "arm4.osim");
   const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(3, 0.0, 0.02);
   Eigen::MatrixXd angles(3, 1);
   angles << 0.0, 0.5 * kPi, kPi;
@@ -29,7 +29,7 @@ TEST(WriteMotion, RotationsAreWrittenInDegrees) {
 TEST(WriteMarkerErrors, AMarkerThatWasMissingAndFramesWithoutAnyAreLeftOut) {
   const test::TemporaryFolder folder;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  kinematics::IkResult ik;
+  body::IkResult ik;
   Eigen::MatrixXd values(3, 5);
   values << 1e-4, 0.007, 0.01, 0.01, 0.005,  //
       kNone, kNone, kNone, kNone, kNone,     //
@@ -50,4 +50,4 @@ TEST(WriteMarkerErrors, AMarkerThatWasMissingAndFramesWithoutAnyAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

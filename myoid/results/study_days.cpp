@@ -4,16 +4,16 @@
 #include <set>
 #include <string>
 
-#include "myoid/core/day_text.h"
+#include "myoid/ground/core/day_text.h"
 #include "myoid/recording/recorded_day.h"
 
-namespace myoid {
+namespace myoid::results {
 
-void add_days(StudyResult& result) {
+void add_days(run::StudyResult& result) {
   using namespace std::chrono;
   result.analysed = day_text(year_month_day(floor<days>(system_clock::now())));
   std::set<std::string> recorded;
-  for (const TrialResult& trial : result.trials) {
+  for (const run::TrialResult& trial : result.trials) {
     for (const auto& file : {trial.spec.markers, trial.spec.motion, trial.spec.emg})
       if (file) recorded.insert(recording::recorded_day(*file));
   }
@@ -21,4 +21,4 @@ void add_days(StudyResult& result) {
   result.recorded.assign(recorded.begin(), recorded.end());
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -2,20 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/files/atomic_file.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 TEST(StudyDays, AreThoseThatTheFilesStateEachOnceInOrder) {
   const test::TemporaryFolder folder;
   const auto edf = [&](const char* name, const std::string& date) {
-    recording::write_file(folder / name, std::string(168, ' ') + date + std::string(80, ' '));
+    write_file(folder / name, std::string(168, ' ') + date + std::string(80, ' '));
     return std::filesystem::path(folder / name);
   };
-  StudyResult result;
+  run::StudyResult result;
   result.trials.resize(4);
   result.trials[0].spec.emg = edf("a.edf", "02.03.26");
   result.trials[1].spec.emg = edf("b.edf", "01.03.26");
@@ -27,4 +27,4 @@ TEST(StudyDays, AreThoseThatTheFilesStateEachOnceInOrder) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

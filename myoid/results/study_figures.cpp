@@ -9,26 +9,26 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/index.h"
-#include "myoid/intervals/log_covariance.h"
+#include "myoid/fit/intervals/log_covariance.h"
+#include "myoid/ground/core/index.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/study/study_ids.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using report::Figure;
-using report::Panel;
-using report::Role;
-using report::time_panel;
-using report::to_vector;
+using fit::IdentificationResult;
+using page::Figure;
+using page::Panel;
+using page::Role;
+using page::time_panel;
+using page::to_vector;
 
 /// Returns the literature's parameters with the true ones substituted; empty without a truth.
-std::optional<muscle::HillParameters<double>> true_muscle(const StudyResult& result,
-                                                          const identification::MuscleSetup& setup) {
+std::optional<muscle::HillParameters<double>> true_muscle(const run::StudyResult& result,
+                                                          const fit::MuscleSetup& setup) {
   std::optional<muscle::HillParameters<double>> muscle;
-  for (const TrueValue& t : result.source.truth) {
+  for (const run::TrueValue& t : result.source.truth) {
     if (t.muscle != setup.name) continue;
     for (const muscle::HillField& field : muscle::kHillFields) {
       if (field.name != t.parameter) continue;
@@ -50,9 +50,9 @@ struct MuscleVersions {
   Eigen::MatrixXd log_covariance;
 };
 
-report::Series sampled(
+page::Series sampled(
     std::string name, Role role, double from, double to, const Curve& curve, const HillParameters<double>& muscle) {
-  report::Series series{.name = std::move(name), .role = role};
+  page::Series series{.name = std::move(name), .role = role};
   for (int i = 0; i <= 160; ++i) {
     const double x = from + (to - from) * i / 160.0;
     series.x.push_back(x);
@@ -63,9 +63,9 @@ report::Series sampled(
 
 /// Returns the curve's 95 % band to first order, for muscles with a standard error: f -+ 1.96
 /// sqrt(g' C g), g = df / d ln x, C the covariance of the logarithms. Never below 0.
-report::Series band_of(const MuscleVersions& of, double from, double to, const Curve& curve) {
+page::Series band_of(const MuscleVersions& of, double from, double to, const Curve& curve) {
   constexpr double kStep = 1e-4;  // of the logarithm
-  report::Series band = sampled("identified, 95 %", Role::band, from, to, curve, of.identified);
+  page::Series band = sampled("identified, 95 %", Role::band, from, to, curve, of.identified);
   for (std::size_t i = 0; i < band.x.size(); ++i) {
     Eigen::VectorXd slope(of.log_covariance.rows());
     for (Eigen::Index k = 0; k < slope.size(); ++k) {
@@ -95,7 +95,7 @@ struct VisitedRange {
   double low_m = 1e9, high_m = -1e9, fastest_mps = 0.05;
 };
 
-VisitedRange visited(const identification::StudyData& data, std::size_t m) {
+VisitedRange visited(const fit::StudyData& data, std::size_t m) {
   const double slack_m = data.muscles[m].start.tendon_slack_length_m;
   const auto c = static_cast<Eigen::Index>(m);
   VisitedRange range;
@@ -137,14 +137,14 @@ Panel velocity_panel(const MuscleVersions& of, const VisitedRange& range) {
 
 }  // namespace
 
-Figure muscle_curves(const StudyResult& result, const IdentificationResult& method, std::size_t m) {
+Figure muscle_curves(const run::StudyResult& result, const IdentificationResult& method, std::size_t m) {
   const auto& setup = result.fit_input.data.muscles[m];
   std::vector<std::string> names;
   for (const muscle::HillField& field : muscle::kHillFields) names.emplace_back(field.name);
   const MuscleVersions of{.literature = setup.start,
                           .identified = method.muscles[m],
                           .truth = true_muscle(result, setup),
-                          .log_covariance = identification::log_covariance(method, setup.name, names)};
+                          .log_covariance = fit::log_covariance(method, setup.name, names)};
   const VisitedRange range = visited(result.fit_input.data, m);
   Figure figure{"curves_" + setup.name,
                 fmt::format("{}: force-length and force-velocity relations", setup.name),
@@ -160,7 +160,7 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
   return figure;
 }
 
-Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chain) {
+Figure emg_figure(const run::TrialResult& trial, const std::vector<std::string>& chain) {
   Figure figure{"emg_" + trial.spec.name,
                 fmt::format("EMG of trial {}: raw, rectified, filtered", trial.spec.name),
                 "Millivolts; the orange line is the envelope.",
@@ -184,11 +184,9 @@ Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chai
   return figure;
 }
 
-Figure force_figure(const StudyResult& result,
-                    const identification::TrialData& data,
-                    const IdentificationResult& method) {
-  const identification::TrialFit* fit = trial_of(method, data.name);
-  Figure figure{fmt::format("forces_{}_{}", name(method.method), trial_ids(result.source.study).of(data.name)),
+Figure force_figure(const run::StudyResult& result, const fit::TrialData& data, const IdentificationResult& method) {
+  const fit::TrialFit* fit = run::trial_of(method, data.name);
+  Figure figure{fmt::format("forces_{}_{}", name(method.method), study::trial_ids(result.source.study).of(data.name)),
                 fmt::format("Muscle forces in trial {} (method {})", data.name, name(method.method)),
                 "Blue: force that force sharing assigns (no co-contraction). Grey dotted: literature's parameters with "
                 "the measured EMG. Orange dashed: identified parameters.",
@@ -213,4 +211,4 @@ Figure force_figure(const StudyResult& result,
   return figure;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -4,20 +4,20 @@
 
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 /// One muscle of the study, moved from 0.10 to 0.16 m beyond its tendon of 0.2 m.
-StudyResult one_muscle() {
-  StudyResult result;
-  identification::MuscleSetup setup;
+run::StudyResult one_muscle() {
+  run::StudyResult result;
+  fit::MuscleSetup setup;
   setup.name = "BIC";
   setup.start.optimal_fiber_length_m = 0.12;
   setup.start.force_length_width_m = 0.05;
   setup.start.tendon_slack_length_m = 0.2;
   setup.start.max_shortening_speed_mps = 1.2;
   result.fit_input.data.muscles = {setup};
-  identification::TrialData trial;
+  fit::TrialData trial;
   trial.name = "slow";
   trial.time_s = Eigen::VectorXd::LinSpaced(3, 0.0, 1.0);
   trial.length_m = Eigen::Vector3d(0.30, 0.33, 0.36);
@@ -27,12 +27,12 @@ StudyResult one_muscle() {
   return result;
 }
 
-identification::IdentificationResult found(const StudyResult& result) {
-  identification::IdentificationResult method;
-  method.method = identification::Method::torque;
+fit::IdentificationResult found(const run::StudyResult& result) {
+  fit::IdentificationResult method;
+  method.method = fit::Method::torque;
   method.muscles = {result.fit_input.data.muscles[0].start};
   method.muscles[0].optimal_fiber_length_m = 0.14;
-  identification::TrialFit fit;
+  fit::TrialFit fit;
   fit.trial = "slow";
   fit.force_fit_n = Eigen::Vector3d(13.0, 20.0, 26.0);
   fit.literature_force_n = Eigen::Vector3d(1.0, 2.0, 3.0);
@@ -40,41 +40,41 @@ identification::IdentificationResult found(const StudyResult& result) {
   return method;
 }
 
-const report::Series& series(const report::Panel& panel, const std::string& name) {
-  for (const report::Series& s : panel.series) {
+const page::Series& series(const page::Panel& panel, const std::string& name) {
+  for (const page::Series& s : panel.series) {
     if (s.name == name) return s;
   }
   throw std::runtime_error(name);
 }
 
 TEST(MuscleCurves, AreTheGaussiansOfEquationThreeOverTheFiberLength) {
-  const StudyResult result = one_muscle();
-  const report::Figure figure = muscle_curves(result, found(result), 0);
+  const run::StudyResult result = one_muscle();
+  const page::Figure figure = muscle_curves(result, found(result), 0);
   ASSERT_EQ(figure.panels.size(), 2U);
   for (const auto& [name, optimum] : {std::pair{"literature", 0.12}, {"identified", 0.14}}) {
-    const report::Series& s = series(figure.panels[0], name);
+    const page::Series& s = series(figure.panels[0], name);
     for (std::size_t i = 0; i < s.x.size(); ++i)
       ASSERT_NEAR(s.y[i], std::exp(-std::pow((s.x[i] - optimum) / 0.05, 2)), 1e-12) << name;
   }
 }
 
 TEST(MuscleCurves, ShadeWhatTheRecordingVisited) {
-  const StudyResult result = one_muscle();
-  const report::Figure figure = muscle_curves(result, found(result), 0);
-  const report::Series& lengths = series(figure.panels[0], "visited");
+  const run::StudyResult result = one_muscle();
+  const page::Figure figure = muscle_curves(result, found(result), 0);
+  const page::Series& lengths = series(figure.panels[0], "visited");
   EXPECT_NEAR(lengths.x.front(), 0.10, 1e-12);
   EXPECT_NEAR(lengths.x.back(), 0.16, 1e-12);
   EXPECT_NEAR(series(figure.panels[1], "visited").x.back(), 0.4, 1e-12);
 }
 
 TEST(ForceFigure, TellsTheDifferenceFromTheSharedForces) {
-  const StudyResult result = one_muscle();
+  const run::StudyResult result = one_muscle();
   const auto method = found(result);
-  const report::Figure figure = force_figure(result, result.fit_input.data.trials[0], method);
+  const page::Figure figure = force_figure(result, result.fit_input.data.trials[0], method);
   ASSERT_EQ(figure.panels.size(), 1U);
   // rms of 3, 0, -4 N
   EXPECT_EQ(figure.panels[0].title, "BIC: identified against shared 3 N rms");
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

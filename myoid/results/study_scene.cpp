@@ -4,19 +4,19 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/index.h"
-#include "myoid/core/numbers.h"
-#include "myoid/scene/model_meshes.h"
-#include "myoid/scene/model_scene.h"
+#include "myoid/body/scene/model_meshes.h"
+#include "myoid/body/scene/model_scene.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/ground/core/numbers.h"
 #include "myoid/study/study_model.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 /// Returns the activation by EMG of every muscle of the model that a [[muscle]] table lumps.
-TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
+TimeSeries muscle_activation(const study::Study& study, const run::TrialResult& trial) {
   const TimeSeries& emg = trial.emg.activation;
-  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, *trial.motion.model);
+  const std::vector<body::MuscleGroup> groups = study::muscle_groups(study, *trial.motion.model);
   std::vector<Channel> channels;
   std::vector<Eigen::Index> columns;
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -32,14 +32,14 @@ TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
 
 /// Adds the measured forces at the frames of the scene, turned into ground. A force below a newton
 /// is left out, because its center of pressure is noise.
-void add_loads(const TrialResult& trial, report::Scene& scene) {
+void add_loads(const run::TrialResult& trial, page::Scene& scene) {
   constexpr double kLeast_n = 1.0;
   if (!trial.input.loads) return;
   const auto& loads = *trial.input.loads;
   const bool of_file = loads.end_s > loads.start_s;  // another source has no limits
   for (const auto& load : loads.forces) {
     if (!load.force) continue;
-    report::SceneLoad shown{load.name};
+    page::SceneLoad shown{load.name};
     shown.point_m.setConstant(scene.time_s.size(), 3, kNan);
     shown.force_n.setZero(scene.time_s.size(), 3);
     for (Eigen::Index f = 0; f < scene.time_s.size(); ++f) {
@@ -58,8 +58,8 @@ void add_loads(const TrialResult& trial, report::Scene& scene) {
   }
 }
 
-report::Scene trial_scene(const Study& study, const TrialResult& trial, int most_frames) {
-  SceneInput input;
+page::Scene trial_scene(const study::Study& study, const run::TrialResult& trial, int most_frames) {
+  body::SceneInput input;
   input.name = trial.spec.name;
   input.q = trial.motion.joints.q;
   if (trial.input.markers) input.markers = &*trial.input.markers;
@@ -68,25 +68,25 @@ report::Scene trial_scene(const Study& study, const TrialResult& trial, int most
     TimeSeries activation = muscle_activation(study, trial);
     if (activation.channel_count() > 0) input.colorings.push_back({"EMG activation", "", std::move(activation)});
   }
-  report::Scene scene = model_scene(*trial.motion.model, input, {.most_frames = most_frames});
+  page::Scene scene = body::model_scene(*trial.motion.model, input, {.most_frames = most_frames});
   add_loads(trial, scene);
   return scene;
 }
 
 }  // namespace
 
-report::ScenePage study_scenes(const StudyResult& result, int most_frames) {
+page::ScenePage study_scenes(const run::StudyResult& result, int most_frames) {
   const bool none = result.source.study.model.is_none();
-  const auto moving = [none](const TrialResult& trial) { return trial.has_motion() && !none; };
+  const auto moving = [none](const run::TrialResult& trial) { return trial.has_motion() && !none; };
   const auto count = std::ranges::count_if(result.trials, moving);
-  report::ScenePage page{.title = result.source.study.subject.name,
-                         .subtitle = fmt::format("model {}, {} trials", result.source.model->name, count)};
+  page::ScenePage page{.title = result.source.study.subject.name,
+                       .subtitle = fmt::format("model {}, {} trials", result.source.model->name, count)};
   const int each = std::max(100, most_frames / static_cast<int>(std::max<std::ptrdiff_t>(1, count)));
-  for (const TrialResult& trial : result.trials)
+  for (const run::TrialResult& trial : result.trials)
     if (moving(trial)) page.scenes.push_back(trial_scene(result.source.study, trial, std::min(1500, each)));
   if (result.source.study.model.file && !page.scenes.empty())
-    add_meshes(load_meshes(result.source.model_text, *result.source.study.model.file), page);
+    body::add_meshes(body::load_meshes(result.source.model_text, *result.source.study.model.file), page);
   return page;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -5,25 +5,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/osim/osim_reader.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/osim/osim_reader.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
 /// A trial of the built-in arm: elbow flexing for a second at 100 Hz.
-TrialResult flexing(const std::string& name) {
-  TrialResult trial;
+run::TrialResult flexing(const std::string& name) {
+  run::TrialResult trial;
   trial.spec.name = name;
-  trial.motion.model = std::make_shared<const model::BodyModel>(model::parse_osim(model::arm4_osim(), "arm4.osim"));
+  trial.motion.model = std::make_shared<const body::BodyModel>(body::parse_osim(body::arm4_osim(), "arm4.osim"));
   std::vector<Channel> channels;
-  for (const model::Coordinate& c : trial.motion.model->coordinates) channels.push_back({c.name, Unit::radian});
+  for (const body::Coordinate& c : trial.motion.model->coordinates) channels.push_back({c.name, Unit::radian});
   Eigen::MatrixXd q = trial.motion.model->default_q().transpose().replicate(101, 1);
   q.col(trial.motion.model->coordinate_index("elbow_flexion")).setLinSpaced(0.0, 1.5);
   trial.motion.joints.q = TimeSeries(Eigen::VectorXd::LinSpaced(101, 0.0, 1.0), channels, q);
   trial.emg.activation =
       TimeSeries(Eigen::Vector2d(0.0, 1.0), {{"Biceps", Unit::dimensionless}}, Eigen::Vector2d(0.2, 0.6));
-  recording::MarkerSeries markers;
+  MarkerSeries markers;
   markers.time_s = Eigen::Vector2d(0.0, 1.0);
   markers.names = {trial.motion.model->markers[0].name};
   markers.positions_m.setZero(2, 3);
@@ -31,41 +31,41 @@ TrialResult flexing(const std::string& name) {
   return trial;
 }
 
-StudyResult two_trials() {
-  StudyResult result;
+run::StudyResult two_trials() {
+  run::StudyResult result;
   result.source.study.subject.name = "S01";
   result.source.study.muscles = {{.name = "BIC", .osim = {"BIC", "BRA"}, .emg = "Biceps"}};
-  result.trials = {flexing("slow"), TrialResult{}, flexing("fast")};
+  result.trials = {flexing("slow"), run::TrialResult{}, flexing("fast")};
   result.trials[1].spec.name = "mvc without motion";
   result.source.model = result.trials[0].motion.model;
   return result;
 }
 
 TEST(StudyScenes, HaveTheTrialsThatMoveWithTheirMarkersAndActivations) {
-  const report::ScenePage page = study_scenes(two_trials());
+  const page::ScenePage page = study_scenes(two_trials());
   EXPECT_EQ(page.title, "S01");
   ASSERT_EQ(page.scenes.size(), 2U);
-  const report::Scene& scene = page.scenes[1];
-  EXPECT_NO_THROW(report::validate(scene));
+  const page::Scene& scene = page.scenes[1];
+  EXPECT_NO_THROW(page::validate(scene));
   EXPECT_EQ(scene.name, "fast");
   EXPECT_EQ(scene.time_s.size(), 51);
   EXPECT_EQ(scene.measured_markers.size(), 1U);
   ASSERT_EQ(scene.values.size(), 1U);
   // Both heads have the muscle's electrode, linearly from 0.2 to 0.6; the others have none.
-  const model::BodyModel arm = *two_trials().source.model;
+  const body::BodyModel arm = *two_trials().source.model;
   EXPECT_NEAR(scene.values[0].value(25, arm.muscle_index("BIC")), 0.4, 1e-12);
   EXPECT_NEAR(scene.values[0].value(25, arm.muscle_index("BRA")), 0.4, 1e-12);
   EXPECT_TRUE(std::isnan(scene.values[0].value(25, arm.muscle_index("TRI"))));
 }
 
 TEST(StudyScenes, ShowAMeasuredForceWhereItActsWhileItActs) {
-  StudyResult result = two_trials();
-  dynamics::ExternalForce force{.name = "plate 1", .body = 1};
-  force.force = dynamics::LoadColumns{.splines = {}, .constant = Vec3(0.0, 500.0, 10.0)};
-  force.point = dynamics::LoadColumns{.splines = {}, .constant = Vec3(0.1, 0.0, 0.2)};
-  result.trials[0].input.loads = dynamics::ExternalLoads{.forces = {force}, .start_s = 0.5, .end_s = 1.0};
-  const report::Scene scene = study_scenes(result).scenes[0];
-  EXPECT_NO_THROW(report::validate(scene));
+  run::StudyResult result = two_trials();
+  body::ExternalForce force{.name = "plate 1", .body = 1};
+  force.force = body::LoadColumns{.splines = {}, .constant = Vec3(0.0, 500.0, 10.0)};
+  force.point = body::LoadColumns{.splines = {}, .constant = Vec3(0.1, 0.0, 0.2)};
+  result.trials[0].input.loads = body::ExternalLoads{.forces = {force}, .start_s = 0.5, .end_s = 1.0};
+  const page::Scene scene = study_scenes(result).scenes[0];
+  EXPECT_NO_THROW(page::validate(scene));
   ASSERT_EQ(scene.loads.size(), 1U);
   EXPECT_TRUE(std::isnan(scene.loads[0].point_m(0, 0)));  // before the file begins
   EXPECT_EQ(scene.loads[0].force_n.row(0).norm(), 0.0);
@@ -74,11 +74,11 @@ TEST(StudyScenes, ShowAMeasuredForceWhereItActsWhileItActs) {
 }
 
 TEST(StudyScenes, ShareTheFramesAmongManyTrials) {
-  StudyResult many = two_trials();
+  run::StudyResult many = two_trials();
   many.trials.resize(3);
-  const report::ScenePage page = study_scenes(many, 60);
-  for (const report::Scene& scene : page.scenes) EXPECT_LE(scene.time_s.size(), 100);
+  const page::ScenePage page = study_scenes(many, 60);
+  for (const page::Scene& scene : page.scenes) EXPECT_LE(scene.time_s.size(), 100);
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

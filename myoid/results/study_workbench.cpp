@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/index.h"
-#include "myoid/core/numbers.h"
-#include "myoid/methods/prediction.h"
-#include "myoid/report/typeset.h"
+#include "myoid/fit/methods/prediction.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/ground/core/numbers.h"
+#include "myoid/page/typeset.h"
 #include "myoid/results/movable_muscles.h"
 #include "myoid/results/norm_bands.h"
 #include "myoid/results/prediction_files.h"
@@ -18,17 +18,17 @@
 #include "myoid/run/prediction_gates.h"
 #include "myoid/study/study_ids.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using report::Badge;
-using report::CarpetRow;
-using report::Role;
-using report::TimeLine;
-using report::TimePlot;
-using report::TrialMark;
-using report::WorkbenchTrial;
+using fit::IdentificationResult;
+using page::Badge;
+using page::CarpetRow;
+using page::Role;
+using page::TimeLine;
+using page::TimePlot;
+using page::TrialMark;
+using page::WorkbenchTrial;
 
 constexpr Eigen::Index kMostSamples = 15000;  // of a plot over all trials
 constexpr Eigen::Index kLeastSamples = 250;   // of a plot of one trial
@@ -109,14 +109,14 @@ Eigen::VectorXd greatest(const Eigen::VectorXd& time_s,
   return result;
 }
 
-void add_angles(const StudyResult& result, const TrialResult& trial, TrialPlots& plots) {
+void add_angles(const run::StudyResult& result, const run::TrialResult& trial, TrialPlots& plots) {
   if (!trial.has_motion()) return;
   const TimeSeries& q = trial.motion.joints.q;
-  for (const std::string& name : study_coordinates(result.source.study.model)) {
+  for (const std::string& name : study::study_coordinates(result.source.study.model)) {
     const auto column = q.find(name);
     if (!column) continue;
     plots.add({.kind = "angle",
-               .title = report::spelled(name),
+               .title = page::spelled(name),
                .unit = "deg",
                .lines = {plots.line("angle", Role::reference, q.time_s(), q.values().col(*column) / kDegree)},
                .file = plots.folder() + "/ik.mot"});
@@ -124,7 +124,7 @@ void add_angles(const StudyResult& result, const TrialResult& trial, TrialPlots&
 }
 
 /// Adds the measured forces on the person, in the frame of their file.
-void add_loads(const TrialResult& trial, TrialPlots& plots) {
+void add_loads(const run::TrialResult& trial, TrialPlots& plots) {
   if (!trial.has_motion() || !trial.input.loads) return;
   const Eigen::VectorXd& t = trial.motion.joints.q.time_s();
   for (const auto& load : trial.input.loads->forces) {
@@ -139,29 +139,29 @@ void add_loads(const TrialResult& trial, TrialPlots& plots) {
   }
 }
 
-const identification::Fold* fold_of(const StudyResult& result,
-                                    const std::string& trial,
-                                    const std::string& joint,
-                                    Eigen::Index samples) {
-  for (const identification::Fold& fold : result.folds)
+const fit::Fold* fold_of(const run::StudyResult& result,
+                         const std::string& trial,
+                         const std::string& joint,
+                         Eigen::Index samples) {
+  for (const fit::Fold& fold : result.folds)
     if (fold.trial == trial && fold.joint == joint && fold.predicted_nm.size() == samples) return &fold;
   return nullptr;
 }
 
-void add_torques(const StudyResult& result,
+void add_torques(const run::StudyResult& result,
                  const IdentificationResult* fit,
-                 const TrialResult& trial,
+                 const run::TrialResult& trial,
                  TrialPlots& plots) {
-  const std::vector<std::string> joints = study_coordinates(result.source.study.model);
+  const std::vector<std::string> joints = study::study_coordinates(result.source.study.model);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     TimePlot plot{.kind = "torque",
-                  .title = report::spelled(joints[j]),
+                  .title = page::spelled(joints[j]),
                   .unit = "N m",
                   .joint = static_cast<int>(j),
                   .file = plots.folder() + "/id.sto"};
-    const auto fitted = [&]() -> const identification::TrialFit* {
+    const auto fitted = [&]() -> const fit::TrialFit* {
       if (fit == nullptr) return nullptr;
-      for (const identification::TrialFit& t : fit->trials)
+      for (const fit::TrialFit& t : fit->trials)
         if (t.trial == trial.spec.name && (t.joint == joints[j] || joints.size() == 1)) return &t;
       return nullptr;
     }();
@@ -189,7 +189,7 @@ void add_torques(const StudyResult& result,
 }
 
 /// Adds raw EMG as the least and the greatest value in equal stretches, with the envelope.
-void add_emg(const TrialResult& trial, TrialPlots& plots) {
+void add_emg(const run::TrialResult& trial, TrialPlots& plots) {
   if (trial.emg.stages) {
     const TimeSeries& raw = trial.emg.stages->raw;
     const TimeSeries& envelope = trial.emg.stages->envelope;
@@ -219,9 +219,9 @@ void add_emg(const TrialResult& trial, TrialPlots& plots) {
   plots.add(std::move(plot));
 }
 
-void add_fitted_forces(const StudyResult& result,
-                       const identification::TrialData& data,
-                       const identification::TrialFit& fit,
+void add_fitted_forces(const run::StudyResult& result,
+                       const fit::TrialData& data,
+                       const fit::TrialFit& fit,
                        TrialPlots& plots) {
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
     const auto c = static_cast<Eigen::Index>(m);
@@ -241,7 +241,7 @@ void add_fitted_forces(const StudyResult& result,
 }
 
 /// Adds shared forces of the model's muscles, the strongest first.
-void add_shared_forces(const TrialResult& trial, TrialPlots& plots) {
+void add_shared_forces(const run::TrialResult& trial, TrialPlots& plots) {
   const TimeSeries& force = trial.forces.shared.force;
   if (force.empty()) return;
   std::vector<Eigen::Index> order(at(force.channel_count()));
@@ -257,7 +257,7 @@ void add_shared_forces(const TrialResult& trial, TrialPlots& plots) {
   }
 }
 
-void add_carpet(const TrialResult& trial, WorkbenchTrial& shown) {
+void add_carpet(const run::TrialResult& trial, WorkbenchTrial& shown) {
   const TimeSeries& emg = trial.emg.activation;
   const TimeSeries empty;
   const TimeSeries& errors = trial.motion.ik ? trial.motion.ik->errors : empty;
@@ -282,16 +282,16 @@ void add_carpet(const TrialResult& trial, WorkbenchTrial& shown) {
 
 /// True if a torque's own mean predicts it better, and the error is no small part of it: of an effort that is held R2
 /// tells nothing.
-bool is_missed(const identification::Score& score) {
+bool is_missed(const fit::Score& score) {
   constexpr double kSmall = 0.25;
   const double torque_nm = std::sqrt(score.sst / std::max(score.n, 1.0) + score.mean_nm * score.mean_nm);
   return score.n >= 2.0 && score.r2() < 0.0 && score.rmse_nm() > kSmall * torque_nm;
 }
 
-void add_remarks(const StudyResult& result,
+void add_remarks(const run::StudyResult& result,
                  const IdentificationResult* fit,
-                 const std::vector<OutlyingFold>& outlying,
-                 const TrialResult& trial,
+                 const std::vector<run::OutlyingFold>& outlying,
+                 const run::TrialResult& trial,
                  WorkbenchTrial& shown) {
   shown.badge = Badge::good;
   const auto worse = [&](Badge badge) {
@@ -301,7 +301,7 @@ void add_remarks(const StudyResult& result,
     worse(Badge::bad);
     shown.remarks.push_back("Could not be computed: " + trial.failure());
   }
-  for (const OutlyingFold& fold : outlying) {
+  for (const run::OutlyingFold& fold : outlying) {
     if (fold.trial != trial.spec.name) continue;
     worse(Badge::bad);
     shown.remarks.push_back(
@@ -319,13 +319,13 @@ void add_remarks(const StudyResult& result,
     shown.marks.push_back({.about = fault.about, .when = fault.when, .badge = Badge::weak, .text = sentence(fault)});
   }
   if (fit == nullptr) return;
-  for (const identification::TrialFit& t : fit->trials) {
+  for (const fit::TrialFit& t : fit->trials) {
     if (t.trial != trial.spec.name || t.torque_fit_nm.size() == 0) continue;
     if (is_missed(t.score)) worse(Badge::weak);
-    shown.remarks.push_back(fmt::format("{}: torque {} within {:.2f} N m rms (R² {:.2f}).", report::spelled(t.joint),
+    shown.remarks.push_back(fmt::format("{}: torque {} within {:.2f} N m rms (R² {:.2f}).", page::spelled(t.joint),
                                         t.calibration ? "described" : "predicted", t.score.rmse_nm(), t.score.r2()));
   }
-  for (const identification::Fold& fold : result.folds) {
+  for (const fit::Fold& fold : result.folds) {
     if (fold.trial != trial.spec.name) continue;
     if (is_missed(fold.identified)) worse(Badge::weak);
     shown.remarks.push_back(fmt::format("Left out, it is predicted within {:.2f} N m rms (R² {:.2f}).",
@@ -334,22 +334,21 @@ void add_remarks(const StudyResult& result,
 }
 
 /// Adds the inputs of the muscles' law, with the activation that the fit uses.
-void add_drives(const StudyResult& result,
+void add_drives(const run::StudyResult& result,
                 const IdentificationResult& fit,
-                const identification::TrialFit& fitted,
-                identification::TrialData data,
+                const fit::TrialFit& fitted,
+                fit::TrialData data,
                 TrialPlots& plots,
                 WorkbenchTrial& shown) {
   if (fit.values.muscles.size() != result.fit_input.data.muscles.size()) return;
   if (!fitted.drive.empty()) data.activation = fitted.drive;
-  const identification::Prediction prediction =
-      identification::predict(result.fit_input.data, data, fit.values, fit.lag);
+  const fit::Prediction prediction = fit::predict(result.fit_input.data, data, fit.values, fit.lag);
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
     const auto c = static_cast<Eigen::Index>(m);
-    report::MuscleDrive drive{plots.thinned(prediction.activation.col(c)),
-                              plots.thinned(data.length_m.col(c)),
-                              plots.thinned(data.velocity_mps.col(c)),
-                              {}};
+    page::MuscleDrive drive{plots.thinned(prediction.activation.col(c)),
+                            plots.thinned(data.length_m.col(c)),
+                            plots.thinned(data.velocity_mps.col(c)),
+                            {}};
     for (std::size_t j = 0; j < joint_count(data); ++j)
       if (const Eigen::MatrixXd& arm_m = joint_at(data, j).moment_arm_m; arm_m.cols() > c)
         drive.moment_arm_m.push_back(plots.thinned(arm_m.col(c)));
@@ -357,20 +356,20 @@ void add_drives(const StudyResult& result,
   }
 }
 
-WorkbenchTrial shown_trial(const StudyResult& result,
+WorkbenchTrial shown_trial(const run::StudyResult& result,
                            const IdentificationResult* fit,
-                           const std::vector<OutlyingFold>& outlying,
-                           const TrialResult& trial,
+                           const std::vector<run::OutlyingFold>& outlying,
+                           const run::TrialResult& trial,
                            const std::string& folder,
                            Eigen::Index most) {
   WorkbenchTrial shown{.name = trial.spec.name, .use = std::string(choice_name(trial.spec.use))};
   TrialPlots plots(shown, folder, most);
   const auto& all = result.fit_input.data.trials;
-  const auto data = std::ranges::find(all, trial.spec.name, &identification::TrialData::name);
-  const identification::TrialFit* fitted = nullptr;
+  const auto data = std::ranges::find(all, trial.spec.name, &fit::TrialData::name);
+  const fit::TrialFit* fitted = nullptr;
   if (fit != nullptr && data != all.end()) {
     plots.clock(data->time_s);
-    fitted = trial_of(*fit, trial.spec.name);
+    fitted = run::trial_of(*fit, trial.spec.name);
     if (fitted != nullptr) add_drives(result, *fit, *fitted, *data, plots, shown);
   }
   add_angles(result, trial, plots);
@@ -397,19 +396,19 @@ std::string path_from(const std::filesystem::path& folder, const std::filesystem
 
 }  // namespace
 
-report::Workbench study_workbench(const StudyResult& result, const std::filesystem::path& folder) {
-  report::Workbench workbench{.scenes = study_scenes(result)};
-  const IdentificationResult* fit = best_method(result.fit);
+page::Workbench study_workbench(const run::StudyResult& result, const std::filesystem::path& folder) {
+  page::Workbench workbench{.scenes = study_scenes(result)};
+  const IdentificationResult* fit = run::best_method(result.fit);
   if (fit == nullptr && !result.fit.methods.empty()) fit = &result.fit.methods.front();
   const auto& muscles = result.fit_input.data.muscles;
   if (fit != nullptr && fit->values.muscles.size() != muscles.size()) fit = nullptr;
   if (fit != nullptr) add_movable_muscles(*fit, muscles, workbench);
   const Eigen::Index most = std::max(
       kLeastSamples, kMostSamples / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(result.trials.size())));
-  const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
-  const recording::NameIds ids = trial_ids(result.source.study);
+  const std::vector<run::OutlyingFold> outlying = run::outlying_folds(result.folds);
+  const NameIds ids = study::trial_ids(result.source.study);
   int scene = 0;
-  for (const TrialResult& trial : result.trials) {
+  for (const run::TrialResult& trial : result.trials) {
     WorkbenchTrial shown = shown_trial(result, fit, outlying, trial, ids.of(trial.spec.name), most);
     if (trial.has_motion() && !result.source.study.model.is_none()) shown.scene = scene++;
     if (trial.spec.video) shown.video = path_from(folder, *trial.spec.video);
@@ -420,4 +419,4 @@ report::Workbench study_workbench(const StudyResult& result, const std::filesyst
   return workbench;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

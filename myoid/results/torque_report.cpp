@@ -6,24 +6,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/numbers.h"
-#include "myoid/intervals/verdict_rules.h"
-#include "myoid/methods/prediction.h"
+#include "myoid/fit/intervals/verdict_rules.h"
+#include "myoid/fit/methods/prediction.h"
+#include "myoid/ground/core/numbers.h"
 #include "myoid/results/prediction_files.h"
 #include "myoid/run/prediction_gates.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using report::Badge;
-using report::Cell;
-using report::Figure;
-using report::format_value;
-using report::Panel;
-using report::Role;
-using report::Section;
-using report::Table;
-using report::to_vector;
+using page::Badge;
+using page::Cell;
+using page::Figure;
+using page::format_value;
+using page::Panel;
+using page::Role;
+using page::Section;
+using page::Table;
+using page::to_vector;
 
 /// Returns predicted values as a curve, with a gap at the beginning, where the recording lacks the
 /// earlier EMG that the delay needs.
@@ -36,7 +36,7 @@ std::vector<double> after_delay(const Eigen::VectorXd& predicted, const Eigen::V
 }
 
 /// Returns the name of the trial, and of the joint if there are several.
-std::string title_of(const StudyResult& result, const std::string& trial, const std::string& joint) {
+std::string title_of(const run::StudyResult& result, const std::string& trial, const std::string& joint) {
   return result.source.study.model.more_coordinates.empty() ? trial : fmt::format("{}, {}", trial, joint);
 }
 
@@ -48,7 +48,7 @@ Panel torque_panel(std::string title,
                    const Eigen::VectorXd& identified_nm,
                    const Eigen::VectorXd& identified_sd_nm,
                    double delay_s) {
-  Panel panel = report::time_panel(std::move(title), "torque", "N m");
+  Panel panel = page::time_panel(std::move(title), "torque", "N m");
   const std::vector<double> t = to_vector(time_s);
   if (const Band band = prediction_band(identified_nm, identified_sd_nm); band.low.size() > 0)
     panel.series.push_back({"95 % band",
@@ -63,21 +63,22 @@ Panel torque_panel(std::string title,
   return panel;
 }
 
-Figure folds_figure(const StudyResult& result, double delay_s) {
+Figure folds_figure(const run::StudyResult& result, double delay_s) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
-  Figure figure{"torque_held_out",
-                fmt::format("The {} of {}s that took no part in the fit", predicted_by_folds(result).name, left_out),
-                fmt::format("Blue: measured. Orange dashed: muscles identified on the other {}s. Grey dotted: the "
-                            "literature's with one best gain. The worst predicted come first.",
-                            left_out),
-                {},
-                2};
+  Figure figure{
+      "torque_held_out",
+      fmt::format("The {} of {}s that took no part in the fit", run::predicted_by_folds(result).name, left_out),
+      fmt::format("Blue: measured. Orange dashed: muscles identified on the other {}s. Grey dotted: the "
+                  "literature's with one best gain. The worst predicted come first.",
+                  left_out),
+      {},
+      2};
   figure.in_workbench = left_out == "trial";
   figure.most_on_page = 6;
-  std::vector<const identification::Fold*> folds;
-  for (const identification::Fold& f : result.folds) folds.push_back(&f);
-  std::ranges::stable_sort(folds, {}, [](const identification::Fold* f) { return f->identified.r2(); });
-  for (const identification::Fold* f : folds) {
+  std::vector<const fit::Fold*> folds;
+  for (const fit::Fold& f : result.folds) folds.push_back(&f);
+  std::ranges::stable_sort(folds, {}, [](const fit::Fold* f) { return f->identified.r2(); });
+  for (const fit::Fold* f : folds) {
     figure.panels.push_back(
         torque_panel(fmt::format("{}: R2 {:.2f}", title_of(result, f->trial, f->joint), f->identified.r2()), f->time_s,
                      f->measured_nm, f->literature_nm, f->predicted_nm, f->predicted_sd_nm, delay_s));
@@ -86,7 +87,7 @@ Figure folds_figure(const StudyResult& result, double delay_s) {
 }
 
 /// Returns error and R2: "1.77 (0.35)".
-std::string error_and_r2(const identification::Score& score) {
+std::string error_and_r2(const fit::Score& score) {
   return fmt::format("{:.2f} ({:.2f})", score.rmse_nm(), score.r2());
 }
 
@@ -97,10 +98,7 @@ std::string share_text(double share) {
 
 /// Returns a trial's first cells: its name, RMSE, NRMSE and R2, good above `least_r2`; NRMSE and R2 below
 /// 1.5 Hz.
-std::vector<Cell> score_cells(Cell name,
-                              const identification::Score& score,
-                              double least_r2,
-                              const identification::Score& band) {
+std::vector<Cell> score_cells(Cell name, const fit::Score& score, double least_r2, const fit::Score& band) {
   return {std::move(name),
           {fmt::format("{:.2f}", score.rmse_nm())},
           {fmt::format("{:.1f} %", 100.0 * score.nrmse_range())},
@@ -109,9 +107,9 @@ std::vector<Cell> score_cells(Cell name,
           {fmt::format("{:.3f}", band.r2())}};
 }
 
-Table folds_table(const StudyResult& result) {
+Table folds_table(const run::StudyResult& result) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
-  const auto [predicted, unit] = predicted_by_folds(result);
+  const auto [predicted, unit] = run::predicted_by_folds(result);
   Table table{
       "leave_one_trial_out",
       fmt::format("Leave-one-{}-out prediction of the {}", left_out, predicted),
@@ -123,14 +121,14 @@ Table folds_table(const StudyResult& result) {
           "best; a regression on EMG times moment arm; the others' mean.",
       {std::string(left_out), fmt::format("RMSE [{}]", unit), "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz",
        "VAF", "in band", "lag [ms]", "literature x gain", "regression", "constant"}};
-  const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
-  for (const identification::Fold& f : result.folds) {
-    const bool stands_out =
-        std::ranges::any_of(outlying, [&](const OutlyingFold& o) { return o.trial == f.trial && o.joint == f.joint; });
+  const std::vector<run::OutlyingFold> outlying = run::outlying_folds(result.folds);
+  for (const fit::Fold& f : result.folds) {
+    const bool stands_out = std::ranges::any_of(
+        outlying, [&](const run::OutlyingFold& o) { return o.trial == f.trial && o.joint == f.joint; });
     const std::string title = title_of(result, f.trial, f.joint);
     std::vector<Cell> row =
         score_cells(stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"} : Cell{title},
-                    f.identified, std::max(identification::kVerdictRules.least_r2, f.literature.r2()), f.band);
+                    f.identified, std::max(fit::kVerdictRules.least_r2, f.literature.r2()), f.band);
     row.insert(row.end(), {{fmt::format("{:.3f}", f.identified.vaf())},
                            {share_text(f.covered)},
                            {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
@@ -142,22 +140,21 @@ Table folds_table(const StudyResult& result) {
   return table;
 }
 
-Table held_back_table(const StudyResult& result, const identification::IdentificationResult& method) {
+Table held_back_table(const run::StudyResult& result, const fit::IdentificationResult& method) {
   Table table{"validation_trials",
               "Trials held back for validation",
               "Joint torque predicted with the muscles identified on the calibration trials.",
               {"trial", "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"}};
-  for (const identification::TrialFit& t : method.trials) {
+  for (const fit::TrialFit& t : method.trials) {
     if (t.calibration) continue;
     table.rows.push_back(
-        score_cells({title_of(result, t.trial, t.joint)}, t.score, identification::kVerdictRules.least_r2, t.band));
-    table.rows.back().push_back(
-        {share_text(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))});
+        score_cells({title_of(result, t.trial, t.joint)}, t.score, fit::kVerdictRules.least_r2, t.band));
+    table.rows.back().push_back({share_text(fit::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))});
   }
   return table;
 }
 
-Figure held_back_figure(const StudyResult& result, const identification::IdentificationResult& method) {
+Figure held_back_figure(const run::StudyResult& result, const fit::IdentificationResult& method) {
   Figure figure{"torque_validation",
                 "Joint torque predicted for the trials held back",
                 "Blue: inverse dynamics. Orange dashed: muscles identified on the calibration trials. Grey dotted: "
@@ -166,7 +163,7 @@ Figure held_back_figure(const StudyResult& result, const identification::Identif
                 2};
   figure.in_workbench = true;
   figure.most_on_page = 6;
-  for (const identification::TrialFit& t : method.trials) {
+  for (const fit::TrialFit& t : method.trials) {
     if (t.calibration) continue;
     figure.panels.push_back(torque_panel(fmt::format("{}: R2 {:.2f}", title_of(result, t.trial, t.joint), t.score.r2()),
                                          t.time_s, t.torque_nm, t.literature_torque_nm, t.torque_fit_nm, t.torque_sd_nm,
@@ -181,8 +178,8 @@ std::string range_text(const Eigen::VectorXd& values, int decimals) {
 
 }  // namespace
 
-std::vector<Section> validation_sections(const StudyResult& result) {
-  const identification::IdentificationResult* torque = torque_of(result.fit);
+std::vector<Section> validation_sections(const run::StudyResult& result) {
+  const fit::IdentificationResult* torque = run::torque_of(result.fit);
   std::vector<Section> sections;
   if (!result.folds.empty()) {
     sections.push_back(
@@ -200,19 +197,19 @@ std::vector<Section> validation_sections(const StudyResult& result) {
   return sections;
 }
 
-Table trials_table(const StudyResult& result) {
+Table trials_table(const run::StudyResult& result) {
   Table table{"trials",
               "Trials",
               "What was recorded and how it went. Ranges of several joints in the order of the study's coordinates.",
               {"trial", "use", "duration", "held mass", "joint range", "torque range", "status"}};
   const bool clocks =
-      std::ranges::any_of(result.trials, [](const TrialResult& t) { return t.input.emg_clock.has_value(); });
+      std::ranges::any_of(result.trials, [](const run::TrialResult& t) { return t.input.emg_clock.has_value(); });
   if (clocks) table.columns.insert(table.columns.end() - 1, "EMG's clock moved by");
-  for (const TrialResult& t : result.trials) {
+  for (const run::TrialResult& t : result.trials) {
     std::vector<Cell> row{{t.spec.name}, {std::string(choice_name(t.spec.use))}};
     if (t.has_motion()) {
       std::vector<std::string> angles, torques;
-      const std::vector<std::string> coordinates = study_coordinates(result.source.study.model);
+      const std::vector<std::string> coordinates = study::study_coordinates(result.source.study.model);
       for (std::size_t j = 0; j < coordinates.size(); ++j) {
         const auto angle = t.motion.joints.q.find(coordinates[j]);
         if (angle) angles.push_back(range_text(t.motion.joints.q.values().col(*angle) / kDegree, 0));
@@ -229,7 +226,7 @@ Table trials_table(const StudyResult& result) {
     }
     if (clocks) {
       row.push_back(t.input.emg_clock
-                        ? Cell{signals::to_string(t.input.emg_clock->clock), Badge::none, t.input.emg_clock->source}
+                        ? Cell{recording::to_string(t.input.emg_clock->clock), Badge::none, t.input.emg_clock->source}
                         : Cell{"-"});
     }
     row.push_back(t.failure().empty() ? Cell{"ok", Badge::good} : Cell{"failed", Badge::bad, t.failure()});
@@ -238,4 +235,4 @@ Table trials_table(const StudyResult& result) {
   return table;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

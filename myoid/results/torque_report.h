@@ -2,16 +2,16 @@
 
 #include <vector>
 
-#include "myoid/report/report.h"
+#include "myoid/page/report.h"
 #include "myoid/run/study_result.h"
 
-namespace myoid {
+namespace myoid::results {
 
 /// Returns the sections on predictions of trials outside the fit: left out in turn, with every baseline, and held back.
 /// One row and one panel for each trial and joint; empty without such trials.
-[[nodiscard]] std::vector<report::Section> validation_sections(const StudyResult& result);
+[[nodiscard]] std::vector<page::Section> validation_sections(const run::StudyResult& result);
 
 /// Returns the section on the recordings: duration, held mass, range of every joint and of its torque.
-[[nodiscard]] report::Table trials_table(const StudyResult& result);
+[[nodiscard]] page::Table trials_table(const run::StudyResult& result);
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -2,38 +2,38 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/units.h"
+#include "myoid/ground/core/units.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-StudyResult two_joints() {
-  StudyResult result;
+run::StudyResult two_joints() {
+  run::StudyResult result;
   result.source.study.model.coordinate = "knee";
   result.source.study.model.more_coordinates = {"ankle"};
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(50, 0.0, 1.0);
   Eigen::MatrixXd values(50, 2);
   values.col(0) = Eigen::VectorXd::LinSpaced(50, 10.0 * kDegree, 60.0 * kDegree);
   values.col(1) = Eigen::VectorXd::LinSpaced(50, -5.0 * kDegree, 25.0 * kDegree);
-  TrialResult trial;
+  run::TrialResult trial;
   trial.spec.name = "squat";
   const TimeSeries q(time, {{"knee", Unit::radian}, {"ankle", Unit::radian}}, values);
   trial.motion.joints = {q, q, q};
   trial.forces.muscle_torque =
       TimeSeries(time, {{"knee_moment", Unit::newton_meter}, {"ankle_moment", Unit::newton_meter}}, values / kDegree);
   result.trials.push_back(trial);
-  identification::IdentificationResult torque;
-  torque.method = identification::Method::torque;
+  fit::IdentificationResult torque;
+  torque.method = fit::Method::torque;
   for (const char* joint : {"knee", "ankle"}) {
-    identification::TrialFit fit;
+    fit::TrialFit fit;
     fit.trial = "squat";
     fit.joint = joint;
     fit.calibration = false;
     fit.time_s = time;
     fit.torque_nm = fit.literature_torque_nm = fit.torque_fit_nm = values.col(0);
-    fit.score = identification::score(fit.torque_nm, fit.torque_fit_nm);
+    fit.score = fit::score(fit.torque_nm, fit.torque_fit_nm);
     torque.trials.push_back(fit);
-    identification::Fold fold;
+    fit::Fold fold;
     fold.trial = "squat";
     fold.joint = joint;
     fold.time_s = time;
@@ -45,9 +45,9 @@ StudyResult two_joints() {
 }
 
 TEST(TorqueReport, EveryJointOfATrialHasItsRowAndItsPanel) {
-  const std::vector<report::Section> sections = validation_sections(two_joints());
+  const std::vector<page::Section> sections = validation_sections(two_joints());
   ASSERT_EQ(sections.size(), 2U);
-  for (const report::Section& section : sections) {
+  for (const page::Section& section : sections) {
     ASSERT_EQ(section.tables.at(0).rows.size(), 2U);
     EXPECT_EQ(section.tables[0].rows[0][0].text, "squat, knee");
     EXPECT_EQ(section.tables[0].rows[1][0].text, "squat, ankle");
@@ -56,18 +56,18 @@ TEST(TorqueReport, EveryJointOfATrialHasItsRowAndItsPanel) {
 }
 
 TEST(TorqueReport, RangesOfSeveralJointsStandInTheOrderOfTheCoordinates) {
-  const report::Table table = trials_table(two_joints());
+  const page::Table table = trials_table(two_joints());
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0][4].text, "10 to 60; -5 to 25 deg");
   EXPECT_EQ(table.rows[0][5].text, "10.0 to 60.0; -5.0 to 25.0 N m");
 }
 
 TEST(TorqueReport, WithoutHeldBackOrLeftOutTrialsThereIsNothingToValidate) {
-  StudyResult result = two_joints();
+  run::StudyResult result = two_joints();
   result.folds.clear();
-  for (identification::TrialFit& fit : result.fit.methods[0].trials) fit.calibration = true;
+  for (fit::TrialFit& fit : result.fit.methods[0].trials) fit.calibration = true;
   EXPECT_TRUE(validation_sections(result).empty());
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

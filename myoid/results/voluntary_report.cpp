@@ -8,22 +8,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/units.h"
-#include "myoid/files/quoted_text.h"
-#include "myoid/files/text_file.h"
-#include "myoid/report/forest.h"
-#include "myoid/report/muscle_names.h"
-#include "myoid/report/typeset.h"
-#include "myoid/report/verdict_mark.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/files/quoted_text.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/page/forest.h"
+#include "myoid/page/muscle_names.h"
+#include "myoid/page/typeset.h"
+#include "myoid/page/verdict_mark.h"
 #include "myoid/results/parameter_tables.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
-using identification::VoluntaryCurve;
-using report::Cell;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
+using fit::VoluntaryCurve;
+using page::Cell;
 
 /// Returns the curve's row with this parameter; null: none.
 const ParameterEstimate* row_of(const IdentificationResult& method,
@@ -36,11 +36,11 @@ const ParameterEstimate* row_of(const IdentificationResult& method,
 }
 
 const ParameterEstimate* torque_of(const IdentificationResult& method, const VoluntaryCurve& curve) {
-  return row_of(method, curve, std::string(identification::kVoluntaryTorque));
+  return row_of(method, curve, std::string(fit::kVoluntaryTorque));
 }
 
 const ParameterEstimate* angle_of(const IdentificationResult& method, const VoluntaryCurve& curve) {
-  return row_of(method, curve, std::string(identification::kVoluntaryAngle));
+  return row_of(method, curve, std::string(fit::kVoluntaryAngle));
 }
 
 /// Returns the owner for people, muscles as `spelled_muscle` writes them: "Biceps", "Biceps at the knee angle", "elbow
@@ -48,15 +48,15 @@ const ParameterEstimate* angle_of(const IdentificationResult& method, const Volu
 std::string name_of(const VoluntaryCurve& curve, std::string (*spelled_muscle)(std::string_view)) {
   if (!curve.of_joint) {
     const std::string muscle = spelled_muscle(curve.owner);
-    return curve.ending.empty() ? muscle : fmt::format("{} at {}", muscle, report::spelled(curve.joint));
+    return curve.ending.empty() ? muscle : fmt::format("{} at {}", muscle, page::spelled(curve.joint));
   }
   std::vector<std::string> muscles;
   for (const std::string& name : curve.muscles) muscles.push_back(spelled_muscle(name));
-  return fmt::format("{}, {}{}", report::spelled(curve.joint), fmt::join(muscles, " + "),
+  return fmt::format("{}, {}{}", page::spelled(curve.joint), fmt::join(muscles, " + "),
                      curve.direction > 0 ? "" : " (negative direction)");
 }
 
-std::string plain_name(const VoluntaryCurve& curve) { return name_of(curve, report::plain_muscle); }
+std::string plain_name(const VoluntaryCurve& curve) { return name_of(curve, page::plain_muscle); }
 
 bool is_at_end(const VoluntaryCurve& curve) {
   Eigen::Index top = 0;
@@ -70,15 +70,15 @@ std::string angle_text(const VoluntaryCurve& curve, const ParameterEstimate& ang
   return degrees(angle.estimate) + (is_at_end(curve) ? " or beyond" : "");
 }
 
-std::string spelled_verdict(const ParameterEstimate& e) { return report::spelled(identification::name(e.verdict)); }
+std::string spelled_verdict(const ParameterEstimate& e) { return page::spelled(fit::name(e.verdict)); }
 
-std::string size_text(const ParameterEstimate& e) { return report::format_beside(e.estimate, e.ci_low, e.ci_high); }
+std::string size_text(const ParameterEstimate& e) { return page::format_beside(e.estimate, e.ci_low, e.ci_high); }
 
 std::string sentence(const VoluntaryLine& line) {
   const ParameterEstimate& torque = *line.torque;
   std::string text = fmt::format("{}: {} N m", line.name, size_text(torque));
   if (line.angle != nullptr) text += " at " + line.place;
-  text += fmt::format(", 95 % {} N m", report::format_interval(*torque.ci_low, *torque.ci_high));
+  text += fmt::format(", 95 % {} N m", page::format_interval(*torque.ci_low, *torque.ci_high));
   if (line.angle != nullptr)
     text += fmt::format(" and {} to {}", degrees(*line.angle->ci_low), degrees(*line.angle->ci_high));
   text += fmt::format(" ({}", spelled_verdict(torque));
@@ -90,8 +90,8 @@ std::string sentence(const VoluntaryLine& line) {
 std::string powers_text(const IdentificationResult& method, const VoluntaryCurve& curve) {
   std::vector<std::string> powers;
   for (const ParameterEstimate& e : method.estimates) {
-    if (e.muscle != curve.owner || !identification::is_voluntary_power(e.parameter)) continue;
-    const std::string speed = e.parameter.substr(identification::kVoluntaryPower.size() + 1);
+    if (e.muscle != curve.owner || !fit::is_voluntary_power(e.parameter)) continue;
+    const std::string speed = e.parameter.substr(fit::kVoluntaryPower.size() + 1);
     const std::size_t digits = std::min(speed.find_first_not_of("0123456789"), speed.size());
     if (speed.substr(digits) != curve.ending) continue;
     powers.push_back(fmt::format("{} at {}°/s", size_text(e), speed.substr(0, digits)));
@@ -99,25 +99,25 @@ std::string powers_text(const IdentificationResult& method, const VoluntaryCurve
   return powers.empty() ? "–" : fmt::format("{}", fmt::join(powers, ", "));
 }
 
-Cell truth_cell(const StudyResult& result, const ParameterEstimate& e, double unit) {
+Cell truth_cell(const run::StudyResult& result, const ParameterEstimate& e, double unit) {
   const std::optional<double> truth = truth_of(result, e);
   if (!truth) return {"-"};
   const bool inside = *truth >= *e.ci_low && *truth <= *e.ci_high;
-  return {report::format_beside(*truth / unit, *e.ci_low / unit, *e.ci_high / unit),
-          inside ? report::Badge::good : report::Badge::weak};
+  return {page::format_beside(*truth / unit, *e.ci_low / unit, *e.ci_high / unit),
+          inside ? page::Badge::good : page::Badge::weak};
 }
 
 Cell verdict_cell(const ParameterEstimate* e) {
   if (e == nullptr) return {"–"};
-  return {spelled_verdict(*e), report::verdict_badge(identification::name(e->verdict)), e->reason};
+  return {spelled_verdict(*e), page::verdict_badge(fit::name(e->verdict)), e->reason};
 }
 
 std::string interval_text(const std::optional<double>& low, const std::optional<double>& high, double unit) {
-  return low && high ? report::format_interval(*low / unit, *high / unit) : "–";
+  return low && high ? page::format_interval(*low / unit, *high / unit) : "–";
 }
 
-report::Table table_of(const StudyResult& result, const IdentificationResult& method) {
-  report::Table table{
+page::Table table_of(const run::StudyResult& result, const IdentificationResult& method) {
+  page::Table table{
       .id = "voluntary_torque",
       .title = "Greatest voluntary torque, steady, and power",
       .caption =
@@ -132,7 +132,7 @@ report::Table table_of(const StudyResult& result, const IdentificationResult& me
   for (const VoluntaryLine& line : voluntary_lines(method)) {
     const VoluntaryCurve& curve = *line.curve;
     const ParameterEstimate *torque = line.torque, *angle = line.angle;
-    std::vector<Cell> row{{name_of(curve, report::plain_muscle_and_name)},
+    std::vector<Cell> row{{name_of(curve, page::plain_muscle_and_name)},
                           {size_text(*torque)},
                           {interval_text(torque->ci_low, torque->ci_high, 1.0)},
                           verdict_cell(torque),
@@ -150,33 +150,32 @@ report::Table table_of(const StudyResult& result, const IdentificationResult& me
   return table;
 }
 
-report::Panel panel_of(const VoluntaryCurve& curve) {
+page::Panel panel_of(const VoluntaryCurve& curve) {
   const bool over_angle = curve.angle_rad.size() > 0;
-  const std::vector<double> x = report::to_vector(over_angle ? Eigen::VectorXd(curve.angle_rad / kDegree)
-                                                             : Eigen::VectorXd(1e3 * curve.length_m));
-  report::Panel panel{.title = plain_name(curve)};
-  panel.x = over_angle ? report::Axis{.label = report::spelled(curve.joint), .unit = "deg"}
-                       : report::Axis{.label = "length of muscle and tendon", .unit = "mm"};
+  const std::vector<double> x =
+      page::to_vector(over_angle ? Eigen::VectorXd(curve.angle_rad / kDegree) : Eigen::VectorXd(1e3 * curve.length_m));
+  page::Panel panel{.title = plain_name(curve)};
+  panel.x = over_angle ? page::Axis{.label = page::spelled(curve.joint), .unit = "deg"}
+                       : page::Axis{.label = "length of muscle and tendon", .unit = "mm"};
   panel.y = {.label = "torque", .unit = "N m", .lower = 0.0};
-  report::Series person{"95 %, of the person", x, report::to_vector(curve.low_nm), report::Role::band};
-  person.y_upper = report::to_vector(curve.high_nm);
-  report::Series given{"95 %, given geometry and sensors", x, report::to_vector(curve.given_low_nm),
-                       report::Role::norm};
-  given.y_upper = report::to_vector(curve.given_high_nm);
+  page::Series person{"95 %, of the person", x, page::to_vector(curve.low_nm), page::Role::band};
+  person.y_upper = page::to_vector(curve.high_nm);
+  page::Series given{"95 %, given geometry and sensors", x, page::to_vector(curve.given_low_nm), page::Role::norm};
+  given.y_upper = page::to_vector(curve.given_high_nm);
   panel.series = {std::move(person),
                   std::move(given),
-                  {"greatest voluntary torque", x, report::to_vector(curve.torque_nm), report::Role::identified}};
+                  {"greatest voluntary torque", x, page::to_vector(curve.torque_nm), page::Role::identified}};
   return panel;
 }
 
-report::Figure figure_of(const IdentificationResult& method) {
-  report::Figure figure{.id = "voluntary_torque",
-                        .title = "Greatest voluntary torque over the joint's angle",
-                        .caption =
-                            "Steady efforts at the activation of the maximal contraction, over the recorded "
-                            "angles. A dynamometer would measure these torques if one muscle pulled alone.",
-                        .panels = {},
-                        .columns = 2};
+page::Figure figure_of(const IdentificationResult& method) {
+  page::Figure figure{.id = "voluntary_torque",
+                      .title = "Greatest voluntary torque over the joint's angle",
+                      .caption =
+                          "Steady efforts at the activation of the maximal contraction, over the recorded "
+                          "angles. A dynamometer would measure these torques if one muscle pulled alone.",
+                      .panels = {},
+                      .columns = 2};
   for (const VoluntaryLine& line : voluntary_lines(method)) figure.panels.push_back(panel_of(*line.curve));
   figure.bad = "The band is as high as the curve, or the curve still rises at the end of the recorded angles.";
   figure.act =
@@ -200,8 +199,8 @@ std::vector<VoluntaryLine> voluntary_lines(const IdentificationResult& method) {
 }
 
 bool is_told(const ParameterEstimate& e) {
-  return e.verdict == identification::Verdict::identified || e.verdict == identification::Verdict::reproducible ||
-         e.verdict == identification::Verdict::weak;
+  return e.verdict == fit::Verdict::identified || e.verdict == fit::Verdict::reproducible ||
+         e.verdict == fit::Verdict::weak;
 }
 
 std::vector<std::string> voluntary_sentences(const IdentificationResult& method) {
@@ -216,7 +215,7 @@ std::string voluntary_headline(const IdentificationResult& method) {
     if (!is_told(*line.torque)) continue;
     const bool placed = line.angle != nullptr && is_told(*line.angle);
     parts.push_back(fmt::format("{} {} N m ({}){}", line.name, size_text(*line.torque),
-                                report::format_interval(*line.torque->ci_low, *line.torque->ci_high),
+                                page::format_interval(*line.torque->ci_low, *line.torque->ci_high),
                                 placed ? " at " + line.place : ""));
   }
   if (parts.empty()) return "";
@@ -225,12 +224,12 @@ std::string voluntary_headline(const IdentificationResult& method) {
                      fmt::join(parts, "; "));
 }
 
-report::Section voluntary_section(const StudyResult& result, const IdentificationResult& method) {
-  report::Section section{.id = "voluntary",
-                          .heading = "How strong is each muscle, and at which angle",
-                          .before_numbers = true,
-                          .tables = {table_of(result, method)},
-                          .figures = {figure_of(method)}};
+page::Section voluntary_section(const run::StudyResult& result, const IdentificationResult& method) {
+  page::Section section{.id = "voluntary",
+                        .heading = "How strong is each muscle, and at which angle",
+                        .before_numbers = true,
+                        .tables = {table_of(result, method)},
+                        .figures = {figure_of(method)}};
   section.paragraphs.push_back(
       "The greatest torque that each muscle makes about the joint by itself. The size of its "
       "moment arm, the effort of the maximal contraction and the scale of the EMG cancel in it, "
@@ -245,7 +244,7 @@ report::Section voluntary_section(const StudyResult& result, const Identificatio
         (e.estimate < *e.given_ci_low || e.estimate > *e.given_ci_high))
       outside.push_back(line.name);
   }
-  if (!outside.empty()) section.paragraphs.push_back(report::outside_given_sentence(outside));
+  if (!outside.empty()) section.paragraphs.push_back(page::outside_given_sentence(outside));
   if (std::ranges::any_of(method.voluntary, &VoluntaryCurve::averaged))
     section.paragraphs.push_back(
         "Other joints move these muscles, too: the torque at an angle is that of their mean length there.");
@@ -256,12 +255,11 @@ std::string voluntary_csv(const IdentificationResult& method) {
   std::string text =
       "owner,joint,direction,muscles,angle_rad,length_m,torque_nm,low_nm,high_nm,given_low_nm,given_high_nm\n";
   for (const VoluntaryCurve& curve : method.voluntary) {
-    const std::string head =
-        fmt::format("{},{},{},{}", recording::csv_cell(curve.owner), recording::csv_cell(curve.joint),
-                    curve.direction > 0 ? "positive" : "negative",
-                    recording::csv_cell(fmt::format("{}", fmt::join(curve.muscles, "+"))));
+    const std::string head = fmt::format("{},{},{},{}", csv_cell(curve.owner), csv_cell(curve.joint),
+                                         curve.direction > 0 ? "positive" : "negative",
+                                         csv_cell(fmt::format("{}", fmt::join(curve.muscles, "+"))));
     const auto cell = [](const Eigen::VectorXd& values, Eigen::Index i) {
-      return i < values.size() ? recording::format_number(values[i]) : std::string();
+      return i < values.size() ? format_number(values[i]) : std::string();
     };
     for (Eigen::Index i = 0; i < curve.torque_nm.size(); ++i)
       text += fmt::format("{},{},{},{},{},{},{},{}\n", head, cell(curve.angle_rad, i), cell(curve.length_m, i),
@@ -271,4 +269,4 @@ std::string voluntary_csv(const IdentificationResult& method) {
   return text;
 }
 
-}  // namespace myoid
+}  // namespace myoid::results

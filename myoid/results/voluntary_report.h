@@ -3,46 +3,45 @@
 #include <string>
 #include <vector>
 
-#include "myoid/intervals/result.h"
-#include "myoid/report/report.h"
+#include "myoid/fit/intervals/result.h"
+#include "myoid/page/report.h"
 #include "myoid/run/study_result.h"
 
-namespace myoid {
+namespace myoid::results {
 
 /// A greatest voluntary torque for people.
 struct VoluntaryLine {
-  const identification::VoluntaryCurve* curve = nullptr;
-  const identification::ParameterEstimate* torque = nullptr;
-  const identification::ParameterEstimate* angle = nullptr;  ///< Null: no angle.
+  const fit::VoluntaryCurve* curve = nullptr;
+  const fit::ParameterEstimate* torque = nullptr;
+  const fit::ParameterEstimate* angle = nullptr;  ///< Null: no angle.
   std::string name;   ///< "Biceps", "Biceps at the knee angle", "elbow flexion, Biceps + Brachialis"
   std::string place;  ///< "85°", "110° or beyond"; empty: no angle.
 };
 
 /// Returns the lines in the order of IdentificationResult::voluntary. A joint's torque that one muscle makes is that
 /// muscle's line, and has none of its own.
-[[nodiscard]] std::vector<VoluntaryLine> voluntary_lines(const identification::IdentificationResult& method);
+[[nodiscard]] std::vector<VoluntaryLine> voluntary_lines(const fit::IdentificationResult& method);
 
 /// Returns true if the recording tells the number for the person, or for sessions of the person.
-[[nodiscard]] bool is_told(const identification::ParameterEstimate& e);
+[[nodiscard]] bool is_told(const fit::ParameterEstimate& e);
 
 /// Returns a sentence for each of `voluntary_lines`:
 ///
 ///   Biceps: 41.2 N m at 85°, 95 % 38.1 to 44.6 N m and 78° to 91° (identified; angle weak)
 ///
-/// Muscles have their plain names (report/muscle_names.h). "at 110° or beyond" where the torque is greatest at the end
+/// Muscles have their plain names (page/muscle_names.h). "at 110° or beyond" where the torque is greatest at the end
 /// of the recorded range.
-[[nodiscard]] std::vector<std::string> voluntary_sentences(const identification::IdentificationResult& method);
+[[nodiscard]] std::vector<std::string> voluntary_sentences(const fit::IdentificationResult& method);
 
 /// Returns the torques that the recording tells, as the report's first sentence with a blank behind it; empty: none.
 ///
 ///   Greatest voluntary torque (95 % interval): Biceps 43 N m (36 to 50) at 92°; Triceps 52 N m (47 to 58).
-[[nodiscard]] std::string voluntary_headline(const identification::IdentificationResult& method);
+[[nodiscard]] std::string voluntary_headline(const fit::IdentificationResult& method);
 
 /// Returns the section of the greatest voluntary torques: the sentences, a table, and the torque over the angle.
-[[nodiscard]] report::Section voluntary_section(const StudyResult& result,
-                                                const identification::IdentificationResult& method);
+[[nodiscard]] page::Section voluntary_section(const run::StudyResult& result, const fit::IdentificationResult& method);
 
 /// Returns the curves, one row per owner and place, with the columns of docs/guide/run.md.
-[[nodiscard]] std::string voluntary_csv(const identification::IdentificationResult& method);
+[[nodiscard]] std::string voluntary_csv(const fit::IdentificationResult& method);
 
-}  // namespace myoid
+}  // namespace myoid::results

@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/units.h"
+#include "myoid/ground/core/units.h"
 
-namespace myoid {
+namespace myoid::results {
 namespace {
 
-using identification::IdentificationResult;
-using identification::ParameterEstimate;
-using identification::Verdict;
-using identification::VoluntaryCurve;
+using fit::IdentificationResult;
+using fit::ParameterEstimate;
+using fit::Verdict;
+using fit::VoluntaryCurve;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -31,7 +31,7 @@ ParameterEstimate row(const std::string& parameter, Unit unit, double low, doubl
 /// A biceps with 41 N m at 85 degrees, and 40 W at 60 degrees a second.
 IdentificationResult biceps() {
   IdentificationResult method;
-  method.method = identification::Method::torque;
+  method.method = fit::Method::torque;
   VoluntaryCurve curve{.owner = "BIC", .joint = "elbow_flexion", .muscles = {"BIC"}};
   curve.angle_rad = Eigen::Vector3d(60.0, 85.0, 110.0) * kDegree;
   curve.length_m = Eigen::Vector3d(0.34, 0.33, 0.32);
@@ -91,17 +91,17 @@ TEST(VoluntaryCsv, HasARowForEachPlace) {
 }
 
 TEST(VoluntarySection, HasTheTableAndTheCurve) {
-  StudyResult result;
+  run::StudyResult result;
   result.source.truth = {{.muscle = "BIC", .parameter = "voluntary_torque", .value = 42.0}};
-  const report::Section section = voluntary_section(result, biceps());
+  const page::Section section = voluntary_section(result, biceps());
   ASSERT_EQ(section.tables.size(), 1U);
   ASSERT_EQ(section.tables[0].rows.size(), 1U);
-  const std::vector<report::Cell>& row = section.tables[0].rows[0];
+  const std::vector<page::Cell>& row = section.tables[0].rows[0];
   ASSERT_EQ(row.size(), section.tables[0].columns.size());
   EXPECT_EQ(row[0].text, "Biceps (BIC)");
   EXPECT_EQ(row[1].text, "41.0");
   EXPECT_THAT(row[7].text, HasSubstr("40.0 at 60°/s"));
-  EXPECT_EQ(row[9].badge, report::Badge::good);
+  EXPECT_EQ(row[9].badge, page::Badge::good);
   ASSERT_EQ(section.figures.size(), 1U);
   EXPECT_EQ(section.figures[0].panels[0].series[2].y[1], 41.0);
   EXPECT_EQ(section.paragraphs.size(), 1U);
@@ -111,4 +111,4 @@ TEST(VoluntarySection, HasTheTableAndTheCurve) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::results

@@ -4,27 +4,27 @@
 
 #include <fmt/format.h>
 
-#include "myoid/beliefs/beliefs.h"
+#include "myoid/fit/beliefs/beliefs.h"
 
-namespace myoid {
+namespace myoid::run {
 
-bool from_maximal_effort(const EmgSpec& emg) { return emg.has_mvc || emg.kind == EmgKind::activation; }
+bool from_maximal_effort(const study::EmgSpec& emg) { return emg.has_mvc || emg.kind == study::EmgKind::activation; }
 
-bool effort_is_unknown(const Study& study) { return !from_maximal_effort(study.emg) && study.identify.gain; }
+bool effort_is_unknown(const study::Study& study) { return !from_maximal_effort(study.emg) && study.identify.gain; }
 
 Prior any_effort() {
   // Mean and spread of a logarithm that is uniform from ln(least) to 0.
-  const double least = identification::beliefs::kLeastEffort.value;
+  const double least = fit::beliefs::kLeastEffort.value;
   return {.mean = std::sqrt(least), .sd = -std::log(least) / std::sqrt(12.0), .logarithmic = true};
 }
 
-double unseen_effort(const Study& study) {
+double unseen_effort(const study::Study& study) {
   const bool by_gain = !from_maximal_effort(study.emg) || study.emg.mvc_effort_sd > 0.0;
   return by_gain ? 0.0 : study.beliefs.effort;
 }
 
-std::string meaning_of_strength(const Study& study, bool maximal) {
-  const EmgSpec& emg = study.emg;
+std::string meaning_of_strength(const study::Study& study, bool maximal) {
+  const study::EmgSpec& emg = study.emg;
   if (!maximal && effort_is_unknown(study))
     return "F_max is the muscle's maximum and rests on the literature: the share of it at the largest EMG is an "
            "unknown. Record a maximal contraction.";
@@ -42,18 +42,18 @@ std::string meaning_of_strength(const Study& study, bool maximal) {
       100.0 * unseen_effort(study));
 }
 
-identification::ParameterRule effort_bounds() {
-  identification::ParameterRule rule;
-  rule.parameter = identification::beliefs::kEmgGain.name;
-  rule.lower = identification::beliefs::kLeastEffort.value;
+fit::ParameterRule effort_bounds() {
+  fit::ParameterRule rule;
+  rule.parameter = fit::beliefs::kEmgGain.name;
+  rule.lower = fit::beliefs::kLeastEffort.value;
   rule.upper = 1.0;
   rule.usual = true;
   return rule;
 }
 
-void expect_any_effort(std::vector<identification::MuscleSetup>& muscles) {
+void expect_any_effort(std::vector<fit::MuscleSetup>& muscles) {
   const Prior share = any_effort();
-  for (identification::MuscleSetup& muscle : muscles) {
+  for (fit::MuscleSetup& muscle : muscles) {
     const auto found = muscle.priors.find("max_isometric_force");
     if (found == muscle.priors.end()) continue;
     Prior& prior = found->second;
@@ -62,4 +62,4 @@ void expect_any_effort(std::vector<identification::MuscleSetup>& muscles) {
   }
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

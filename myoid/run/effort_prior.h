@@ -3,38 +3,38 @@
 #include <string>
 #include <vector>
 
-#include "myoid/identification/study_data.h"
+#include "myoid/fit/measurement/study_data.h"
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// Returns true if activation 1 is a maximal effort: the study has a trial of maximal effort, or
 /// the EMG came as activation.
-[[nodiscard]] bool from_maximal_effort(const EmgSpec& emg);
+[[nodiscard]] bool from_maximal_effort(const study::EmgSpec& emg);
 
 /// Returns true if the share of the maximum that a channel's greatest EMG is counts as an unknown,
 /// the channel's gain: there is no maximal contraction, and the posterior can carry a
 /// share that nothing but beliefs tells apart from F_max.
-[[nodiscard]] bool effort_is_unknown(const Study& study);
+[[nodiscard]] bool effort_is_unknown(const study::Study& study);
 
 /// Returns the prior of that share. Antagonists of resisted movements reach 5 to 20 % of their maximum (Kellis 1998,
 /// Sports Med 25:37-62), the muscles of walking 10 to 80 % of a manual test's (Perry & Burnfield 2010). Any ratio
-/// between identification::beliefs::kLeastEffort and 1 is as likely as any other: ln(share) = ln 0.22 +- 0.86.
+/// between fit::beliefs::kLeastEffort and 1 is as likely as any other: ln(share) = ln 0.22 +- 0.86.
 [[nodiscard]] Prior any_effort();
 
 /// Returns the spread of a maximal contraction's force about that of a completely active muscle,
 /// (UnseenSpreads::effort): 0 where the gain carries the spread,
 /// because the study states it or no effort is maximal.
-[[nodiscard]] double unseen_effort(const Study& study);
+[[nodiscard]] double unseen_effort(const study::Study& study);
 
 /// Returns a sentence that says which force F_max is. `maximal`: the largest EMG is that of a maximal contraction.
-[[nodiscard]] std::string meaning_of_strength(const Study& study, bool maximal);
+[[nodiscard]] std::string meaning_of_strength(const study::Study& study, bool maximal);
 
 /// Returns the bounds of the gains where the effort is unknown: from the least effort to 1.
-[[nodiscard]] identification::ParameterRule effort_bounds();
+[[nodiscard]] fit::ParameterRule effort_bounds();
 
 /// Adds `any_effort` to the priors of F_max where the share is no unknown. F_max is then the force at the greatest EMG
 /// of the recording: the muscle's own times the share. Muscles without a prior for F_max stay without.
-void expect_any_effort(std::vector<identification::MuscleSetup>& muscles);
+void expect_any_effort(std::vector<fit::MuscleSetup>& muscles);
 
-}  // namespace myoid
+}  // namespace myoid::run

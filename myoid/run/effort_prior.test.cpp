@@ -6,13 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 TEST(ExpectAnyEffort, HasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratures) {
-  identification::MuscleSetup muscle;
+  fit::MuscleSetup muscle;
   muscle.priors["max_isometric_force"] = {.mean = 900.0, .sd = 0.25, .logarithmic = true};
-  std::vector<identification::MuscleSetup> muscles{muscle, {}};
+  std::vector<fit::MuscleSetup> muscles{muscle, {}};
   expect_any_effort(muscles);
   // 200 000 draws: mean and spread to 0.003.
   std::mt19937_64 engine(5);
@@ -35,7 +35,7 @@ TEST(ExpectAnyEffort, HasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratu
 
 TEST(MeaningOfStrength, FollowsTheRecordedEfforts) {
   using testing::HasSubstr;
-  Study study;
+  study::Study study;
   study.beliefs.effort = 0.04;
   EXPECT_THAT(meaning_of_strength(study, true), HasSubstr("by 4 %"));
   study.emg.mvc_effort = 0.9;
@@ -49,13 +49,13 @@ TEST(MeaningOfStrength, FollowsTheRecordedEfforts) {
 }
 
 TEST(ExpectAnyEffort, SpreadInNewtonsIsTakenAsARatio) {
-  identification::MuscleSetup in_newtons, in_logarithms;
+  fit::MuscleSetup in_newtons, in_logarithms;
   in_newtons.priors["max_isometric_force"] = {.mean = 900.0, .sd = 180.0};
   in_logarithms.priors["max_isometric_force"] = {.mean = 900.0, .sd = 0.2, .logarithmic = true};
-  std::vector<identification::MuscleSetup> muscles{in_newtons, in_logarithms};
+  std::vector<fit::MuscleSetup> muscles{in_newtons, in_logarithms};
   expect_any_effort(muscles);
   EXPECT_NEAR(muscles[0].priors["max_isometric_force"].sd, muscles[1].priors["max_isometric_force"].sd, 1e-12);
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

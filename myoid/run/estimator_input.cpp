@@ -6,21 +6,21 @@
 #include <utility>
 #include <vector>
 
-#include "myoid/beliefs/beliefs.h"
-#include "myoid/core/units.h"
-#include "myoid/identification/nuisances.h"
-#include "myoid/intake/emg_cover.h"
-#include "myoid/kinematics/lumped_muscles.h"
+#include "myoid/body/kinematics/lumped_muscles.h"
+#include "myoid/fit/beliefs/beliefs.h"
+#include "myoid/fit/measurement/nuisances.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/resting_joints.h"
+#include "myoid/study/intake/emg_cover.h"
 #include "myoid/study/study_model.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 /// Adds angle, speed and acceleration of a joint and its resting torque, as far as the angle is known.
-void add_motion(const kinematics::JointMotion& motion,
-                const std::vector<identification::RestingJoint>& resting,
+void add_motion(const body::JointMotion& motion,
+                const std::vector<fit::RestingJoint>& resting,
                 const std::string& name,
                 auto& joint) {
   joint.resting_nm = resting_torque_nm(resting, name, motion.q);
@@ -36,18 +36,18 @@ Eigen::MatrixXd torques_of(const TrialForces& forces, std::size_t joints) {
   return Eigen::MatrixXd::Zero(forces.muscles.length.sample_count(), static_cast<Eigen::Index>(joints));
 }
 
-identification::TrialData trial_data(const Study& study,
-                                     const TrialSpec& spec,
-                                     const TrialResult& trial,
-                                     const TimeSeries& activation,
-                                     const std::vector<kinematics::MuscleGroup>& groups,
-                                     const std::vector<identification::RestingJoint>& resting) {
-  identification::TrialData data;
+fit::TrialData trial_data(const study::Study& study,
+                          const study::TrialSpec& spec,
+                          const TrialResult& trial,
+                          const TimeSeries& activation,
+                          const std::vector<body::MuscleGroup>& groups,
+                          const std::vector<fit::RestingJoint>& resting) {
+  fit::TrialData data;
   data.name = trial.spec.name;
   data.calibration = study.fits(spec);
-  data.reference = spec.use == Use::mvc;
+  data.reference = spec.use == study::Use::mvc;
   data.time_s = trial.motion.joints.q.time_s();
-  kinematics::LumpedMuscles lumped = kinematics::lumped_muscles(trial.forces.muscles, groups, study.model.coordinate);
+  body::LumpedMuscles lumped = body::lumped_muscles(trial.forces.muscles, groups, study.model.coordinate);
   data.length_m = std::move(lumped.length_m);
   data.velocity_mps = std::move(lumped.velocity_mps);
   data.moment_arm_m = std::move(lumped.moment_arm_m);
@@ -67,7 +67,7 @@ identification::TrialData trial_data(const Study& study,
     const std::string& name = study.model.more_coordinates[j];
     data.more_joints.push_back({.joint = name,
                                 .torque_nm = torque_nm.col(static_cast<Eigen::Index>(j) + 1),
-                                .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name)});
+                                .moment_arm_m = body::lumped_moment_arm_m(trial.forces.muscles, groups, name)});
     add_motion(trial.motion.joints, resting, name, data.more_joints.back());
   }
   data.activation = activation;
@@ -76,43 +76,43 @@ identification::TrialData trial_data(const Study& study,
     data.excluded.insert(data.excluded.end(), trial.forces.uncarried->stretches.begin(),
                          trial.forces.uncarried->stretches.end());
   // Times without EMG are not fitted.
-  const Rows rows = rows_with_emg(trial.motion.joints.q.time_s(), activation.time_s());
-  return identification::part(data, rows.first, rows.count());
+  const study::Rows rows = study::rows_with_emg(trial.motion.joints.q.time_s(), activation.time_s());
+  return fit::part(data, rows.first, rows.count());
 }
 
 }  // namespace
 
-identification::StudyData estimator_data(const FitSource& source) {
-  const Study& study = source.study;
-  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, source.model);
-  identification::StudyData data;
-  data.muscles = muscle_setups(study, source.model);
+fit::StudyData estimator_data(const FitSource& source) {
+  const study::Study& study = source.study;
+  const std::vector<body::MuscleGroup> groups = study::muscle_groups(study, source.model);
+  fit::StudyData data;
+  data.muscles = study::muscle_setups(study, source.model);
   const bool unknown_effort = effort_is_unknown(study);
   if (!from_maximal_effort(study.emg) && !unknown_effort) expect_any_effort(data.muscles);
   for (std::size_t i = 0; i < source.trials.size(); ++i) {
     const TrialResult& trial = source.trials[i];
     const TimeSeries& activation = *source.activation[i];
     if (!trial.has_motion() || activation.empty()) continue;
-    const TrialSpec& spec = study.trials[i];
-    if (!study.fits(spec) && spec.use != Use::validation) continue;
+    const study::TrialSpec& spec = study.trials[i];
+    if (!study.fits(spec) && spec.use != study::Use::validation) continue;
     data.trials.push_back(trial_data(study, spec, trial, activation, groups, source.resting));
   }
   // Without an unknown gain EMG that is given as activation is taken at its word.
-  const bool scaled = study.emg.kind == EmgKind::activation ? study.identify.gain : study.emg.has_mvc;
-  data.rules = identification::nuisance_rules(data, scaled);
+  const bool scaled = study.emg.kind == study::EmgKind::activation ? study.identify.gain : study.emg.has_mvc;
+  data.rules = fit::nuisance_rules(data, scaled);
   if (unknown_effort) data.rules.push_back(effort_bounds());
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
-  identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));
+  fit::free_speeds(data, fit::unstated_speeds(data, study.identify.muscles));
   return data;
 }
 
-identification::EstimatorSettings estimator_settings(const Study& study) {
-  const IdentifySpec& spec = study.identify;
-  identification::UnseenSpreads unseen = study.beliefs;
+fit::EstimatorSettings estimator_settings(const study::Study& study) {
+  const study::IdentifySpec& spec = study.identify;
+  fit::UnseenSpreads unseen = study.beliefs;
   unseen.effort = unseen_effort(study);
   return {.muscles = spec.muscles,
           .unseen = unseen,
-          .lag = spec.dynamics ? identification::LagChoice::equation_1 : spec.lag,
+          .lag = spec.dynamics ? fit::LagChoice::equation_1 : spec.lag,
           .delay_s = study.emg.delay_s,
           .delay_per_channel = spec.delay_per_channel,
           .angle_sd_rad = spec.angle_sd_deg * kDegree,
@@ -122,37 +122,35 @@ identification::EstimatorSettings estimator_settings(const Study& study) {
           .posterior_draws = spec.posterior_draws};
 }
 
-identification::ActivationSource activation_source(const Study& study,
-                                                   const std::vector<signals::ChannelNormalisation>& normalisation) {
-  identification::ActivationSource source{.from_mvc = from_maximal_effort(study.emg),
-                                          .envelope_cutoff_hz = study.emg.lowpass_hz};
+fit::ActivationSource activation_source(const study::Study& study,
+                                        const std::vector<recording::ChannelNormalisation>& normalisation) {
+  fit::ActivationSource source{.from_mvc = from_maximal_effort(study.emg), .envelope_cutoff_hz = study.emg.lowpass_hz};
   // Activation 1 is the greatest effort of the MVC trials: a share of the muscle's maximum.
   Prior effort{.mean = 1.0};
   if (study.emg.has_mvc) effort = {.mean = study.emg.mvc_effort, .sd = study.emg.mvc_effort_sd / study.emg.mvc_effort};
   if (effort_is_unknown(study)) effort = any_effort();
-  for (const signals::ChannelNormalisation& n : normalisation) {
-    identification::ChannelSource channel{.channel = n.channel,
-                                          .gain_mean = effort.mean,
-                                          .bandwidth_hz = n.bandwidth_hz,
-                                          .rest = n.resting_level_v / n.reference_v};
+  for (const recording::ChannelNormalisation& n : normalisation) {
+    fit::ChannelSource channel{.channel = n.channel,
+                               .gain_mean = effort.mean,
+                               .bandwidth_hz = n.bandwidth_hz,
+                               .rest = n.resting_level_v / n.reference_v};
     if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, effort.sd);
     source.channels.push_back(std::move(channel));
   }
   // Another program's normalisation is of unknown exactness.
-  if (study.emg.kind != EmgKind::activation || !study.identify.gain) return source;
-  for (const MuscleSpec& muscle : study.muscles) {
-    if (std::ranges::find(source.channels, muscle.emg, &identification::ChannelSource::channel) ==
-        source.channels.end())
-      source.channels.push_back({.channel = muscle.emg, .gain_sd = identification::beliefs::kEmgGain.sd});
+  if (study.emg.kind != study::EmgKind::activation || !study.identify.gain) return source;
+  for (const study::MuscleSpec& muscle : study.muscles) {
+    if (std::ranges::find(source.channels, muscle.emg, &fit::ChannelSource::channel) == source.channels.end())
+      source.channels.push_back({.channel = muscle.emg, .gain_sd = fit::beliefs::kEmgGain.sd});
   }
   return source;
 }
 
-identification::EstimatorOptions torque_options(const Study& study,
-                                                const std::vector<signals::ChannelNormalisation>& normalisation,
-                                                const Progress& progress) {
-  return identification::estimator_options(estimator_settings(study), activation_source(study, normalisation),
-                                           {.report = nullptr, .stop = progress.stop});
+fit::EstimatorOptions torque_options(const study::Study& study,
+                                     const std::vector<recording::ChannelNormalisation>& normalisation,
+                                     const Progress& progress) {
+  return fit::estimator_options(estimator_settings(study), activation_source(study, normalisation),
+                                {.report = nullptr, .stop = progress.stop});
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

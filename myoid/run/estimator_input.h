@@ -2,27 +2,28 @@
 
 #include <vector>
 
-#include "myoid/core/progress.h"
-#include "myoid/identification/options.h"
-#include "myoid/identification/study_data.h"
+#include "myoid/fit/measurement/options.h"
+#include "myoid/fit/measurement/study_data.h"
+#include "myoid/ground/core/progress.h"
+#include "myoid/recording/signals/emg_envelope.h"
 #include "myoid/run/fit_input.h"
-#include "myoid/signals/emg_envelope.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// Makes the data of the estimators: the muscles, every moving trial with EMG (no MVC, static or passive trial) over
 /// the time with EMG, and the rules of the parameters. The nuisances' rules come first, so that the study's own win.
-[[nodiscard]] identification::StudyData estimator_data(const FitSource& source);
+[[nodiscard]] fit::StudyData estimator_data(const FitSource& source);
 
 /// Returns the study's choices about the estimator.
-[[nodiscard]] identification::EstimatorSettings estimator_settings(const Study& study);
+[[nodiscard]] fit::EstimatorSettings estimator_settings(const study::Study& study);
 
 /// Returns the facts about the activations that follow from the EMG's normalisation, with the gains' priors.
-[[nodiscard]] identification::ActivationSource activation_source(
-    const Study& study, const std::vector<signals::ChannelNormalisation>& normalisation);
+[[nodiscard]] fit::ActivationSource activation_source(
+    const study::Study& study, const std::vector<recording::ChannelNormalisation>& normalisation);
 
 /// Makes the estimator's options from both. Only the stop of `progress` is passed on.
-[[nodiscard]] identification::EstimatorOptions torque_options(
-    const Study& study, const std::vector<signals::ChannelNormalisation>& normalisation, const Progress& progress);
+[[nodiscard]] fit::EstimatorOptions torque_options(const study::Study& study,
+                                                   const std::vector<recording::ChannelNormalisation>& normalisation,
+                                                   const Progress& progress);
 
-}  // namespace myoid
+}  // namespace myoid::run

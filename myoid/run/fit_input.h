@@ -4,27 +4,27 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/core/progress.h"
-#include "myoid/core/time_series.h"
-#include "myoid/identification/options.h"
-#include "myoid/identification/study_data.h"
-#include "myoid/intake/study_activation.h"
-#include "myoid/methods/resting_torque.h"
-#include "myoid/model/body_model.h"
-#include "myoid/phases/phases.h"
+#include "myoid/body/model/body_model.h"
+#include "myoid/fit/measurement/options.h"
+#include "myoid/fit/measurement/study_data.h"
+#include "myoid/fit/methods/resting_torque.h"
+#include "myoid/ground/core/progress.h"
+#include "myoid/ground/core/time_series.h"
 #include "myoid/run/trial_result.h"
+#include "myoid/study/intake/study_activation.h"
+#include "myoid/study/phases/phases.h"
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// The findings from which the data of a fit are made; the struct owns nothing.
 struct FitSource {
-  const Study& study;  ///< With the uses of the trials.
-  const model::BodyModel& model;
+  const study::Study& study;  ///< With the uses of the trials.
+  const body::BodyModel& model;
   const std::vector<TrialResult>& trials;
-  const std::vector<identification::RestingJoint>& resting;
+  const std::vector<fit::RestingJoint>& resting;
   std::vector<const TimeSeries*> activation;  ///< One per trial; empty series: no EMG.
-  const EmgScale& scale;                      ///< Scale of `activation`.
+  const study::EmgScale& scale;               ///< Scale of `activation`.
 };
 
 /// Says why the nuisances are held.
@@ -35,10 +35,10 @@ inline constexpr std::string_view kFewRows =
 
 /// The data and the options of a fit.
 struct FitInput {
-  identification::StudyData data;  ///< Without the phases that the study excludes.
-  identification::EstimatorOptions options;
-  std::vector<TrialPhases> phases;  ///< Phases of the trials of `data`; empty: not searched.
-  bool nuisances_held = false;      ///< The trials are too few to tell them (identification::tells_nuisances).
+  fit::StudyData data;  ///< Without the phases that the study excludes.
+  fit::EstimatorOptions options;
+  std::vector<study::TrialPhases> phases;  ///< Phases of the trials of `data`; empty: not searched.
+  bool nuisances_held = false;             ///< The trials are too few to tell them (fit::tells_nuisances).
 };
 
 /// Makes the data of the estimators, their options and the phases of the trials. Of given activations the nuisances are
@@ -47,4 +47,4 @@ struct FitInput {
                                  const Progress& progress,
                                  std::optional<bool> hold = std::nullopt);
 
-}  // namespace myoid
+}  // namespace myoid::run

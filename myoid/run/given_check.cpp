@@ -6,23 +6,23 @@
 
 #include <fmt/format.h>
 
-#include "myoid/checks/fiber_room.h"
-#include "myoid/checks/trial_plausibility.h"
-#include "myoid/core/error.h"
-#include "myoid/dynamics/joint_capacity.h"
-#include "myoid/dynamics/torque_plausibility.h"
-#include "myoid/files/text_file.h"
-#include "myoid/math/decompositions.h"
-#include "myoid/math/statistics.h"
-#include "myoid/methods/prediction.h"
+#include "myoid/body/dynamics/joint_capacity.h"
+#include "myoid/body/dynamics/torque_plausibility.h"
+#include "myoid/fit/methods/prediction.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/ground/math/decompositions.h"
+#include "myoid/ground/math/statistics.h"
+#include "myoid/recording/signals/emg_levels.h"
 #include "myoid/run/torque_sign.h"
-#include "myoid/signals/emg_levels.h"
+#include "myoid/study/checks/fiber_room.h"
+#include "myoid/study/checks/trial_plausibility.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::StudyData;
-using identification::TrialData;
+using fit::StudyData;
+using fit::TrialData;
 
 constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
 constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
@@ -44,7 +44,7 @@ constexpr double kShortestActive = 0.4, kLongestActive = 1.8;
 
 /// Returns true if a file's name is that of musculotendon lengths in OpenSim or CEINMS.
 bool names_whole_muscles(const std::string& path) {
-  const std::string name = recording::small_letters(std::filesystem::path(path).stem().string());
+  const std::string name = small_letters(std::filesystem::path(path).stem().string());
   return name.ends_with("muscleanalysis_length") || name.find("lmt") != std::string::npos ||
          name.find("muscletendon") != std::string::npos || name.find("musculotendon") != std::string::npos;
 }
@@ -158,7 +158,8 @@ class TrialCheck {
         lengths_without_tendon(k, typical, found);
         continue;
       }
-      const FiberRoom room = fiber_room(muscle(k), typical, start.tendon_slack_length_m, start.optimal_fiber_length_m);
+      const study::FiberRoom room =
+          study::fiber_room(muscle(k), typical, start.tendon_slack_length_m, start.optimal_fiber_length_m);
       if (room.none) fail(files_.lengths, room.says + "; are these fiber lengths? Then their tendon_slack_length is 0");
       if (!room.says.empty())
         remark(files_.lengths, room.says + "; check tendon_slack_length and optimal_fiber_length of the start");
@@ -197,13 +198,13 @@ class TrialCheck {
   void activations() {
     if (files_.activations.empty()) return;
     double largest = 0.0;
-    for (const identification::MuscleSetup& setup : data_.muscles) {
+    for (const fit::MuscleSetup& setup : data_.muscles) {
       const Eigen::VectorXd a = trial_.activation.column(setup.emg_channel);
       const double low = a.minCoeff(), high = a.maxCoeff();
       largest = std::max(largest, high);
       const std::string found = fmt::format("activation '{}' from {:.3g} to {:.3g}", setup.emg_channel, low, high);
       const double rate_hz = trial_.activation.mean_rate_hz();
-      const bool spike = high > kCertainlyHigh && signals::time_above_s(a, rate_hz, kCertainlyHigh) < kSpike_s;
+      const bool spike = high > kCertainlyHigh && recording::time_above_s(a, rate_hz, kCertainlyHigh) < kSpike_s;
       if (spike)
         remark(files_.activations, fmt::format("{}, above {:g} for less than {:g} s: an artefact? Leave that time out "
                                                "or mend the EMG",
@@ -224,7 +225,7 @@ class TrialCheck {
                            found, largest_mean(a), kHighestActivation));
       if (low < kLowestActivation) remark(files_.activations, found + ", expected 0 to 1");
     }
-    if (largest < kFlatActivation)
+    if (largest < study::kFlatActivation)
       remark(files_.activations, fmt::format("no activation above {:.2g}, expected up to 1 in the greatest effort; is "
                                              "this EMG in volts? Divide by the EMG of a maximal contraction",
                                              largest));
@@ -377,12 +378,12 @@ class TrialCheck {
     for (std::size_t j = 0; j < joints; ++j) {
       const auto pull_nm = (arms(j) * strength_n.asDiagonal()).eval();
       // The files do not state the person's size: 100 kg at 1 m bound it.
-      const dynamics::JointCapacity joint{.positive_nm = pull_nm.cwiseMax(0.0).rowwise().sum().maxCoeff(),
-                                          .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
-                                          .lever_m = 1.0,
-                                          .body_mass_kg = 100.0};
-      const std::string text = dynamics::too_much_torque(joint_at(trial_, j).joint, dynamics::usual_peak(torque(j)),
-                                                         joint.greatest_nm(), "the torque");
+      const body::JointCapacity joint{.positive_nm = pull_nm.cwiseMax(0.0).rowwise().sum().maxCoeff(),
+                                      .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
+                                      .lever_m = 1.0,
+                                      .body_mass_kg = 100.0};
+      const std::string text = body::too_much_torque(joint_at(trial_, j).joint, body::usual_peak(torque(j)),
+                                                     joint.greatest_nm(), "the torque");
       if (!text.empty()) fail(files_.torques, text);
     }
   }
@@ -391,9 +392,9 @@ class TrialCheck {
     const std::size_t joints = files_.moment_arms.size();
     if (joints == 0 || files_.torques.empty()) return;
     std::vector<muscle::HillParameters<double>> start;
-    for (const identification::MuscleSetup& setup : data_.muscles) start.push_back(setup.start);
+    for (const fit::MuscleSetup& setup : data_.muscles) start.push_back(setup.start);
     constexpr double kUsualDelay_s = 0.05;
-    const Eigen::MatrixXd force_n = identification::predict(data_, trial_, start, kUsualDelay_s).force_n;
+    const Eigen::MatrixXd force_n = fit::predict(data_, trial_, start, kUsualDelay_s).force_n;
     const auto predicted = [&](std::size_t j) {
       return Eigen::VectorXd(arms(j).cwiseProduct(force_n).rowwise().sum());
     };
@@ -436,8 +437,8 @@ class TrialCheck {
     for (Eigen::Index i = 0; i < trial_.time_s.size(); ++i) {
       for (; emg < t.size() && t[emg] <= trial_.time_s[i]; ++emg) {
         if (emg > 0 && t[emg] - t[emg - 1] > kLag_s) quiet_since_s = t[emg];
-        for (const identification::MuscleSetup& setup : data_.muscles) {
-          if (trial_.activation.values()(emg, trial_.activation.index(setup.emg_channel)) >= kFlatActivation)
+        for (const fit::MuscleSetup& setup : data_.muscles) {
+          if (trial_.activation.values()(emg, trial_.activation.index(setup.emg_channel)) >= study::kFlatActivation)
             quiet_since_s = t[emg];
         }
       }
@@ -454,14 +455,14 @@ class TrialCheck {
     for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
       const Eigen::VectorXd here = torque(j)(rows);
       const double usual = median_of(here);
-      if (std::abs(usual) < kRestingTorque * dynamics::usual_peak(torque(j))) continue;
+      if (std::abs(usual) < kRestingTorque * body::usual_peak(torque(j))) continue;
       remark(
           files_.torques,
           fmt::format("{:.3g} to {:.3g} N m{} while all EMG is below {:g}, expected about 0: torque without activity "
                       "is that of gravity and passive tissue. Subtract them, or free "
                       "joint_torque_offset and, with the joint's angle, joint_stiffness",
                       here.minCoeff(), here.maxCoeff(),
-                      files_.moment_arms.size() > 1 ? fmt::format(" (joint {})", j + 1) : "", kFlatActivation));
+                      files_.moment_arms.size() > 1 ? fmt::format(" (joint {})", j + 1) : "", study::kFlatActivation));
     }
   }
 
@@ -477,4 +478,4 @@ std::vector<std::string> check_given_trial(const StudyData& data, const TrialDat
   return TrialCheck(data, trial, files).run();
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "myoid/identification/study_data.h"
+#include "myoid/fit/measurement/study_data.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// The files of one trial that give its stages, for messages; empty names: not given, and not checked.
 struct TrialFiles {
@@ -34,8 +34,8 @@ struct TrialFiles {
 /// with the measured one (cosine of both); a fault below -0.8. For two joints with files in the
 /// wrong order, each torque correlates with the other's moment arms; a fault above a correlation of
 /// 0.9 if the own moment arms give less than 0.5.
-[[nodiscard]] std::vector<std::string> check_given_trial(const identification::StudyData& data,
-                                                         const identification::TrialData& trial,
+[[nodiscard]] std::vector<std::string> check_given_trial(const fit::StudyData& data,
+                                                         const fit::TrialData& trial,
                                                          const TrialFiles& files);
 
-}  // namespace myoid
+}  // namespace myoid::run

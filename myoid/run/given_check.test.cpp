@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 #include "tests/support/elbow_study.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::TrialData;
+using fit::TrialData;
 
 const TrialFiles kFiles{
     .activations = "a.sto", .lengths = "l.sto", .velocities = "v.sto", .moment_arms = {"r.sto"}, .torques = "id.sto"};
@@ -234,4 +234,4 @@ TEST(GivenCheck, TorqueWhileAllEmgIsQuietIsNamed) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

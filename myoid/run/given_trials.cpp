@@ -8,24 +8,24 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 #include "myoid/run/given_check.h"
 #include "myoid/run/joint_of_arms.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 /// Returns true if the study frees the torque that the joint has without activity.
-bool frees_resting_torque(const Study& study) {
-  return std::ranges::any_of(study.parameters, [](const identification::ParameterRule& rule) {
+bool frees_resting_torque(const study::Study& study) {
+  return std::ranges::any_of(study.parameters, [](const fit::ParameterRule& rule) {
     return rule.free.value_or(false) &&
            (rule.parameter == "joint_torque_offset" || rule.parameter == "joint_stiffness");
   });
 }
 
-TrialFiles files_of(const Study& study, const TrialSpec& spec) {
+TrialFiles files_of(const study::Study& study, const study::TrialSpec& spec) {
   const auto text = [](const std::optional<std::filesystem::path>& path) { return path ? path->string() : ""; };
-  TrialFiles files{.activations = study.emg.kind == EmgKind::activation ? text(spec.emg) : "",
+  TrialFiles files{.activations = study.emg.kind == study::EmgKind::activation ? text(spec.emg) : "",
                    .lengths = text(spec.given.lengths),
                    .velocities = text(spec.given.velocities),
                    .moment_arms = {},
@@ -36,9 +36,9 @@ TrialFiles files_of(const Study& study, const TrialSpec& spec) {
 }
 
 /// Returns a sentence for each suspicious value of one trial.
-std::vector<std::string> doubts(const Study& study,
-                                const identification::StudyData& data,
-                                const identification::TrialData& trial,
+std::vector<std::string> doubts(const study::Study& study,
+                                const fit::StudyData& data,
+                                const fit::TrialData& trial,
                                 const TrialResult& result) {
   const TrialFiles files = files_of(study, result.spec);
   std::vector<std::string> found;
@@ -53,18 +53,16 @@ std::vector<std::string> doubts(const Study& study,
 }
 
 /// Returns true if a condition holds in all trials of the data.
-bool in_all(const identification::StudyData& data, const auto& holds) {
-  return std::ranges::all_of(data.trials, holds);
-}
+bool in_all(const fit::StudyData& data, const auto& holds) { return std::ranges::all_of(data.trials, holds); }
 
 /// Refuses a joint whose given torques, and muscles whose given forces, are 0 in all trials.
-void require_something_to_fit(const Study& study, const identification::StudyData& data, const GivenSpec& files) {
+void require_something_to_fit(const study::Study& study, const fit::StudyData& data, const study::GivenSpec& files) {
   const auto nothing = [](const auto& values) { return !(values.cwiseAbs().maxCoeff() > 0.0); };
   constexpr std::string_view kRemedy =
       "there is nothing to fit; is it the right file and column, or was the channel off?";
-  const std::vector<std::string> joints = study_coordinates(study.model);
+  const std::vector<std::string> joints = study::study_coordinates(study.model);
   for (std::size_t j = 0; files.torques && j < joints.size(); ++j) {
-    if (in_all(data, [&](const auto& trial) { return nothing(identification::of_joint(trial, j).torque_nm); }))
+    if (in_all(data, [&](const auto& trial) { return nothing(fit::of_joint(trial, j).torque_nm); }))
       throw InvalidInput(
           fmt::format("{}: the torque '{}' is 0 in all trials: {}", files.torques->string(), joints[j], kRemedy));
   }
@@ -73,16 +71,16 @@ void require_something_to_fit(const Study& study, const identification::StudyDat
 }
 
 /// Warns of activations that never change or are equal: the fit would give the work of one muscle to the others.
-std::vector<Remark> compare_activations(const identification::StudyData& data, const std::string& file) {
+std::vector<Remark> compare_activations(const fit::StudyData& data, const std::string& file) {
   std::vector<std::string> channels;
-  for (const identification::MuscleSetup& muscle : data.muscles) {
+  for (const fit::MuscleSetup& muscle : data.muscles) {
     if (std::ranges::find(channels, muscle.emg_channel) == channels.end()) channels.push_back(muscle.emg_channel);
   }
   std::vector<Remark> found;
   for (std::size_t c = 0; c < channels.size(); ++c) {
     // A table with a row for each maximal contraction has the activation 1 throughout.
     constexpr double kEffort = 0.5;
-    const auto of = [&](const identification::TrialData& trial, std::size_t k) {
+    const auto of = [&](const fit::TrialData& trial, std::size_t k) {
       return trial.activation.values().col(trial.activation.index(channels[k]));
     };
     if (in_all(data, [&](const auto& trial) { return !(of(trial, c).maxCoeff() > of(trial, c).minCoeff()); })) {
@@ -107,23 +105,23 @@ std::vector<Remark> compare_activations(const identification::StudyData& data, c
 }
 
 /// Looks at all trials together, where each gives its lengths; adds remarks to the first.
-void check_together(const Study& study, const identification::StudyData& data, std::vector<TrialResult>& trials) {
+void check_together(const study::Study& study, const fit::StudyData& data, std::vector<TrialResult>& trials) {
   const bool given = !data.trials.empty() && std::ranges::all_of(trials, [](const TrialResult& trial) {
     return trial.spec.given.lengths.has_value();
   });
   if (!given) return;
   TrialResult& first = trials.front();
   require_something_to_fit(study, data, first.spec.given);
-  if (study.emg.kind != EmgKind::activation || !first.spec.emg) return;
+  if (study.emg.kind != study::EmgKind::activation || !first.spec.emg) return;
   for (Remark& remark : compare_activations(data, first.spec.emg->string())) first.remarks.push_back(std::move(remark));
 }
 
 }  // namespace
 
-void check_given(const Study& study, const identification::StudyData& data, std::vector<TrialResult>& trials) {
-  for (const identification::TrialData& trial : data.trials) {
+void check_given(const study::Study& study, const fit::StudyData& data, std::vector<TrialResult>& trials) {
+  for (const fit::TrialData& trial : data.trials) {
     const auto result = std::ranges::find_if(trials, [&](const TrialResult& t) { return t.spec.name == trial.name; });
-    if (result->spec.given == GivenSpec{}) continue;
+    if (result->spec.given == study::GivenSpec{}) continue;
     try {
       for (std::string& text : doubts(study, data, trial, *result))
         result->remarks.push_back({.code = RemarkCode::general, .says = std::move(text)});
@@ -134,4 +132,4 @@ void check_given(const Study& study, const identification::StudyData& data, std:
   check_together(study, data, trials);
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -8,21 +8,21 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/tables/storage_reader.h"
 #include "myoid/results/result_files.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/study_ids.h"
 #include "myoid/study/study_model.h"
-#include "myoid/tables/series_file.h"
-#include "myoid/tables/storage_reader.h"
 
 #include "tests/support/exact_recording.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 /// A virtual recording without noise with its run, whose stages are files in `results`.
@@ -31,10 +31,10 @@ struct Computed {
   StudyResult result;
 
   Computed() {
-    Study study = test::exact_recording(folder / "recording");
+    study::Study study = test::exact_recording(folder / "recording");
     study.identify.next_movements = 0;
     result = run_study(study);
-    write_results(result, {}, folder / "results");
+    results::write_results(result, {}, folder / "results");
   }
   static const Computed& get() {
     static const Computed run;
@@ -49,14 +49,14 @@ std::string given_study(const std::string& model, bool angles) {
                      "[motion]\nsmoothing = \"none\"\n[emg]\nkind = \"activation\"\n"
                      "[identify]\nmethod = [\"torque\"]\ncross_validate = false\nnext_movements = 0\n";
   if (!run.source.study.identify.elastic_tendon) text += "tendon = \"rigid\"\n";
-  for (const identification::MuscleSetup& muscle : muscle_setups(run.source.study, *run.source.model)) {
+  for (const fit::MuscleSetup& muscle : study::muscle_setups(run.source.study, *run.source.model)) {
     std::vector<std::string> start;
     for (const muscle::HillField& field : muscle::kHillFields)
       start.push_back(fmt::format("{} = {:.17g}", field.name, muscle.start.*field.member));
     text += fmt::format("[[muscle]]\nname = \"{0}\"\nemg = \"{1}\"\nstart = {{ {2} }}\n", muscle.name,
                         muscle.emg_channel, fmt::join(start, ", "));
   }
-  const recording::NameIds ids = trial_ids(run.source.study);
+  const NameIds ids = study::trial_ids(run.source.study);
   for (const TrialResult& trial : run.trials) {
     if (!trial.has_motion() || trial.spec.external_torque || trial.emg.activation.empty()) continue;
     text += fmt::format(
@@ -74,11 +74,11 @@ std::string given_study(const std::string& model, bool angles) {
 const std::string kNoModel = "[model]\nbuiltin = \"none\"\ncoordinate = \"elbow_flexion\"\n";
 
 void expect_same_parameters(const StudyResult& given, double relative) {
-  const identification::IdentificationResult& own = *torque_of(Computed::get().result.fit);
-  const identification::IdentificationResult& found = *torque_of(given.fit);
+  const fit::IdentificationResult& own = *torque_of(Computed::get().result.fit);
+  const fit::IdentificationResult& found = *torque_of(given.fit);
   int compared = 0;
-  for (const identification::ParameterEstimate& e : own.estimates) {
-    for (const identification::ParameterEstimate& f : found.estimates) {
+  for (const fit::ParameterEstimate& e : own.estimates) {
+    for (const fit::ParameterEstimate& f : found.estimates) {
       if (f.muscle != e.muscle || f.parameter != e.parameter) continue;
       EXPECT_NEAR(f.estimate, e.estimate, relative * std::abs(e.estimate)) << e.muscle << " " << e.parameter;
       ++compared;
@@ -90,21 +90,20 @@ void expect_same_parameters(const StudyResult& given, double relative) {
 // The files hold the stages to 1e-9 of their size or better; the fit without noise amplifies errors by less than 1e4.
 TEST(GivenTrials, TheStagesOfARunGiveItsParametersWithoutAModel) {
   const Computed& run = Computed::get();
-  recording::write_file(run.folder / "given.toml", given_study(kNoModel, false));
-  const StudyResult given = run_study(read_study(run.folder / "given.toml"));
+  write_file(run.folder / "given.toml", given_study(kNoModel, false));
+  const StudyResult given = run_study(study::read_study(run.folder / "given.toml"));
   EXPECT_TRUE(given.trials[0].has_motion());
   EXPECT_EQ(given.trials[0].motion.joints.q.channel_count(), 0);
   expect_same_parameters(given, 1e-5);
-  for (const report::Gate& gate : quality_gates(given)) EXPECT_NE(gate.status, report::GateStatus::fail) << gate.name;
+  for (const page::Gate& gate : quality_gates(given)) EXPECT_NE(gate.status, page::GateStatus::fail) << gate.name;
 }
 
 TEST(GivenTrials, TheStagesOfARunGiveItsParametersWithItsModel) {
   const Computed& run = Computed::get();
   const std::string model = run.result.source.study.model.file->filename().string();
-  recording::write_file(
-      run.folder / "with_model.toml",
-      given_study("[model]\nfile = \"recording/" + model + "\"\ncoordinate = \"elbow_flexion\"\n", true));
-  const StudyResult given = run_study(read_study(run.folder / "with_model.toml"));
+  write_file(run.folder / "with_model.toml",
+             given_study("[model]\nfile = \"recording/" + model + "\"\ncoordinate = \"elbow_flexion\"\n", true));
+  const StudyResult given = run_study(study::read_study(run.folder / "with_model.toml"));
   expect_same_parameters(given, 1e-5);
   // The trial's times are those of the lengths, and its stages those of the files.
   const TrialResult& trial = given.trials[0];
@@ -114,9 +113,9 @@ TEST(GivenTrials, TheStagesOfARunGiveItsParametersWithItsModel) {
 
 TEST(GivenTrials, AStudyWithoutFileWhoseTrialsGiveEverythingHasNoModel) {
   const std::string joint = "[model]\ncoordinate = \"elbow_flexion\"\n";
-  EXPECT_TRUE(parse_study(given_study(joint, false), "study.toml").model.is_none());
+  EXPECT_TRUE(study::parse_study(given_study(joint, false), "study.toml").model.is_none());
   const auto message = [](const std::string& text) {
-    return test::message_of([&] { (void)parse_study(text, "study.toml"); });
+    return test::message_of([&] { (void)study::parse_study(text, "study.toml"); });
   };
   EXPECT_NE(message(given_study("", false)).find("coordinate"), std::string::npos);
   EXPECT_NE(message(given_study("[model]\nbuiltin = \"arm4\"\n", false)).find("builtin = \"none\""), std::string::npos);
@@ -129,17 +128,18 @@ TEST(GivenTrials, MomentArmsOfTheOtherSignStopTheRun) {
   std::string text = given_study(kNoModel, false);
   const std::string name = "MuscleAnalysis_MomentArm_elbow_flexion.sto";
   for (const TrialResult& trial : run.result.trials) {
-    const auto place = run.folder / "results" / trial_ids(run.result.source.study).of(trial.spec.name);
+    const auto place = run.folder / "results" / study::trial_ids(run.result.source.study).of(trial.spec.name);
     if (!std::filesystem::exists(place / name)) continue;
     const TimeSeries arms = recording::read_storage(place / name).data;
     recording::write_series(place / "reversed.sto", {arms.time_s(), arms.channels(), -arms.values()}, "arms");
   }
   for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name))
     text.replace(at, name.size(), "reversed.sto");
-  recording::write_file(run.folder / "reversed.toml", text);
-  const std::string message = test::message_of([&] { (void)run_study(read_study(run.folder / "reversed.toml")); });
+  write_file(run.folder / "reversed.toml", text);
+  const std::string message =
+      test::message_of([&] { (void)run_study(study::read_study(run.folder / "reversed.toml")); });
   EXPECT_NE(message.find("reversed.sto"), std::string::npos) << message;
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

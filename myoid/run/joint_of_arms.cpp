@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/text_file.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::StudyData;
-using identification::TrialData;
+using fit::StudyData;
+using fit::TrialData;
 
 constexpr double kNoArm_m = 1e-4;
 constexpr double kAngleWindow_s = 0.1;
@@ -23,7 +23,7 @@ constexpr double kExplains = 0.5;
 constexpr double kFollows = 0.97, kOtherFactor = 1.5;
 
 bool one_holds_the_other(std::string_view a, std::string_view b) {
-  const std::string x = recording::small_letters(std::string(a)), y = recording::small_letters(std::string(b));
+  const std::string x = small_letters(std::string(a)), y = small_letters(std::string(b));
   return x.find(y) != std::string::npos || y.find(x) != std::string::npos;
 }
 
@@ -35,7 +35,7 @@ struct JointArms {
 
 std::vector<JointArms> joints_of(const TrialData& trial) {
   std::vector<JointArms> joints{{trial.moment_arm_m, trial.angle_rad}};
-  for (const identification::JointData& more : trial.more_joints) joints.push_back({more.moment_arm_m, more.angle_rad});
+  for (const fit::JointData& more : trial.more_joints) joints.push_back({more.moment_arm_m, more.angle_rad});
   return joints;
 }
 
@@ -145,7 +145,7 @@ std::string_view coordinate_in_name(std::string_view path) {
   const std::size_t folder = path.find_last_of("/\\");
   if (folder != std::string_view::npos) path.remove_prefix(folder + 1);
   path = path.substr(0, path.find_last_of('.'));
-  const std::size_t at = recording::small_letters(std::string(path)).find(kMark);
+  const std::size_t at = small_letters(std::string(path)).find(kMark);
   return at == std::string::npos ? std::string_view() : path.substr(at + kMark.size());
 }
 
@@ -175,4 +175,4 @@ std::vector<std::string> check_joint_of_arms(const StudyData& data, const TrialD
   return remarks;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/identification/study_data.h"
+#include "myoid/fit/measurement/study_data.h"
 #include "myoid/run/given_check.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// Returns the coordinate in the name of a file of moment arms, as OpenSim writes it
 /// ("walk_MuscleAnalysis_MomentArm_knee_angle_r.sto": "knee_angle_r"); empty: none.
@@ -27,8 +27,8 @@ namespace myoid {
 /// - With the angles of every joint, lengths change by dl = -sum_j r_j dq_j over windows of 0.1 s:
 /// a remark if this explains less than half of the change of every muscle's length, or if dl =
 /// +sum_j r_j dq_j explains more for all.
-[[nodiscard]] std::vector<std::string> check_joint_of_arms(const identification::StudyData& data,
-                                                           const identification::TrialData& trial,
+[[nodiscard]] std::vector<std::string> check_joint_of_arms(const fit::StudyData& data,
+                                                           const fit::TrialData& trial,
                                                            const TrialFiles& files);
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -5,18 +5,18 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 #include "tests/support/elbow_study.h"
 #include "tests/support/message_of.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 const TrialFiles kArmFiles{
     .activations = "a.sto", .lengths = "l.sto", .velocities = "v.sto", .moment_arms = {"r.sto"}, .torques = "id.sto"};
 
-identification::StudyData elbow_data() { return test::elbow_study({.trials = 1, .seconds = 10.0}).data; }
+fit::StudyData elbow_data() { return test::elbow_study({.trials = 1, .seconds = 10.0}).data; }
 
 TEST(JointOfArms, ReadsTheCoordinateFromTheNameThatOpenSimGives) {
   EXPECT_EQ(coordinate_in_name("out/walk_MuscleAnalysis_MomentArm_knee_angle_r.sto"), "knee_angle_r");
@@ -38,7 +38,7 @@ TEST(JointOfArms, TheFileOfAnotherJointOfTheTorqueFileIsRefused) {
 }
 
 TEST(JointOfArms, MusclesThatTheJointDoesNotMoveAreNamed) {
-  identification::StudyData data = elbow_data();
+  fit::StudyData data = elbow_data();
   EXPECT_TRUE(check_joint_of_arms(data, data.trials[0], kArmFiles).empty());
   data.trials[0].moment_arm_m.col(1).setConstant(5e-5);
   const std::vector<std::string> remarks = check_joint_of_arms(data, data.trials[0], kArmFiles);
@@ -50,8 +50,8 @@ TEST(JointOfArms, MusclesThatTheJointDoesNotMoveAreNamed) {
 
 TEST(JointOfArms, LengthsFollowTheAnglesByTheArmsOfTheirJointOnly) {
   // l = l(q) with r = -dl/dq = r0 + r1 q of each of two muscles, and q = 0.8 sin 3 t.
-  identification::StudyData data = elbow_data();
-  identification::TrialData& trial = data.trials[0];
+  fit::StudyData data = elbow_data();
+  fit::TrialData& trial = data.trials[0];
   const Eigen::Index n = trial.time_s.size();
   const Eigen::ArrayXd q = 0.8 * (3.0 * trial.time_s.array()).sin();
   trial.angle_rad = q;
@@ -64,19 +64,19 @@ TEST(JointOfArms, LengthsFollowTheAnglesByTheArmsOfTheirJointOnly) {
   data.muscles.resize(2);
   EXPECT_TRUE(check_joint_of_arms(data, trial, kArmFiles).empty());
   for (const auto& [factor, said] : {std::pair{-1.0, "BRA (times -1)"}, std::pair{2.0, "BRA (times 2)"}}) {
-    identification::TrialData wrong = trial;
+    fit::TrialData wrong = trial;
     wrong.moment_arm_m.col(1) *= factor;
     const std::vector<std::string> named = check_joint_of_arms(data, wrong, kArmFiles);
     ASSERT_EQ(named.size(), 1U);
     EXPECT_NE(named[0].find(said), std::string::npos) << named[0];
     EXPECT_EQ(named[0].find("BIC"), std::string::npos) << named[0];
   }
-  identification::TrialData reversed = trial;
+  fit::TrialData reversed = trial;
   reversed.angle_rad = -trial.angle_rad;
   const std::vector<std::string> sign = check_joint_of_arms(data, reversed, kArmFiles);
   ASSERT_EQ(sign.size(), 1U);
   EXPECT_NE(sign[0].find("reversed"), std::string::npos) << sign[0];
-  identification::TrialData other = trial;  // the angle of a joint that moves otherwise
+  fit::TrialData other = trial;  // the angle of a joint that moves otherwise
   other.angle_rad = 0.8 * (5.0 * trial.time_s.array()).cos();
   const std::vector<std::string> joint = check_joint_of_arms(data, other, kArmFiles);
   ASSERT_EQ(joint.size(), 1U);
@@ -84,4 +84,4 @@ TEST(JointOfArms, LengthsFollowTheAnglesByTheArmsOfTheirJointOnly) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

@@ -9,23 +9,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/intake/limits.h"
-#include "myoid/intervals/estimate_rows.h"
-#include "myoid/intervals/verdict_rules.h"
-#include "myoid/math/statistics.h"
+#include "myoid/fit/intervals/estimate_rows.h"
+#include "myoid/fit/intervals/verdict_rules.h"
+#include "myoid/ground/math/statistics.h"
+#include "myoid/study/intake/limits.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::Fold;
-using identification::IdentificationResult;
-using report::Gate;
-using report::GateStatus;
+using fit::Fold;
+using fit::IdentificationResult;
+using page::Gate;
+using page::GateStatus;
 
 /// Sums the scores of several trials, joint by joint.
 class Pool {
  public:
-  void add(const std::string& joint, const identification::Score& s) {
+  void add(const std::string& joint, const fit::Score& s) {
     if (s.n < 2.0 || !std::isfinite(s.sse)) return;
     Joint& j = joints_[joint];
     j.n += s.n;
@@ -71,7 +71,7 @@ std::vector<double> deviations(std::vector<double> values) {
 
 /// Returns the logarithm of the error over the spread of the torque. Efforts of several sizes have errors of several
 /// sizes in N m, but alike shares. A torque without spread counts as one that is not explained.
-double log_share(const identification::Score& s) {
+double log_share(const fit::Score& s) {
   const double share = s.nrmse_sd();
   return share > 0.0 && std::isfinite(share) ? std::log(share) : 0.0;
 }
@@ -79,20 +79,20 @@ double log_share(const identification::Score& s) {
 /// Returns the limits of `is_wrong` in words.
 std::string when_wrong() {
   return fmt::format("fails if the errors are larger than the torque, or than {:g} % of it at an R2 below {:g}",
-                     100.0 * kGateLimits.unrelated_share, kGateLimits.mean);
+                     100.0 * study::kGateLimits.unrelated_share, study::kGateLimits.mean);
 }
 
 /// Returns the status of a prediction; it passes only if it is `good` by another measure, too.
 GateStatus status_of(const Explained& share, bool good) {
   if (share.is_wrong()) return GateStatus::fail;
-  return good && share.r2() > kGateLimits.explains ? GateStatus::pass : GateStatus::warn;
+  return good && share.r2() > study::kGateLimits.explains ? GateStatus::pass : GateStatus::warn;
 }
 
 Gate distance_gate(const IdentificationResult& fit) {
-  constexpr double kFar = identification::kVerdictRules.prior_conflict;
+  constexpr double kFar = fit::kVerdictRules.prior_conflict;
   std::vector<std::string> far;
   double most = 0.0;
-  for (const identification::PriorDistance& d : fit.prior_distances) {
+  for (const fit::PriorDistance& d : fit.prior_distances) {
     most = std::max({most, d.distance, d.farthest_distance});
     if (std::max(d.distance, d.farthest_distance) <= kFar) continue;
     far.push_back(fmt::format("{} {:.1f} ({} {:.1f})", d.muscle, d.distance, d.farthest, d.farthest_distance));
@@ -112,7 +112,8 @@ Gate distance_gate(const IdentificationResult& fit) {
 double Explained::r2() const { return spread_nm > 0.0 ? 1.0 - rms_nm * rms_nm / (spread_nm * spread_nm) : 0.0; }
 
 bool Explained::is_wrong() const {
-  return rms_nm > torque_rms_nm || (r2() < kGateLimits.mean && rms_nm > kGateLimits.unrelated_share * torque_rms_nm);
+  return rms_nm > torque_rms_nm ||
+         (r2() < study::kGateLimits.mean && rms_nm > study::kGateLimits.unrelated_share * torque_rms_nm);
 }
 
 std::string Explained::text() const {
@@ -122,7 +123,7 @@ std::string Explained::text() const {
 
 Explained explained(const IdentificationResult& fit, bool calibration) {
   Pool pool;
-  for (const identification::TrialFit& t : fit.trials) {
+  for (const fit::TrialFit& t : fit.trials) {
     if (t.calibration == calibration) pool.add(t.joint, t.band);
   }
   return pool.result();
@@ -153,8 +154,8 @@ std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
     const std::vector<double> far = deviations(errors), far_share = deviations(shares);
     for (std::size_t i = 0; i < of_joint.size(); ++i) {
       const Fold& f = *of_joint[i];
-      if (std::max(far[i], far_share[i]) <= kGateLimits.far_fold ||
-          errors[i] - middle <= std::log(kGateLimits.larger_fold) || f.identified.r2() >= middle_r2)
+      if (std::max(far[i], far_share[i]) <= study::kGateLimits.far_fold ||
+          errors[i] - middle <= std::log(study::kGateLimits.larger_fold) || f.identified.r2() >= middle_r2)
         continue;
       found.push_back({f.trial, joint, f.identified.rmse_nm(), f.identified.r2(), std::exp(middle)});
     }
@@ -166,13 +167,13 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   std::vector<Gate> gates;
   if (const Explained own = explained(fit, true); own.samples > 0) {
     // The fit's own R2 leaves out the ends of trials, and is of the joint that is explained least.
-    const bool fitted = fit.r2 >= identification::kVerdictRules.least_r2;
-    const bool none = fit.r2 < kGateLimits.mean;
+    const bool fitted = fit.r2 >= fit::kVerdictRules.least_r2;
+    const bool none = fit.r2 < study::kGateLimits.mean;
     gates.push_back({"Describes the torque it was fitted to", none ? GateStatus::fail : status_of(own, fitted),
                      own.text() + (fitted ? "" : fmt::format("; R2 {:.2f} of the fitted samples", fit.r2)),
                      fmt::format("R2 of whole trials and of the fitted samples above 0.5; below {:g} of the fitted "
                                  "samples it fails, and it ",
-                                 kGateLimits.mean) +
+                                 study::kGateLimits.mean) +
                          when_wrong(),
                      "Muscles that do not even make the torque they were fitted to are none."});
   }
@@ -206,7 +207,7 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds, bool other_gain) {
     better += f.identified.rmse_nm() < f.literature.rmse_nm() ? 1 : 0;
   }
   std::string hint = fmt::format("Better in {} of the {} left out.", better, folds.size());
-  if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
+  if (const std::string beyond = fit::beyond_what_was_fitted(folds); !beyond.empty())
     hint += fmt::format(" EMG beyond all that was fitted ({}): that prediction extrapolates. {}", beyond,
                         other_gain ? "Correct the gain that the recordings' faults name first."
                                    : "Record a maximal contraction, or trials of like effort.");
@@ -230,4 +231,4 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds, bool other_gain) {
   return gates;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

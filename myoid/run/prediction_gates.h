@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "myoid/intervals/result.h"
-#include "myoid/methods/cross_validation.h"
-#include "myoid/report/report.h"
+#include "myoid/fit/intervals/result.h"
+#include "myoid/fit/methods/cross_validation.h"
+#include "myoid/page/report.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// The share of the torque that a prediction explains, over several trials and joints. Prediction
 /// and torque are low-passed at the fit's cut-off:
@@ -31,9 +31,9 @@ struct Explained {
 };
 
 /// Returns the explained share of the fitted trials (`calibration`), or of the held-back trials.
-[[nodiscard]] Explained explained(const identification::IdentificationResult& fit, bool calibration);
+[[nodiscard]] Explained explained(const fit::IdentificationResult& fit, bool calibration);
 /// Returns the explained share of the trials that are left out in turn.
-[[nodiscard]] Explained explained(const std::vector<identification::Fold>& folds);
+[[nodiscard]] Explained explained(const std::vector<fit::Fold>& folds);
 
 /// A left-out trial with a prediction error that chance does not explain.
 struct OutlyingFold {
@@ -44,15 +44,14 @@ struct OutlyingFold {
 /// Returns the outliers among at least five folds, by joint. The logarithm of an outlier's error exceeds the median by
 /// three robust standard deviations (1.4826 times the median absolute deviation), its error is at least 1.5 times the
 /// median, and its R2 is below the median, too, because heavier trials have larger errors.
-[[nodiscard]] std::vector<OutlyingFold> outlying_folds(const std::vector<identification::Fold>& folds);
+[[nodiscard]] std::vector<OutlyingFold> outlying_folds(const std::vector<fit::Fold>& folds);
 
 /// Tests whether the fit explains the torque of the fitted and of the held-back trials, and whether
 /// the muscles agree with the literature.
-[[nodiscard]] std::vector<report::Gate> fit_gates(const identification::IdentificationResult& fit);
+[[nodiscard]] std::vector<page::Gate> fit_gates(const fit::IdentificationResult& fit);
 
 /// Tests whether the fit predicts left-out trials, better than the literature, and all of them equally well.
 /// `other_gain`: a trial's EMG has another gain, which explains efforts beyond those that were fitted.
-[[nodiscard]] std::vector<report::Gate> fold_gates(const std::vector<identification::Fold>& folds,
-                                                   bool other_gain = false);
+[[nodiscard]] std::vector<page::Gate> fold_gates(const std::vector<fit::Fold>& folds, bool other_gain = false);
 
-}  // namespace myoid
+}  // namespace myoid::run

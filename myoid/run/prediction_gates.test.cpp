@@ -7,23 +7,23 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/intervals/estimate_rows.h"
+#include "myoid/fit/intervals/estimate_rows.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::Fold;
-using identification::IdentificationResult;
-using report::Gate;
-using report::GateStatus;
+using fit::Fold;
+using fit::IdentificationResult;
+using page::Gate;
+using page::GateStatus;
 
 /// A trial of 1000 samples about `mean_nm`, a sine of the amplitude, predicted with this error.
-identification::TrialFit trial(double mean_nm, double amplitude_nm, double error_nm, bool own = true) {
-  identification::TrialFit fit;
+fit::TrialFit trial(double mean_nm, double amplitude_nm, double error_nm, bool own = true) {
+  fit::TrialFit fit;
   fit.calibration = own;
   fit.torque_nm = mean_nm + amplitude_nm * (Eigen::VectorXd::LinSpaced(1000, 0.0, 62.8).array().sin());
   fit.torque_fit_nm = fit.torque_nm;
-  fit.band = identification::score(fit.torque_nm, fit.torque_nm.array() + error_nm);
+  fit.band = fit::score(fit.torque_nm, fit.torque_nm.array() + error_nm);
   return fit;
 }
 
@@ -40,7 +40,7 @@ TEST(Explained, R2AndRmsAreOneStatement) {
   Eigen::VectorXd measured(2000), error(2000);
   measured << fit.trials[0].torque_nm, fit.trials[1].torque_nm;
   error << Eigen::VectorXd::Constant(1000, 0.5), Eigen::VectorXd::Constant(1000, -1.0);
-  const identification::Score whole = identification::score(measured, measured + error);
+  const fit::Score whole = fit::score(measured, measured + error);
   EXPECT_NEAR(all.rms_nm, whole.rmse_nm(), 1e-12);
   EXPECT_NEAR(all.r2(), whole.r2(), 1e-12);
   EXPECT_NEAR(all.r2(), 1.0 - std::pow(all.rms_nm / all.spread_nm, 2), 1e-12);
@@ -104,7 +104,7 @@ TEST(FitGates, AMuscleThatLeftTheLiteratureIsNamed) {
 TEST(FitGates, AReservationOfTheFitIsAWarningButForDistancesThatHaveAGate) {
   IdentificationResult fit;
   fit.prior_distances = {{"BIC", 1.2, "max_isometric_force", 3.8}};
-  identification::add_distances_to(fit.warnings, fit.prior_distances);
+  fit::add_distances_to(fit.warnings, fit.prior_distances);
   ASSERT_EQ(fit.warnings.size(), 1U);
   EXPECT_EQ(fit_gates(fit).size(), 1U);
   fit.warnings.emplace_back("the posterior has 2 modes");
@@ -119,12 +119,12 @@ Fold fold(const std::string& name, double amplitude_nm, double error_nm) {
   f.trial = name;
   f.measured_nm = 2.0 + amplitude_nm * Eigen::VectorXd::LinSpaced(1000, 0.0, 62.8).array().sin();
   f.predicted_nm = f.measured_nm.array() + error_nm;
-  f.identified = f.band = identification::score(f.measured_nm, f.predicted_nm);
-  f.literature = identification::score(f.measured_nm, f.measured_nm.array() + 2.0);
+  f.identified = f.band = fit::score(f.measured_nm, f.predicted_nm);
+  f.literature = fit::score(f.measured_nm, f.measured_nm.array() + 2.0);
   return f;
 }
 
-identification::Score with_rms(double rms_nm) { return {.n = 1000.0, .sse = 1000.0 * rms_nm * rms_nm}; }
+fit::Score with_rms(double rms_nm) { return {.n = 1000.0, .sse = 1000.0 * rms_nm * rms_nm}; }
 
 TEST(OutlyingFolds, OneThatIsPredictedWorseThanTheOthersIsNamed) {
   std::vector<Fold> folds;
@@ -179,7 +179,7 @@ TEST(FoldGates, NameTheLimitThatFailedThem) {
   std::vector<Fold> folds{fold("a", 1.0, 0.0), fold("b", 1.0, 0.0)};
   for (Fold& f : folds) {
     const Eigen::VectorXd measured = f.measured_nm.array() - f.measured_nm.mean();
-    f.band = identification::score(measured, measured.array() + 0.9874);
+    f.band = fit::score(measured, measured.array() + 0.9874);
   }
   const Gate gate = fold_gates(folds)[0];
   EXPECT_EQ(gate.status, GateStatus::fail);
@@ -218,4 +218,4 @@ TEST(FoldGates, SayWhichPredictionGoesBeyondTheEffortsThatWereFitted) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

@@ -6,52 +6,52 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/run_record.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::TrialData;
+using fit::TrialData;
 
 /// Returns the use of a trial in the run; empty: the run has no such trial. A trial that pauses is
 /// in the run as parts, whose names begin with the trial's name.
-std::optional<Use> use_in(const RunRecord& run, const std::string& trial) {
+std::optional<study::Use> use_in(const study::RunRecord& run, const std::string& trial) {
   const auto found = run.uses.lower_bound(trial);
   if (found == run.uses.end() || !found->first.starts_with(trial)) return std::nullopt;
-  return choice_named<Use>(found->second);
+  return choice_named<study::Use>(found->second);
 }
 
 /// Returns the study of the run: its trials keep their uses, further trials are held back.
-Study study_of_run(const RunRecord& run) {
-  Study study = read_study(run.study);
-  study.identify.methods = {identification::Method::torque};
+study::Study study_of_run(const study::RunRecord& run) {
+  study::Study study = study::read_study(run.study);
+  study.identify.methods = {fit::Method::torque};
   for (const auto& [name, use] : run.uses) {
-    const auto is_it = [&recorded = name](const TrialSpec& trial) { return recorded.starts_with(trial.name); };
+    const auto is_it = [&recorded = name](const study::TrialSpec& trial) { return recorded.starts_with(trial.name); };
     if (std::ranges::none_of(study.trials, is_it))
       throw InvalidInput(
           fmt::format("{}: the trial '{}' of the run is missing; run the study again", run.study.string(), name));
   }
-  for (TrialSpec& trial : study.trials)
-    trial.use = use_in(run, trial.name).value_or(study.fits(trial) ? Use::validation : trial.use);
+  for (study::TrialSpec& trial : study.trials)
+    trial.use = use_in(run, trial.name).value_or(study.fits(trial) ? study::Use::validation : trial.use);
   return study;
 }
 
 /// Returns muscles with their channels: "BIC by biceps".
 std::vector<std::string> muscles_of(const FitInput& input) {
   std::vector<std::string> list;
-  for (const identification::MuscleSetup& muscle : input.data.muscles)
+  for (const fit::MuscleSetup& muscle : input.data.muscles)
     list.push_back(fmt::format("{} by {}", muscle.name, muscle.emg_channel));
   return list;
 }
 
 /// Returns the trials of another study of the same muscles, all held back.
 std::vector<TrialData> other_trials(const PredictionChoice& choice, PredictionInput& input) {
-  Study study = read_study(choice.study);
-  study.identify.methods = {identification::Method::torque};
+  study::Study study = study::read_study(choice.study);
+  study.identify.methods = {fit::Method::torque};
   if (!from_maximal_effort(study.emg))
     input.warnings.push_back(
         fmt::format("{}: its EMG is not relative to a maximal contraction of its own; the prediction takes the "
@@ -94,11 +94,11 @@ std::vector<TrialData> chosen(const std::vector<TrialData>& trials, const std::v
 }  // namespace
 
 PredictionInput prediction_input(const std::filesystem::path& folder, const PredictionChoice& choice) {
-  const RunRecord run = read_run_record(folder);
+  const study::RunRecord run = study::read_run_record(folder);
   StudyResult base =
       study_data(study_of_run(run),
                  {.start_s = run.start_s, .end_s = run.end_s, .progress = choice.progress, .share_forces = false});
-  refuse_changed(base.source.files, run, run.study);
+  study::refuse_changed(base.source.files, run, run.study);
   PredictionInput input{.study = std::move(base.source.study),
                         .fit = std::move(base.fit_input),
                         .trials = {},
@@ -109,4 +109,4 @@ PredictionInput prediction_input(const std::filesystem::path& folder, const Pred
   return input;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/progress.h"
-#include "myoid/core/provenance.h"
+#include "myoid/ground/core/progress.h"
+#include "myoid/ground/core/provenance.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// The choice of trials to predict by the fit of a finished run.
 struct PredictionChoice {
@@ -22,9 +22,9 @@ struct PredictionChoice {
 
 /// The data of the run's fit and of the trials to predict.
 struct PredictionInput {
-  Study study;                                    ///< Study of the run.
-  FitInput fit;                                   ///< Data of the run's fit: its calibration trials.
-  std::vector<identification::TrialData> trials;  ///< Trials to predict.
+  study::Study study;                  ///< Study of the run.
+  FitInput fit;                        ///< Data of the run's fit: its calibration trials.
+  std::vector<fit::TrialData> trials;  ///< Trials to predict.
   std::vector<InputFile> files;
   std::vector<std::string> warnings;
 };
@@ -35,4 +35,4 @@ struct PredictionInput {
 /// InvalidInput for unknown trials and for another study with other muscles.
 [[nodiscard]] PredictionInput prediction_input(const std::filesystem::path& folder, const PredictionChoice& choice);
 
-}  // namespace myoid
+}  // namespace myoid::run

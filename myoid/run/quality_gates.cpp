@@ -11,32 +11,32 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/beliefs/beliefs.h"
-#include "myoid/checks/stated_loads.h"
-#include "myoid/core/counted.h"
-#include "myoid/core/units.h"
-#include "myoid/dynamics/ground_support.h"
-#include "myoid/dynamics/torque_plausibility.h"
-#include "myoid/forces/sharing_plausibility.h"
-#include "myoid/intake/limits.h"
-#include "myoid/report/typeset.h"
+#include "myoid/body/dynamics/ground_support.h"
+#include "myoid/body/dynamics/torque_plausibility.h"
+#include "myoid/body/forces/sharing_plausibility.h"
+#include "myoid/fit/beliefs/beliefs.h"
+#include "myoid/ground/core/counted.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/page/typeset.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/prediction_gates.h"
+#include "myoid/study/checks/stated_loads.h"
+#include "myoid/study/intake/limits.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::IdentificationResult;
-using identification::Verdict;
-using report::Gate;
-using report::GateStatus;
+using fit::IdentificationResult;
+using fit::Verdict;
+using page::Gate;
+using page::GateStatus;
 
 /// Returns the range of the study's coordinate in the trial that moves it most; empty if no trial is a movement.
-std::optional<double> largest_range_deg(const Study& study, const std::vector<TrialResult>& trials) {
+std::optional<double> largest_range_deg(const study::Study& study, const std::vector<TrialResult>& trials) {
   std::optional<double> largest;
   for (const TrialResult& t : trials) {
-    const bool still = t.spec.use == Use::mvc || t.spec.use == Use::static_pose || t.spec.use == Use::isometric ||
-                       t.spec.external_torque;
+    const bool still = t.spec.use == study::Use::mvc || t.spec.use == study::Use::static_pose ||
+                       t.spec.use == study::Use::isometric || t.spec.external_torque;
     const auto angle = t.motion.joints.q.find(study.model.coordinate);
     if (!t.has_motion() || still || !angle) continue;
     const Eigen::VectorXd q = t.motion.joints.q.values().col(*angle) / kDegree;
@@ -56,11 +56,11 @@ MissingMuscles missing_muscles(const StudyResult& result) {
   MissingMuscles missing;
   const auto count = static_cast<Eigen::Index>(result.source.model->muscles.size());
   std::vector<bool> there(result.source.model->muscles.size(), false);
-  for (const MuscleSpec& spec : result.source.study.muscles) {
+  for (const study::MuscleSpec& spec : result.source.study.muscles) {
     for (const std::string& name : spec.osim)
       there[static_cast<std::size_t>(result.source.model->muscle_index(name))] = true;
   }
-  for (const std::string& coordinate : study_coordinates(result.source.study.model)) {
+  for (const std::string& coordinate : study::study_coordinates(result.source.study.model)) {
     Eigen::VectorXd strength_nm = Eigen::VectorXd::Zero(count);
     for (const TrialResult& t : result.trials) {
       const auto arms = t.forces.muscles.moment_arm.find(coordinate);
@@ -88,8 +88,8 @@ std::optional<Gate> torque_gate(const StudyResult& result) {
   for (const TrialResult& t : result.trials) {
     // Torques that are given with moment arms are compared with them (given_check.h).
     if (!t.has_motion() || (t.spec.given.torques && !t.spec.given.moment_arms.empty())) continue;
-    const std::vector<Remark> found = dynamics::implausible(*result.source.model, t.forces.muscle_torque,
-                                                            result.source.study.subject.mass_kg.value_or(0.0));
+    const std::vector<Remark> found = body::implausible_torques(*result.source.model, t.forces.muscle_torque,
+                                                                result.source.study.subject.mass_kg.value_or(0.0));
     if (found.empty()) continue;
     return Gate{"Torques that a joint can make", GateStatus::fail,
                 fmt::format("'{}': {}", t.spec.name, found.front().says), "none beyond",
@@ -100,9 +100,9 @@ std::optional<Gate> torque_gate(const StudyResult& result) {
 
 /// Returns the gate of the loads that act on the person beside gravity.
 Gate loads_gate(const std::vector<TrialResult>& trials) {
-  std::vector<TrialSpec> specs;
+  std::vector<study::TrialSpec> specs;
   for (const TrialResult& t : trials) specs.push_back(t.spec);
-  const std::optional<Remark> silent = unstated_loads(specs);
+  const std::optional<Remark> silent = study::unstated_loads(specs);
   return {"External loads stated", silent ? GateStatus::warn : GateStatus::pass,
           silent ? sentence(*silent) : std::string("in every trial"), "in every trial that is fitted or predicted",
           "A mass that was held and not stated makes every muscle weaker than it is."};
@@ -120,16 +120,15 @@ std::optional<Gate> support_gate(const StudyResult& result) {
                   "Torques of the legs there lack the ground reaction; they are not fitted."};
     const bool measured = t.spec.external_torque || t.spec.given.torques;
     if (!t.has_motion() || measured || t.forces.generalized.empty()) continue;
-    const auto weight = dynamics::unsupported_weight(*t.motion.model, t.forces.generalized);
+    const auto weight = body::unsupported_weight(*t.motion.model, t.forces.generalized);
     if (!weight) continue;
-    const auto wrong = t.input.loads
-                           ? dynamics::wrong_support(*t.motion.model, *t.input.loads, t.motion.joints.q.time_s())
-                           : std::nullopt;
+    const auto wrong =
+        t.input.loads ? body::wrong_support(*t.motion.model, *t.input.loads, t.motion.joints.q.time_s()) : std::nullopt;
     const std::string says =
         wrong ? wrong->sentence() : weight->sentence(t.input.loads ? "" : "external_loads or force_plates");
-    for (const std::string& name : study_coordinates(result.source.study.model)) {
-      if (!dynamics::bears_the_body(*t.motion.model, name, t.motion.joints.q.values().row(0).transpose(),
-                                    result.source.study.subject.mass_kg.value_or(0.0)))
+    for (const std::string& name : study::study_coordinates(result.source.study.model)) {
+      if (!body::bears_the_body(*t.motion.model, name, t.motion.joints.q.values().row(0).transpose(),
+                                result.source.study.subject.mass_kg.value_or(0.0)))
         continue;
       return Gate{"Something carries the body", GateStatus::warn, fmt::format("'{}': {}", t.spec.name, says),
                   "less than half of the weight on the joint to the ground",
@@ -146,7 +145,7 @@ Gate recordings_gate(const StudyResult& result) {
   for (const Remark& fault : all_faults(result)) {
     if (fault.severity != Severity::warning) continue;
     ++grave;
-    std::vector<std::string>& of = places[report::spelled(name(fault.code))];
+    std::vector<std::string>& of = places[page::spelled(name(fault.code))];
     const std::string place = fault.where.empty() ? fault.about : fmt::format("{} in {}", fault.about, fault.where);
     if (std::ranges::find(of, place) == of.end()) of.push_back(place);
   }
@@ -186,7 +185,7 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
   std::set<std::string> open;
   for (const TrialResult& t : trials) {
     if (!t.motion.ik) continue;
-    const kinematics::IkResult& ik = *t.motion.ik;
+    const body::IkResult& ik = *t.motion.ik;
     any_ik = true;
     frames += static_cast<int>(ik.status.size());
     unconverged += ik.frames_not_converged;
@@ -204,17 +203,17 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
   if (!any_ik) return list;
   const int lost = unconverged + blind;
   list.push_back({"Inverse kinematics converged",
-                  lost == 0                                 ? GateStatus::pass
-                  : lost > kGateLimits.lost_frames * frames ? GateStatus::fail
-                                                            : GateStatus::warn,
+                  lost == 0                                        ? GateStatus::pass
+                  : lost > study::kGateLimits.lost_frames * frames ? GateStatus::fail
+                                                                   : GateStatus::warn,
                   fmt::format("{} of {} frames", frames - lost, frames),
-                  fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kGateLimits.lost_frames)),
+                  fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - study::kGateLimits.lost_frames)),
                   "A frame that did not converge has no trustworthy angle."});
   const double rms = std::sqrt(sum_of_squares / std::max(frames_with_markers, 1.0));
   list.push_back({"Markers fit the model",
-                  rms >= 2.0 * kGateLimits.marker_error_m   ? GateStatus::fail
-                  : worst_rms >= kGateLimits.marker_error_m ? GateStatus::warn
-                                                            : GateStatus::pass,
+                  rms >= 2.0 * study::kGateLimits.marker_error_m   ? GateStatus::fail
+                  : worst_rms >= study::kGateLimits.marker_error_m ? GateStatus::warn
+                                                                   : GateStatus::pass,
                   fmt::format("{:.1f} mm rms, {:.1f} mm in the worst frame", 1000.0 * rms, 1000.0 * worst_rms),
                   "every frame below 20 mm; fails at 40 mm rms",
                   "Larger errors mean wrong labels or units, or a model of another size."});
@@ -227,9 +226,9 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
 }
 
 /// Returns the gates of the motion, from which all parameters are computed.
-std::vector<Gate> motion_gates(const Study& study, const std::vector<TrialResult>& trials) {
+std::vector<Gate> motion_gates(const study::Study& study, const std::vector<TrialResult>& trials) {
   std::vector<Gate> list = marker_gates(trials);
-  if (const auto range = largest_range_deg(study, trials); range && *range < kGateLimits.least_range_deg) {
+  if (const auto range = largest_range_deg(study, trials); range && *range < study::kGateLimits.least_range_deg) {
     list.push_back({"The joint moves", GateStatus::fail,
                     fmt::format("{:.2g} degrees in the trial that moves it most", *range), "5 degrees or more",
                     "Were radians declared as degrees, or is the coordinate another one?"});
@@ -243,17 +242,17 @@ std::vector<Gate> model_gates(const StudyResult& result) {
   if (const MissingMuscles missing = missing_muscles(result); !missing.names.empty()) {
     list.push_back(
         {"Every muscle of the joint is in the study",
-         missing.share > kGateLimits.missing_share ? GateStatus::warn : GateStatus::info,
+         missing.share > study::kGateLimits.missing_share ? GateStatus::warn : GateStatus::info,
          fmt::format("without {}: {:.0f} % of the joint's strength", fmt::join(missing.names, ", "),
                      100.0 * missing.share),
-         fmt::format("at most {:.0f} % missing", 100.0 * kGateLimits.missing_share),
+         fmt::format("at most {:.0f} % missing", 100.0 * study::kGateLimits.missing_share),
          "What these muscles do is laid to the others: add them, or name them in a [[muscle]]'s osim list."});
   }
   return list;
 }
 
 /// Tests whether the shared forces produce the torque.
-std::vector<Gate> sharing_gates(const Study& study, const std::vector<TrialResult>& trials) {
+std::vector<Gate> sharing_gates(const study::Study& study, const std::vector<TrialResult>& trials) {
   int sharing_frames = 0;
   int unsolved = 0;
   int reserves = 0;
@@ -266,8 +265,7 @@ std::vector<Gate> sharing_gates(const Study& study, const std::vector<TrialResul
   std::vector<Gate> list;
   if (sharing_frames == 0) return list;
   // No result of the recording rests on the forces that method paper alone fits.
-  const bool counts =
-      std::ranges::find(study.identify.methods, identification::Method::force) != study.identify.methods.end();
+  const bool counts = std::ranges::find(study.identify.methods, fit::Method::force) != study.identify.methods.end();
   list.push_back({std::string(kSharingGate),
                   unsolved == 0 ? GateStatus::pass
                   : counts      ? GateStatus::fail
@@ -276,14 +274,14 @@ std::vector<Gate> sharing_gates(const Study& study, const std::vector<TrialResul
                   "all frames, residual below 1e-9", "Concerns the shared forces that methods paper and force fit."});
   const double share = sharing_frames > 0 ? static_cast<double>(reserves) / sharing_frames : 0.0;
   list.push_back({"Muscles strong enough for the torque",
-                  share < forces::kReserveShare ? GateStatus::pass : GateStatus::warn, forces::reserve_words(share),
-                  fmt::format("below {:g} %", 100.0 * forces::kReserveShare),
+                  share < body::kReserveShare ? GateStatus::pass : GateStatus::warn, body::reserve_words(share),
+                  fmt::format("below {:g} %", 100.0 * body::kReserveShare),
                   "Where a reserve acts, the literature's muscles could not provide the torque."});
   return list;
 }
 
 /// Tests whether activation 1 is a maximal contraction. Empty for EMG that is given as activation.
-std::vector<Gate> reference_gates(const Study& study, const EmgScale& emg) {
+std::vector<Gate> reference_gates(const study::Study& study, const study::EmgScale& emg) {
   if (emg.normalisation.empty()) return {};
   const bool mvc = std::ranges::all_of(emg.normalisation, [](const auto& n) { return n.from_mvc; });
   std::map<std::string, std::vector<std::string>> channels;  // by the trial of their largest effort
@@ -300,11 +298,10 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
   std::vector<Gate> list{{"Fit converged",
                           torque.termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
                           torque.message, "converged", "Only a converged fit is an answer."}};
-  for (report::Gate& gate : fit_gates(torque)) list.push_back(std::move(gate));
+  for (page::Gate& gate : fit_gates(torque)) list.push_back(std::move(gate));
   const auto count = [&](Verdict v) {
     return std::ranges::count_if(torque.estimates, [&](const auto& e) {
-      return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e) &&
-             !identification::is_voluntary(e.parameter);
+      return e.verdict == v && e.tied_to.empty() && !fit::is_nuisance(e) && !fit::is_voluntary(e.parameter);
     });
   };
   list.push_back(
@@ -318,17 +315,18 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
   return list;
 }
 
-Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
+Gate electrode_gate(const fit::ExchangedElectrodes& exchanged) {
   // A larger difference of the synergists' strengths than usual could explain this, too.
   return {"Electrodes on the muscles that they are named for",
-          exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail, exchanged.sentence(),
+          exchanged.as_named.r2 > study::kGateLimits.explains ? GateStatus::warn : GateStatus::fail,
+          exchanged.sentence(),
           fmt::format("no two channels that fit {:.0f} % better as each other; fails where they make less than half of "
                       "the torque as they are (R2 0.5)",
-                      100.0 * identification::beliefs::kStrengthRatio.sd),
+                      100.0 * fit::beliefs::kStrengthRatio.sd),
           "Every number of the two muscles is then the other's."};
 }
 
-Gate clock_gate(const identification::ShiftedEmg& shifted) {
+Gate clock_gate(const fit::ShiftedEmg& shifted) {
   return {"EMG and torque on one clock", GateStatus::warn, shifted.sentence(),
           "no other clock of the EMG with which the muscles make the torque better",
           "[sync] offset_s moves the clock of the EMG; every number of the fit rests on it."};
@@ -336,7 +334,7 @@ Gate clock_gate(const identification::ShiftedEmg& shifted) {
 
 }  // namespace
 
-std::vector<report::Gate> quality_gates(const StudyResult& result) {
+std::vector<page::Gate> quality_gates(const StudyResult& result) {
   std::vector<Gate> list;
   if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
   if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
@@ -369,13 +367,13 @@ std::vector<Remark> all_faults(const StudyResult& result) {
   return faults;
 }
 
-report::Section recordings_section(const StudyResult& result) {
-  report::Section section{"recordings", "Quality of the recordings", {}, {}, {}, {}};
+page::Section recordings_section(const StudyResult& result) {
+  page::Section section{"recordings", "Quality of the recordings", {}, {}, {}, {}};
   std::vector<Remark> faults = all_faults(result);
-  std::vector<std::vector<report::Cell>> warnings;
+  std::vector<std::vector<page::Cell>> warnings;
   for (const TrialResult& t : result.trials) {
     for (const std::string& text : sentences(t.remarks, Severity::warning))
-      warnings.push_back({{"warning", report::Badge::weak}, {t.spec.name}, {""}, {text}, {""}});
+      warnings.push_back({{"warning", page::Badge::weak}, {t.spec.name}, {""}, {text}, {""}});
   }
   if (faults.empty() && warnings.empty()) {
     section.paragraphs.emplace_back("No fault was found in any channel.");
@@ -383,16 +381,16 @@ report::Section recordings_section(const StudyResult& result) {
   }
   sort_by_severity(faults);
   constexpr std::size_t kMost = 40;
-  report::Table table{"recordings",
-                      "Faults of the recordings",
-                      "As recorded, before repairs. The limits stand in the guide to `myoid check`.",
-                      {"level", "trial", "time", "what was found", "what to do"},
-                      std::move(warnings)};
+  page::Table table{"recordings",
+                    "Faults of the recordings",
+                    "As recorded, before repairs. The limits stand in the guide to `myoid check`.",
+                    {"level", "trial", "time", "what was found", "what to do"},
+                    std::move(warnings)};
   for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) {
     const Remark& f = faults[i];
     const Stretch when = f.when.value_or(Stretch{});
     table.rows.push_back(
-        {f.severity == Severity::warning ? report::Cell{"warning", report::Badge::weak} : report::Cell{"note"},
+        {f.severity == Severity::warning ? page::Cell{"warning", page::Badge::weak} : page::Cell{"note"},
          {f.where.empty() ? std::string("all") : f.where},
          {fmt::format("{:.5g} to {:.5g} s", when.begin_s, when.end_s)},
          {f.says},
@@ -405,9 +403,9 @@ report::Section recordings_section(const StudyResult& result) {
   return section;
 }
 
-bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials) {
+bool motion_is_unreliable(const study::Study& study, const std::vector<TrialResult>& trials) {
   const std::vector<Gate> gates = motion_gates(study, trials);
   return std::ranges::any_of(gates, [](const Gate& gate) { return gate.status == GateStatus::fail; });
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -4,28 +4,28 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/core/remark.h"
-#include "myoid/report/report.h"
+#include "myoid/ground/core/remark.h"
+#include "myoid/page/report.h"
 #include "myoid/run/study_result.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// Returns the gates that decide whether the run's numbers can be trusted: input, inverse
 /// kinematics, force sharing, EMG, fit and prediction, each with the result, the expectation and
 /// the reason. The list heads the report, is printed in the terminal, and decides exit code 4.
-[[nodiscard]] std::vector<report::Gate> quality_gates(const StudyResult& result);
+[[nodiscard]] std::vector<page::Gate> quality_gates(const StudyResult& result);
 
 /// Returns all faults of the recordings as a table with times and remedies, warnings first; the
 /// report begins with this section.
-[[nodiscard]] report::Section recordings_section(const StudyResult& result);
+[[nodiscard]] page::Section recordings_section(const StudyResult& result);
 
 /// Returns all faults of the recordings; faults of the whole study come last.
 [[nodiscard]] std::vector<Remark> all_faults(const StudyResult& result);
 
 /// Returns true if a gate of the motion failed (inverse kinematics, markers, angles): a parameter
 /// is at most as good as the motion it is computed from.
-[[nodiscard]] bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials);
+[[nodiscard]] bool motion_is_unreliable(const study::Study& study, const std::vector<TrialResult>& trials);
 
 inline constexpr std::string_view kSharingGate = "Force sharing certified optimal";
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -5,17 +5,17 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/units.h"
-#include "myoid/intervals/verdicts.h"
+#include "myoid/fit/intervals/verdicts.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/run/verdict_caps.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::Method;
+using fit::Method;
 
-using report::Gate;
-using report::GateStatus;
+using page::Gate;
+using page::GateStatus;
 
 /// One trial of 100 frames whose markers miss the model by `error_m`, and whose joint moves over `range_deg`.
 StudyResult some_result(double error_m, int frames_not_converged, double range_deg) {
@@ -26,32 +26,31 @@ StudyResult some_result(double error_m, int frames_not_converged, double range_d
   const Eigen::MatrixXd angle = Eigen::VectorXd::LinSpaced(100, 0.0, range_deg * kDegree);
   const TimeSeries q(time, {{"elbow_flexion", Unit::radian}}, angle);
   trial.motion.joints = {q, q, q};
-  kinematics::IkResult ik;
+  body::IkResult ik;
   ik.q = q;
   ik.errors = TimeSeries(time, {{"marker_error_RMS", Unit::meter}}, Eigen::MatrixXd::Constant(100, 1, error_m));
-  ik.status.assign(100, kinematics::FrameStatus::converged);
+  ik.status.assign(100, body::FrameStatus::converged);
   ik.frames_not_converged = frames_not_converged;
   trial.motion.ik = ik;
   result.trials.push_back(std::move(trial));
-  identification::IdentificationResult torque;
-  torque.method = identification::Method::torque;
+  fit::IdentificationResult torque;
+  torque.method = fit::Method::torque;
   torque.termination = math::Termination::converged;
   torque.estimates.push_back(
-      {.muscle = "BIC", .parameter = "max_isometric_force", .verdict = identification::Verdict::identified});
+      {.muscle = "BIC", .parameter = "max_isometric_force", .verdict = fit::Verdict::identified});
   result.fit.methods.push_back(torque);
   return result;
 }
 
 /// The method with the caps that follow from the result.
-identification::ParameterEstimate capped(const StudyResult& result,
-                                         identification::Method method = identification::Method::torque) {
-  identification::IdentificationResult fit = result.fit.methods[0];
+fit::ParameterEstimate capped(const StudyResult& result, fit::Method method = fit::Method::torque) {
+  fit::IdentificationResult fit = result.fit.methods[0];
   fit.method = method;
-  identification::apply(verdict_caps(result, quality_gates(result)), fit);
+  fit::apply(verdict_caps(result, quality_gates(result)), fit);
   return fit.estimates[0];
 }
 
-identification::Verdict verdict_of(const StudyResult& result) { return capped(result).verdict; }
+fit::Verdict verdict_of(const StudyResult& result) { return capped(result).verdict; }
 
 GateStatus status_of(const StudyResult& result, std::string_view name) {
   const std::vector<Gate> gates = quality_gates(result);
@@ -71,7 +70,7 @@ TEST(QualityGates, AWarningAboutAFileIsNoRecordingWithoutFaults) {
   EXPECT_EQ(status_of(result, gate), GateStatus::pass);
   result.trials[0].remarks = {{.says = "e.sto: the EMG lacks 7.5 s of the motion"}};
   EXPECT_EQ(status_of(result, gate), GateStatus::warn);
-  const report::Section section = recordings_section(result);
+  const page::Section section = recordings_section(result);
   ASSERT_EQ(section.tables.size(), 1U);
   EXPECT_EQ(section.tables[0].rows[0][3].text, result.trials[0].remarks[0].says);
 }
@@ -110,23 +109,23 @@ TEST(QualityGates, ExchangedElectrodesAreAFailureOrOfSynergistsACaution) {
   EXPECT_EQ(status_of(result, gate), GateStatus::fail);
   result.fit.exchanged->as_named.r2 = 0.9;
   EXPECT_EQ(status_of(result, gate), GateStatus::warn);
-  EXPECT_EQ(verdict_of(result), identification::Verdict::weak);
+  EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
 }
 
 TEST(QualityGates, NothingIsIdentifiedFromAMotionThatFailed) {
-  EXPECT_EQ(verdict_of(some_result(0.01, 0, 90.0)), identification::Verdict::identified);
+  EXPECT_EQ(verdict_of(some_result(0.01, 0, 90.0)), fit::Verdict::identified);
   const StudyResult bad = some_result(0.05, 0, 90.0);
-  EXPECT_EQ(verdict_of(bad), identification::Verdict::weak);
+  EXPECT_EQ(verdict_of(bad), fit::Verdict::weak);
   EXPECT_NE(capped(bad).reason.find("quality gate"), std::string::npos);
 }
 
-using identification::Verdict;
+using fit::Verdict;
 
 /// A study of BIC and TRI with a channel each, whose EMG has its greatest effort in the trial "mvc".
 StudyResult with_emg() {
   StudyResult result = some_result(0.01, 0, 90.0);
   for (const char* name : {"BIC", "TRI"}) {
-    MuscleSpec muscle;
+    study::MuscleSpec muscle;
     muscle.name = name;
     muscle.emg = std::string("emg ") + name;
     result.source.study.muscles.push_back(muscle);
@@ -135,7 +134,7 @@ StudyResult with_emg() {
   }
   TrialResult mvc;
   mvc.spec.name = "mvc";
-  mvc.spec.use = Use::mvc;
+  mvc.spec.use = study::Use::mvc;
   result.trials.push_back(std::move(mvc));
   return result;
 }
@@ -188,7 +187,7 @@ TEST(VerdictCaps, AGateThatFailedCapsTheMethodsThatItConcerns) {
   result.trials[0].forces.shared.status.resize(100);
   result.trials[0].forces.shared.frames_not_solved = 1;
   EXPECT_EQ(status_of(result, kSharingGate), GateStatus::info) << "no result of the recording rests on shared forces";
-  result.source.study.identify.methods = {identification::Method::force, identification::Method::torque};
+  result.source.study.identify.methods = {fit::Method::force, fit::Method::torque};
   EXPECT_EQ(status_of(result, kSharingGate), GateStatus::fail);
   EXPECT_EQ(capped(result, Method::torque).verdict, Verdict::identified);
   EXPECT_EQ(capped(result, Method::force).verdict, Verdict::weak);
@@ -207,9 +206,9 @@ TEST(QualityGates, ExternalLoadsAreStatedByAnyOfTheirKeysAlsoAsNothing) {
   result.trials[0].spec.external_loads = "grf.xml";
   EXPECT_EQ(status_of(result, gate), GateStatus::pass);
   result.trials[0].spec.external_loads.reset();
-  result.trials[0].spec.use = Use::mvc;  // no torque of it is fitted
+  result.trials[0].spec.use = study::Use::mvc;  // no torque of it is fitted
   EXPECT_EQ(status_of(result, gate), GateStatus::pass);
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

@@ -4,24 +4,25 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/intake/limits.h"
-#include "myoid/kinematics/lumped_muscles.h"
+#include "myoid/body/kinematics/lumped_muscles.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/study/intake/limits.h"
 #include "myoid/study/study_model.h"
 
-namespace myoid {
+namespace myoid::run {
 
-using identification::RestingJoint;
+using fit::RestingJoint;
 
 namespace {
 
 /// Returns the torque of all the joint's muscles together: sum of the largest |r| times F_max.
-double strength_nm(const Study& study,
-                   const model::BodyModel& model,
+double strength_nm(const study::Study& study,
+                   const body::BodyModel& model,
                    const RelaxedTrial& trial,
                    const std::string& coordinate) {
-  const Eigen::MatrixXd arms = kinematics::lumped_moment_arm_m(*trial.muscles, muscle_groups(study, model), coordinate);
-  const auto setups = muscle_setups(study, model);
+  const Eigen::MatrixXd arms =
+      body::lumped_moment_arm_m(*trial.muscles, study::muscle_groups(study, model), coordinate);
+  const auto setups = study::muscle_setups(study, model);
   double sum = 0.0;
   for (Eigen::Index k = 0; k < arms.cols(); ++k)
     sum += arms.col(k).cwiseAbs().maxCoeff() * setups[static_cast<std::size_t>(k)].start.max_isometric_force_n;
@@ -30,28 +31,28 @@ double strength_nm(const Study& study,
 
 /// Returns the reason why the torques of a passive trial exceed a relaxed joint's; empty if they do
 /// not. The weight of limb and instrument is no resistance.
-std::string too_strong(const Study& study, const model::BodyModel& model, const RelaxedTrial& trial) {
-  const std::vector<std::string> coordinates = study_coordinates(study.model);
+std::string too_strong(const study::Study& study, const body::BodyModel& model, const RelaxedTrial& trial) {
+  const std::vector<std::string> coordinates = study::study_coordinates(study.model);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
     const std::string& name = coordinates[j];
     const Eigen::VectorXd torque = trial.muscle_torque->values().col(static_cast<Eigen::Index>(j));
     const double largest = torque.cwiseAbs().maxCoeff();
-    const double beside = identification::beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
+    const double beside = fit::beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
     const double strength = strength_nm(study, model, trial, name);
-    const double limit = kLimits.resting_share * strength;
-    if (beside <= limit && largest <= limit + identification::kLargestWeight_nm) continue;
+    const double limit = study::kLimits.resting_share * strength;
+    if (beside <= limit && largest <= limit + fit::kLargestWeight_nm) continue;
     return fmt::format(
         "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than {:g} % of its muscles' strength ({:.0f} N m) "
         "and {:g} N m of weight: no relaxed joint resists that much; N mm, or the instrument's offset?",
-        name, largest, beside, 100.0 * kLimits.resting_share, strength, identification::kLargestWeight_nm);
+        name, largest, beside, 100.0 * study::kLimits.resting_share, strength, fit::kLargestWeight_nm);
   }
   return {};
 }
 
 /// Returns the reason why a passive trial does not show a relaxed joint; empty if it does.
-std::string not_at_rest(const Study& study, const model::BodyModel& model, const RelaxedTrial& trial) {
+std::string not_at_rest(const study::Study& study, const body::BodyModel& model, const RelaxedTrial& trial) {
   const bool mvc = study.emg.has_mvc;
-  const double limit = mvc ? kLimits.relaxed : kLimits.relaxed_without_mvc;
+  const double limit = mvc ? study::kLimits.relaxed : study::kLimits.relaxed_without_mvc;
   for (const Channel& channel : trial.activation->channels()) {
     const double mean = trial.activation->column(channel.name).mean();
     if (mean > limit) {
@@ -73,8 +74,8 @@ Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 }  // namespace
 
-RestingJoints resting_joints(const Study& study,
-                             const model::BodyModel& model,
+RestingJoints resting_joints(const study::Study& study,
+                             const body::BodyModel& model,
                              const std::vector<RelaxedTrial>& trials) {
   RestingJoints found;
   std::vector<const RelaxedTrial*> relaxed;
@@ -95,7 +96,7 @@ RestingJoints resting_joints(const Study& study,
            .where = trial.spec->name,
            .says = "a relaxed joint by the study's word: no EMG shows that the muscles were at rest"});
   }
-  const std::vector<std::string> coordinates = study_coordinates(study.model);
+  const std::vector<std::string> coordinates = study::study_coordinates(study.model);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
     RestingJoint joint{.joint = coordinates[j], .torque = {}, .trials = {}};
     Eigen::VectorXd angle, velocity, torque;
@@ -105,7 +106,7 @@ RestingJoints resting_joints(const Study& study,
       torque = joined(torque, trial->muscle_torque->values().col(static_cast<Eigen::Index>(j)));
       joint.trials.push_back(trial->spec->name);
     }
-    const auto fit = identification::fit_resting_torque(angle, velocity, torque);
+    const auto fit = fit::fit_resting_torque(angle, velocity, torque);
     if (!fit) continue;
     joint.torque = *fit;
     found.joints.push_back(std::move(joint));
@@ -127,4 +128,4 @@ Eigen::VectorXd resting_torque_nm(const std::vector<RestingJoint>& joints,
   return found->torque.at(Eigen::VectorXd(q.values().col(*angle)));
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

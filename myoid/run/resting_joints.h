@@ -4,29 +4,29 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/remark.h"
-#include "myoid/core/time_series.h"
-#include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/methods/resting_torque.h"
-#include "myoid/model/body_model.h"
+#include "myoid/body/kinematics/muscle_kinematics.h"
+#include "myoid/body/model/body_model.h"
+#include "myoid/fit/methods/resting_torque.h"
+#include "myoid/ground/core/remark.h"
+#include "myoid/ground/core/time_series.h"
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// A passive trial of a study; the struct owns nothing.
 struct RelaxedTrial {
   std::size_t index = 0;  ///< Index in the study.
-  const TrialSpec* spec = nullptr;
+  const study::TrialSpec* spec = nullptr;
   const TimeSeries* activation = nullptr;  ///< Empty: no EMG.
   const TimeSeries* q = nullptr;
   const TimeSeries* qdot = nullptr;
   /// For the study's coordinates, in their order [N m].
   const TimeSeries* muscle_torque = nullptr;
-  const kinematics::MuscleKinematics* muscles = nullptr;
+  const body::MuscleKinematics* muscles = nullptr;
 };
 
 struct RestingJoints {
-  std::vector<identification::RestingJoint> joints;
+  std::vector<fit::RestingJoint> joints;
   std::vector<Remark> remarks;  ///< `where` is the trial.
 };
 
@@ -34,17 +34,17 @@ struct RestingJoints {
 /// all trials together, joint by joint. The muscles must be at rest. A trial is left out, with a
 /// warning of its own, if an EMG channel is on average above 2 % of its maximal contraction (5 % of
 /// its greatest EMG if there is none), if the torque beside a weight's
-/// (`identification::beside_weight`) exceeds a quarter of the capacity of the joint's muscles (sum of the largest |r|
+/// (`fit::beside_weight`) exceeds a quarter of the capacity of the joint's muscles (sum of the largest |r|
 /// times F_max), or if the whole torque exceeds this quarter plus 25 N m of weight: no relaxed joint resists that much
 /// within its range. A trial without EMG counts as relaxed, with a note. A trial without measured torque is not used.
-[[nodiscard]] RestingJoints resting_joints(const Study& study,
-                                           const model::BodyModel& model,
+[[nodiscard]] RestingJoints resting_joints(const study::Study& study,
+                                           const body::BodyModel& model,
                                            const std::vector<RelaxedTrial>& trials);
 
 /// Returns the resting torque of a coordinate at the angles of `q`, one per sample; empty if it was not measured.
 /// Throws InvalidInput if it was and `q` lacks the angle.
-[[nodiscard]] Eigen::VectorXd resting_torque_nm(const std::vector<identification::RestingJoint>& joints,
+[[nodiscard]] Eigen::VectorXd resting_torque_nm(const std::vector<fit::RestingJoint>& joints,
                                                 const std::string& coordinate,
                                                 const TimeSeries& q);
 
-}  // namespace myoid
+}  // namespace myoid::run

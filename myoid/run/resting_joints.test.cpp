@@ -5,30 +5,30 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/units.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/lab/twin/synthetic_recording.h"
+#include "myoid/lab/twin/write_recording.h"
+#include "myoid/recording/signals/resample.h"
 #include "myoid/run/run_study.h"
-#include "myoid/signals/resample.h"
 #include "myoid/study/read_study.h"
-#include "myoid/twin/synthetic_recording.h"
-#include "myoid/twin/write_recording.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 using ::testing::HasSubstr;
 
 /// A person whose joint has a torque of its own, relaxed and at one effort.
 struct Recorded {
-  twin::VirtualRecording recording;
-  Study study;
-  std::vector<TrialInput> inputs;
+  lab::VirtualRecording recording;
+  study::Study study;
+  std::vector<study::TrialInput> inputs;
 };
 
 Recorded recorded() {
-  twin::Protocol protocol = twin::default_protocol(twin::Level::noisy);
+  lab::Protocol protocol = lab::default_protocol(lab::Level::noisy);
   protocol.truth.beside_muscles = true;
-  const auto trial = [&](const char* name, twin::TrialKind kind, const char* use) {
-    twin::TrialProtocol t;
+  const auto trial = [&](const char* name, lab::TrialKind kind, const char* use) {
+    lab::TrialProtocol t;
     t.name = name;
     t.kind = kind;
     t.use = use;
@@ -38,18 +38,18 @@ Recorded recorded() {
     t.lower_s = 4.0;
     protocol.trials.push_back(t);
   };
-  trial("relaxed", twin::TrialKind::passive, "passive");
-  trial("mvc", twin::TrialKind::mvc, "mvc");
-  trial("ramp", twin::TrialKind::isometric_ramp, "calibration");
-  Recorded r{twin::make_virtual_recording(protocol, 5), {}, {}};
-  r.study = parse_study(twin::study_toml(r.recording), "study.toml");
+  trial("relaxed", lab::TrialKind::passive, "passive");
+  trial("mvc", lab::TrialKind::mvc, "mvc");
+  trial("ramp", lab::TrialKind::isometric_ramp, "calibration");
+  Recorded r{lab::make_virtual_recording(protocol, 5), {}, {}};
+  r.study = study::parse_study(lab::study_toml(r.recording), "study.toml");
   r.study.model.text = r.recording.model_osim;
-  r.study.identify.methods = {identification::Method::torque};
+  r.study.identify.methods = {fit::Method::torque};
   r.study.identify.cross_validate = false;
   r.study.identify.next_movements = 0;
   r.study.truth.reset();
-  for (const twin::VirtualTrial& t : r.recording.trials) {
-    TrialInput input;
+  for (const lab::VirtualTrial& t : r.recording.trials) {
+    study::TrialInput input;
     input.markers = t.markers;
     input.emg = t.emg;
     input.external_torque = t.external_torque;
@@ -61,7 +61,7 @@ Recorded recorded() {
 TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
   // Noise of the dynamometer, 0.3 N m below 5 Hz: 80 independent values for six unknowns, 0.08 N m.
   Recorded r = recorded();
-  const twin::BesideMuscles truth = r.recording.truth.beside;
+  const lab::BesideMuscles truth = r.recording.truth.beside;
   const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   ASSERT_EQ(result.resting.size(), 1U);
   EXPECT_EQ(result.resting[0].joint, "elbow_flexion");
@@ -75,7 +75,7 @@ TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
   for (const std::string& warning : sentences(result.trials[2].remarks, Severity::warning))
     EXPECT_THAT(warning, ::testing::Not(HasSubstr("the joint's resting torque")));
   ASSERT_EQ(result.fit_input.data.trials.size(), 2U);  // the maximal contraction, and
-  const identification::TrialData& ramp = result.fit_input.data.trials.back();
+  const fit::TrialData& ramp = result.fit_input.data.trials.back();
   EXPECT_EQ(ramp.resting_nm, result.resting[0].torque.at(ramp.angle_rad));
 }
 
@@ -94,7 +94,7 @@ TEST(RestingJoints, WithoutAMaximalContractionRestIsAgainstTheGreatestOfTheStudy
   for (const bool at_work : {false, true}) {
     Recorded r = recorded();
     r.study.emg.has_mvc = false;
-    r.study.trials[1].use = Use::validation;
+    r.study.trials[1].use = study::Use::validation;
     if (at_work) r.inputs[0].emg = r.inputs[2].emg;
     const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
     EXPECT_EQ(result.resting.empty(), at_work);
@@ -125,7 +125,7 @@ TEST(RestingJoints, TheWeightOfTheInstrumentIsPartOfIt) {
   TimeSeries& torque = *r.inputs[0].external_torque;
   const Eigen::VectorXd q = without.trials[0].motion.joints.q.column("elbow_flexion");
   const TimeSeries motion(without.trials[0].motion.joints.q.time_s(), {{"q", Unit::radian}}, q);
-  const Eigen::VectorXd angle = signals::resample(motion, torque.time_s()).values().col(0);
+  const Eigen::VectorXd angle = recording::resample(motion, torque.time_s()).values().col(0);
   Eigen::MatrixXd loaded = torque.values();
   loaded.col(0).array() -= 15.0 * angle.array().cos() + 2.0;
   torque = TimeSeries(torque.time_s(), torque.channels(), loaded);
@@ -157,4 +157,4 @@ TEST(RestingJoints, WithoutAMeasuredTorqueNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

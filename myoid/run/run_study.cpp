@@ -11,9 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "myoid/checks/recording_findings.h"
-#include "myoid/core/error.h"
-#include "myoid/methods/torque.h"
+#include "myoid/fit/methods/torque.h"
+#include "myoid/ground/core/error.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/given_trials.h"
 #include "myoid/run/quality_gates.h"
@@ -23,11 +22,12 @@
 #include "myoid/run/study_validation.h"
 #include "myoid/run/trial_motion.h"
 #include "myoid/run/verdict_caps.h"
+#include "myoid/study/checks/recording_findings.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::IdentificationResult;
+using fit::IdentificationResult;
 
 /// Measures the time of the stages and reports the progress of the run.
 class Stages {
@@ -60,8 +60,9 @@ class Stages {
 
 /// Returns the findings. Throws InvalidInput if the sign of every dynamometer is reversed, or a
 /// trial's EMG is in another unit than the maximal contraction.
-RecordingFindings findings_of(const StudyInputs& inputs, const StudyActivation& activation) {
-  RecordingFindings found = recording_findings(inputs.source.study, *inputs.source.model, inputs.trials, activation);
+study::RecordingFindings findings_of(const StudyInputs& inputs, const study::StudyActivation& activation) {
+  study::RecordingFindings found =
+      study::recording_findings(inputs.source.study, *inputs.source.model, inputs.trials, activation);
   for (const Remark& f : found.levels) {
     if (f.severity == Severity::error) throw InvalidInput(sentence(f));
   }
@@ -86,12 +87,12 @@ void require_one(const std::vector<TrialResult>& trials) {
 }
 
 /// Joins the findings of all stages about each trial.
-std::vector<TrialResult> joined(const Study& study,
-                                std::vector<TrialInput> inputs,
-                                std::vector<TrialActivation> emg,
+std::vector<TrialResult> joined(const study::Study& study,
+                                std::vector<study::TrialInput> inputs,
+                                std::vector<study::TrialActivation> emg,
                                 std::vector<TrialMotion> motion,
                                 std::vector<TrialForces> forces,
-                                const RecordingFindings& findings) {
+                                const study::RecordingFindings& findings) {
   std::vector<TrialResult> trials(inputs.size());
   for (std::size_t i = 0; i < trials.size(); ++i) {
     TrialResult& trial = trials[i];
@@ -105,8 +106,8 @@ std::vector<TrialResult> joined(const Study& study,
     remarks = trial.input.remarks;
     std::ranges::copy_if(findings.dynamometers, std::back_inserter(remarks),
                          [&](const Remark& remark) { return remark.where == trial.spec.name; });
-    if (trial.emg.stages) add_notes(trial.emg.stages->findings, remarks);
-    add_notes(trial.motion.notes, remarks);
+    if (trial.emg.stages) study::add_notes(trial.emg.stages->findings, remarks);
+    study::add_notes(trial.motion.notes, remarks);
     remarks.insert(remarks.end(), trial.motion.remarks.begin(), trial.motion.remarks.end());
     remarks.insert(remarks.end(), trial.forces.remarks.begin(), trial.forces.remarks.end());
   }
@@ -119,13 +120,13 @@ std::vector<TrialResult> joined(const Study& study,
 std::optional<DesignStudyResult> next_recording(const StudySource& source,
                                                 const StudyFit& fit,
                                                 const Progress& progress) {
-  const Study& study = source.study;
+  const study::Study& study = source.study;
   if (study.model.is_none()) return std::nullopt;
   DesignStudyOptions options;
   options.choice.movements = study.identify.next_movements;
   options.catalogue.dynamometer = false;
   std::vector<double> masses{0.0};
-  for (const TrialSpec& trial : study.trials) {
+  for (const study::TrialSpec& trial : study.trials) {
     const double held_kg = trial.held_mass_kg.value_or(0.0);
     if (std::ranges::find(masses, held_kg) == masses.end()) masses.push_back(held_kg);
   }
@@ -138,20 +139,20 @@ std::optional<DesignStudyResult> next_recording(const StudySource& source,
   return design_study(study, *source.model, options);
 }
 
-StudyInputs read_stage(const Study& whole, const RunOptions& options, Stages& stages) {
-  Study study = whole;
-  restrict_trials(study, options.start_s, options.end_s);
+StudyInputs read_stage(const study::Study& whole, const RunOptions& options, Stages& stages) {
+  study::Study study = whole;
+  study::restrict_trials(study, options.start_s, options.end_s);
   return stages.run("reading", "reads the recordings", 0.0, 0.15, [&](const Progress&) { return read_inputs(study); });
 }
 
 /// Runs the stages from the activation to the data.
 StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& stages) {
-  const Study& study = inputs.source.study;
-  StudyActivation activation =
+  const study::Study& study = inputs.source.study;
+  study::StudyActivation activation =
       stages.run("activation", "makes activations of the EMG", 0.15, 0.25,
-                 [&](const Progress&) { return study_activation(study, emg_of(inputs.trials)); });
-  RecordingFindings recordings = stages.run("recordings", "checks the recordings", 0.25, 0.3,
-                                            [&](const Progress&) { return findings_of(inputs, activation); });
+                 [&](const Progress&) { return study::study_activation(study, study::emg_of(inputs.trials)); });
+  study::RecordingFindings recordings = stages.run("recordings", "checks the recordings", 0.25, 0.3,
+                                                   [&](const Progress&) { return findings_of(inputs, activation); });
   std::vector<TrialMotion> motion =
       stages.run("motion", "finds angles and muscle paths", 0.3, 0.5,
                  [&](const Progress& progress) { return motion_of(inputs, options, progress); });
@@ -175,9 +176,9 @@ StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& st
 
 /// Runs the stages from the fit on.
 void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& stages) {
-  const Study& study = result.source.study;
+  const study::Study& study = result.source.study;
   FitInput& input = result.fit_input;
-  input.options = identification::remembering_drives(std::move(input.options));
+  input.options = fit::remembering_drives(std::move(input.options));
   StudyFit fit = stages.run("fit", "fits the muscles", 0.72, 0.8,
                             [&](const Progress& progress) { return study_fit(study, input, options.seed, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
@@ -197,8 +198,8 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   input.options.drives.reset();
   result.fit = std::move(fit);
   result.folds = std::move(validation.folds);
-  const std::vector<identification::VerdictCap> caps = verdict_caps(result, quality_gates(result));
-  for (IdentificationResult& method : result.fit.methods) identification::apply(caps, method);
+  const std::vector<fit::VerdictCap> caps = verdict_caps(result, quality_gates(result));
+  for (IdentificationResult& method : result.fit.methods) fit::apply(caps, method);
 }
 
 /// Runs all stages behind the reading.
@@ -212,14 +213,14 @@ StudyResult finished(StudyInputs inputs, const RunOptions& options, Stages& stag
 
 }  // namespace
 
-StudyResult study_data(const Study& study, const RunOptions& options) {
+StudyResult study_data(const study::Study& study, const RunOptions& options) {
   Stages stages(options);
   StudyResult result = up_to_data(read_stage(study, options, stages), options, stages);
   result.times = std::move(stages).times();
   return result;
 }
 
-StudyResult run_study(const Study& study, const RunOptions& options) {
+StudyResult run_study(const study::Study& study, const RunOptions& options) {
   Stages stages(options);
   return finished(read_stage(study, options, stages), options, stages);
 }
@@ -229,4 +230,4 @@ StudyResult analyse(StudyInputs inputs, const RunOptions& options) {
   return finished(std::move(inputs), options, stages);
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

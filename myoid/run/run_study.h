@@ -6,12 +6,12 @@
 #include <optional>
 #include <string_view>
 
-#include "myoid/core/progress.h"
+#include "myoid/ground/core/progress.h"
 #include "myoid/run/study_inputs.h"
 #include "myoid/run/study_result.h"
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::run {
 
 struct RunOptions {
   std::optional<double> start_s, end_s;  ///< Times in every trial [s]; empty: as the study states.
@@ -31,12 +31,12 @@ struct RunOptions {
 
 /// Runs the stages up to the data of the fit, which a prediction by an earlier fit needs. `fit`,
 /// `folds` and `next` stay empty. Throws as `run_study`.
-[[nodiscard]] StudyResult study_data(const Study& study, const RunOptions& options = {});
+[[nodiscard]] StudyResult study_data(const study::Study& study, const RunOptions& options = {});
 
 /// Runs all stages in order: reading, activation, motion, forces, data, fit, validation, findings.
 /// Trials run in parallel, with the same numbers for every number of threads. Throws ReadError or
 /// InvalidInput for unusable input, before any computation because all files are read first, and
 /// Interrupted when stopped. A trial whose computation fails is marked and left out.
-[[nodiscard]] StudyResult run_study(const Study& study, const RunOptions& options = {});
+[[nodiscard]] StudyResult run_study(const study::Study& study, const RunOptions& options = {});
 
-}  // namespace myoid
+}  // namespace myoid::run

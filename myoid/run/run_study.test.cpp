@@ -9,18 +9,18 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
+#include "myoid/recording/tables/csv_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_report.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/study/study_model.h"
-#include "myoid/tables/csv_reader.h"
-#include "myoid/tables/storage_reader.h"
 
 #include "tests/support/exact_recording.h"
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 /// The exact virtual recording, written once and run once for all tests of this file.
@@ -37,8 +37,8 @@ struct ExactRun {
 
 TEST(RunStudy, ASecondRunReusesInverseKinematicsAndFindsTheSame) {
   const ExactRun& first = ExactRun::get();
-  Study study = first.result.source.study;
-  study.identify.methods = {identification::Method::paper};
+  study::Study study = first.result.source.study;
+  study.identify.methods = {fit::Method::paper};
   study.emg.lowpass_hz = 5.0;
   const StudyResult second = run_study(study, {.store = first.folder / "stages"});
   ASSERT_EQ(second.trials.size(), first.result.trials.size());
@@ -56,7 +56,7 @@ TEST(RunStudy, ASecondRunReusesInverseKinematicsAndFindsTheSame) {
 TEST(RunStudy, FromExactFilesEveryParameterIsTheTruthToAMillionth) {
   const StudyResult& result = ExactRun::get().result;
   ASSERT_EQ(result.fit.methods.size(), 2U);
-  const identification::IdentificationResult& torque = result.fit.methods[1];
+  const fit::IdentificationResult& torque = result.fit.methods[1];
   int compared = 0;
   for (const auto& e : torque.estimates) {
     for (const TrueValue& t : result.source.truth) {
@@ -71,7 +71,7 @@ TEST(RunStudy, FromExactFilesEveryParameterIsTheTruthToAMillionth) {
 TEST(WriteResults, LeavesTheFilesThatArePromised) {
   const ExactRun& run = ExactRun::get();
   const auto out = run.folder / "results";
-  write_results(run.result, {}, out);
+  results::write_results(run.result, {}, out);
   const std::string trial = run.result.fit_input.data.trials.front().name;
   for (const std::string name : {"ik.mot", "ik_marker_errors.sto", "id.sto", "MuscleAnalysis_Length.sto",
                                  "MuscleAnalysis_MuscleTendonVelocity.sto",
@@ -94,15 +94,15 @@ TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
   const auto out = run.folder / "some";
   StudyResult none = run.result;
   for (auto& method : none.fit.methods) {
-    for (auto& e : method.estimates) e.verdict = identification::Verdict::weak;
+    for (auto& e : method.estimates) e.verdict = fit::Verdict::weak;
   }
   StudyResult one = none;
   for (auto& e : one.fit.methods[1].estimates) {
-    if (e.muscle == "BIC" && e.parameter == "optimal_fiber_length") e.verdict = identification::Verdict::identified;
+    if (e.muscle == "BIC" && e.parameter == "optimal_fiber_length") e.verdict = fit::Verdict::identified;
   }
-  write_results(one, {}, out);
+  results::write_results(one, {}, out);
   EXPECT_TRUE(std::filesystem::exists(out / (one.source.study.model.file->stem().string() + "_identified.osim")));
-  write_results(none, {}, run.folder / "none");
+  results::write_results(none, {}, run.folder / "none");
   EXPECT_TRUE(std::filesystem::exists(run.folder / "none" / "parameters.csv"));
   for (const auto& entry : std::filesystem::directory_iterator(run.folder / "none"))
     EXPECT_FALSE(entry.path().string().ends_with("_identified.osim")) << entry.path();
@@ -110,13 +110,13 @@ TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
 
 TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   const StudyResult& result = ExactRun::get().result;
-  IdentifiedMuscle muscle{
+  study::IdentifiedMuscle muscle{
       "BIC", result.fit_input.data.muscles[0].start, result.fit_input.data.muscles[0].start, {"max_isometric_force"}};
-  EXPECT_EQ(
-      identified_model(result.source.study, result.source.model_text, {{"BIC", muscle.start, muscle.identified, {}}}),
-      result.source.model_text);
+  EXPECT_EQ(study::identified_model(result.source.study, result.source.model_text,
+                                    {{"BIC", muscle.start, muscle.identified, {}}}),
+            result.source.model_text);
   muscle.identified.max_isometric_force_n *= 2.0;
-  const std::string changed = identified_model(result.source.study, result.source.model_text, {muscle});
+  const std::string changed = study::identified_model(result.source.study, result.source.model_text, {muscle});
   pugi::xml_document before;
   pugi::xml_document after;
   ASSERT_TRUE(before.load_string(result.source.model_text.c_str()));
@@ -131,26 +131,26 @@ TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
 TEST(RunStudy, TheReportHasMethodForce) {
   StudyResult result = ExactRun::get().result;
   const auto torque = std::find_if(result.fit.methods.begin(), result.fit.methods.end(),
-                                   [](const auto& m) { return m.method == identification::Method::torque; });
+                                   [](const auto& m) { return m.method == fit::Method::torque; });
   ASSERT_NE(torque, result.fit.methods.end());
-  identification::IdentificationResult force = *torque;
-  force.method = identification::Method::force;
+  fit::IdentificationResult force = *torque;
+  force.method = fit::Method::force;
   result.fit.methods = {force};
-  const report::Report report = study_report(result, {});
+  const page::Report report = results::study_report(result, {});
   EXPECT_EQ(report.headline.find("source paper"), std::string::npos) << report.headline;
   const auto section = std::find_if(report.sections.begin(), report.sections.end(),
-                                    [](const report::Section& s) { return s.id == "force_method"; });
+                                    [](const page::Section& s) { return s.id == "force_method"; });
   ASSERT_NE(section, report.sections.end());
   EXPECT_EQ(section->tables.front().id, "parameters_force");
 }
 
 TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
-  const report::Report report = study_report(ExactRun::get().result, {});
-  EXPECT_NO_THROW(report::validate(report));
+  const page::Report report = results::study_report(ExactRun::get().result, {});
+  EXPECT_NO_THROW(page::validate(report));
   EXPECT_GE(report.gates.size(), 5U);
   std::vector<std::string> tables;
-  for (const report::Section& section : report.sections) {
-    for (const report::Table& table : section.tables) tables.push_back(table.id);
+  for (const page::Section& section : report.sections) {
+    for (const page::Table& table : section.tables) tables.push_back(table.id);
   }
   for (const std::string wanted : {"parameters_torque", "table_1_shortening", "table_2_lengthening", "trials"}) {
     EXPECT_NE(std::find(tables.begin(), tables.end(), wanted), tables.end()) << wanted;
@@ -160,7 +160,7 @@ TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
 TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
   const StudyResult& result = ExactRun::get().result;
   const auto start = result.fit_input.data.muscles[0].start;
-  IdentifiedMuscle muscle{"BIC", start, start, {"optimal_fiber_length"}};
+  study::IdentifiedMuscle muscle{"BIC", start, start, {"optimal_fiber_length"}};
   muscle.identified.optimal_fiber_length_m *= 1.1;
   muscle.identified.force_length_width_m *= 1.3;
   muscle.identified.concentric_curvature *= 1.2;
@@ -169,7 +169,7 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
     muscle.changed = changed;
     pugi::xml_document document;
     EXPECT_TRUE(
-        document.load_string(identified_model(result.source.study, result.source.model_text, {muscle}).c_str()));
+        document.load_string(study::identified_model(result.source.study, result.source.model_text, {muscle}).c_str()));
     return document.select_node(("//*[@name='BIC']/" + property).c_str()).node().text().as_double();
   };
   const std::vector<std::string> all{"optimal_fiber_length", "force_length_width", "concentric_curvature",
@@ -193,4 +193,4 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

@@ -7,22 +7,22 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/units.h"
-#include "myoid/dynamics/inverse_dynamics.h"
-#include "myoid/forces/sharing_input.h"
-#include "myoid/kinematics/joint_motion.h"
-#include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/body/dynamics/inverse_dynamics.h"
+#include "myoid/body/forces/sharing_input.h"
+#include "myoid/body/kinematics/joint_motion.h"
+#include "myoid/body/kinematics/muscle_kinematics.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/recording/tables/storage_reader.h"
 #include "myoid/results/result_files.h"
 #include "myoid/results/stage_files.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/study_model.h"
-#include "myoid/tables/storage_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 std::string joint(const char* name, const char* parent, const char* child, const char* at) {
@@ -96,8 +96,8 @@ TimeSeries activation(double phase) {
   return {t, {{"HAM", Unit::dimensionless}, {"GLU", Unit::dimensionless}, {"QUA", Unit::dimensionless}}, a};
 }
 
-Study leg_study(const std::string& coordinates) {
-  Study study = parse_study(fmt::format(R"(
+study::Study leg_study(const std::string& coordinates) {
+  study::Study study = study::parse_study(fmt::format(R"(
 [model]
 file = "leg.osim"
 coordinate = {}
@@ -131,14 +131,14 @@ name = "two"
 motion = "two.mot"
 emg = "two.sto"
 )",
-                                        coordinates),
-                            "leg.toml");
+                                                      coordinates),
+                                          "leg.toml");
   study.model.text = leg_osim();
   study.phases.search = false;
   return study;
 }
 
-muscle::HillParameters<double> truth_of(const identification::MuscleSetup& setup) {
+muscle::HillParameters<double> truth_of(const fit::MuscleSetup& setup) {
   muscle::HillParameters<double> p = setup.start;
   p.max_isometric_force_n *= setup.name == "QUA" ? 0.8 : 1.25;
   p.optimal_fiber_length_m *= setup.name == "GLU" ? 0.96 : 1.04;
@@ -147,17 +147,17 @@ muscle::HillParameters<double> truth_of(const identification::MuscleSetup& setup
 }
 
 /// What surrounds the leg exerts whatever the muscles do not.
-std::vector<TrialInput> exact_inputs(const Study& study) {
-  const model::BodyModel leg = load_model(study);
-  const std::vector<identification::MuscleSetup> setups = muscle_setups(study, leg);
-  std::vector<TrialInput> inputs;
+std::vector<study::TrialInput> exact_inputs(const study::Study& study) {
+  const body::BodyModel leg = study::load_model(study);
+  const std::vector<fit::MuscleSetup> setups = study::muscle_setups(study, leg);
+  std::vector<study::TrialInput> inputs;
   for (const double phase : {0.3, 1.9}) {
-    TrialInput input;
+    study::TrialInput input;
     input.motion = leg_motion(phase);
     input.emg = activation(phase);
-    const kinematics::JointMotion moved = kinematics::joint_motion(leg, *input.motion, {}).motion;
-    const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(leg, moved);
-    const TimeSeries needed = dynamics::inverse_dynamics(leg, moved);
+    const body::JointMotion moved = body::joint_motion(leg, *input.motion, {}).motion;
+    const body::MuscleKinematics muscles = body::muscle_kinematics(leg, moved);
+    const TimeSeries needed = body::inverse_dynamics(leg, moved);
     Eigen::MatrixXd outside(moved.sample_count(), 2);
     const std::vector<std::string> coordinates{"hip_angle", "knee_angle"};
     for (Eigen::Index j = 0; j < 2; ++j) {
@@ -175,7 +175,7 @@ std::vector<TrialInput> exact_inputs(const Study& study) {
       }
     }
     std::vector<Channel> columns;
-    for (const std::string& name : study_coordinates(study.model))
+    for (const std::string& name : study::study_coordinates(study.model))
       columns.push_back({name + "_moment", Unit::newton_meter});
     input.external_torque =
         TimeSeries(moved.q.time_s(), columns, outside.leftCols(static_cast<Eigen::Index>(columns.size())));
@@ -185,7 +185,7 @@ std::vector<TrialInput> exact_inputs(const Study& study) {
 }
 
 TEST(SeveralJoints, BothTorquesGiveTheMusclesOfBothJoints) {
-  const Study study = leg_study(R"(["hip_angle", "knee_angle"])");
+  const study::Study study = leg_study(R"(["hip_angle", "knee_angle"])");
   const StudyResult result = analyse(in_memory(study, exact_inputs(study)));
   ASSERT_EQ(result.fit.methods.size(), 1U);
   int compared = 0;
@@ -212,18 +212,18 @@ TEST(SeveralJoints, BothTorquesGiveTheMusclesOfBothJoints) {
 }
 
 TEST(SeveralJoints, TheHipAloneDoesNotTellTheKneesMuscle) {
-  const Study study = leg_study(R"("hip_angle")");
+  const study::Study study = leg_study(R"("hip_angle")");
   const StudyResult result = analyse(in_memory(study, exact_inputs(study)));
   for (const auto& e : result.fit.methods.at(0).estimates) {
     if (e.muscle != "QUA") continue;
-    EXPECT_NE(e.verdict, identification::Verdict::identified) << e.parameter;
+    EXPECT_NE(e.verdict, fit::Verdict::identified) << e.parameter;
   }
 }
 
 TEST(SeveralJoints, FilesHaveAReserveForEachJoint) {
   const test::TemporaryFolder folder;
-  const Study study = leg_study(R"(["hip_angle", "knee_angle"])");
-  write_results(analyse(in_memory(study, exact_inputs(study))), {}, folder / "out");
+  const study::Study study = leg_study(R"(["hip_angle", "knee_angle"])");
+  results::write_results(analyse(in_memory(study, exact_inputs(study))), {}, folder / "out");
   const TimeSeries forces = recording::read_storage(folder / "out/one/EmgInformed_force.sto").data;
   EXPECT_TRUE(forces.find("hip_angle_reserve"));
   EXPECT_TRUE(forces.find("knee_angle_reserve"));
@@ -237,18 +237,17 @@ std::string bytes_of(const std::filesystem::path& file) {
 // `so` is sharing_input, share and write_shared_forces; the motion is the run's own.
 TEST(SeveralJoints, RunAndSoWriteTheSameStaticOptimizationFiles) {
   const test::TemporaryFolder folder;
-  Study study = leg_study(R"(["knee_angle", "hip_angle"])");
+  study::Study study = leg_study(R"(["knee_angle", "hip_angle"])");
   study.identify.cross_validate = false;
   study.identify.next_movements = 0;
-  std::vector<TrialInput> inputs = exact_inputs(study);
-  for (TrialInput& input : inputs) input.external_torque.reset();
+  std::vector<study::TrialInput> inputs = exact_inputs(study);
+  for (study::TrialInput& input : inputs) input.external_torque.reset();
   const StudyResult result = analyse(in_memory(study, std::move(inputs)));
-  write_results(result, {}, folder / "run");
+  results::write_results(result, {}, folder / "run");
   const TrialMotion& motion = result.trials[0].motion;
-  const forces::SharingInput shared =
-      forces::sharing_input(*motion.model, motion.joints, kinematics::muscle_kinematics(*motion.model, motion.joints),
-                            {"hip_angle", "knee_angle"});
-  write_shared_forces(forces::share(shared, {}), folder / "so");
+  const body::SharingInput shared = body::sharing_input(
+      *motion.model, motion.joints, body::muscle_kinematics(*motion.model, motion.joints), {"hip_angle", "knee_angle"});
+  results::write_shared_forces(body::share(shared, {}), folder / "so");
   for (const char* name :
        {"StaticOptimization_force.sto", "StaticOptimization_activation.sto", "StaticOptimization_status.csv"}) {
     const std::string of_so = bytes_of(folder / "so" / name);
@@ -259,13 +258,13 @@ TEST(SeveralJoints, RunAndSoWriteTheSameStaticOptimizationFiles) {
 
 TEST(SeveralJoints, ADynamometerDoesNotMeasureBothTorquesOfAMaximalContraction) {
   const auto fitted = [](const char* coordinates, bool load_cell) {
-    Study study = leg_study(coordinates);
+    study::Study study = leg_study(coordinates);
     study.identify.methods.clear();
-    std::vector<TrialInput> inputs = exact_inputs(study);
-    study.trials[0].use = Use::mvc;
+    std::vector<study::TrialInput> inputs = exact_inputs(study);
+    study.trials[0].use = study::Use::mvc;
     (load_cell ? study.trials[0].load_cell : study.trials[0].external_torque) = "measured.sto";
     const StudyResult result = analyse(in_memory(study, std::move(inputs)));
-    return std::ranges::any_of(result.fit_input.data.trials, &identification::TrialData::reference);
+    return std::ranges::any_of(result.fit_input.data.trials, &fit::TrialData::reference);
   };
   EXPECT_TRUE(fitted(R"("hip_angle")", false));
   EXPECT_FALSE(fitted(R"(["hip_angle", "knee_angle"])", false));
@@ -273,12 +272,12 @@ TEST(SeveralJoints, ADynamometerDoesNotMeasureBothTorquesOfAMaximalContraction) 
 }
 
 TEST(SeveralJoints, PennationAndPassiveForceComeFromTheModelWhereAskedFor) {
-  Study study = leg_study(R"(["hip_angle", "knee_angle"])");
-  const model::BodyModel leg = load_model(study);
-  EXPECT_EQ(muscle_setups(study, leg)[0].extras.pennation_angle_rad, 0.0);
+  study::Study study = leg_study(R"(["hip_angle", "knee_angle"])");
+  const body::BodyModel leg = study::load_model(study);
+  EXPECT_EQ(study::muscle_setups(study, leg)[0].extras.pennation_angle_rad, 0.0);
   study.identify.model_muscles = true;
   study.identify.elastic_tendon = true;
-  const identification::MuscleExtras extras = muscle_setups(study, leg)[0].extras;
+  const fit::MuscleExtras extras = study::muscle_setups(study, leg)[0].extras;
   EXPECT_DOUBLE_EQ(extras.pennation_angle_rad, 0.2);
   EXPECT_DOUBLE_EQ(extras.passive_force, 1.0);
   EXPECT_DOUBLE_EQ(extras.passive_strain, 0.6);
@@ -286,4 +285,4 @@ TEST(SeveralJoints, PennationAndPassiveForceComeFromTheModelWhereAskedFor) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

@@ -4,14 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/build_identity.h"
-#include "myoid/core/error.h"
-#include "myoid/core/json_text.h"
-#include "myoid/core/provenance.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/core/build_identity.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/core/provenance.h"
+#include "myoid/ground/files/atomic_file.h"
 #include "myoid/study/study_text.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 using nlohmann::json;
@@ -68,16 +68,16 @@ void StageStore::mark_used(const std::string& key) {
   used_.insert(file(key).filename().string());
 }
 
-std::optional<kinematics::IkResult> StageStore::find(const std::string& key) {
-  const std::optional<std::string> bytes = recording::recorded_content(file(key));
+std::optional<body::IkResult> StageStore::find(const std::string& key) {
+  const std::optional<std::string> bytes = recorded_content(file(key));
   if (!bytes) return std::nullopt;
   try {
     const json stored = json::from_cbor(*bytes);
-    kinematics::IkResult result;
+    body::IkResult result;
     result.q = series_from(stored.at("q"));
     result.errors = series_from(stored.at("errors"));
     for (const int status : stored.at("status").get<std::vector<int>>())
-      result.status.push_back(enumerator(status, kinematics::FrameStatus::no_markers));
+      result.status.push_back(enumerator(status, body::FrameStatus::no_markers));
     const Eigen::VectorXd objective = unpacked(stored.at("objective"));
     result.objective.assign(objective.data(), objective.data() + objective.size());
     result.frames_not_converged = stored.at("frames_not_converged");
@@ -93,14 +93,12 @@ std::optional<kinematics::IkResult> StageStore::find(const std::string& key) {
   }
 }
 
-bool StageStore::is_damaged(const std::string& key) const {
-  return recording::standing_of(file(key)) == recording::Standing::changed;
-}
+bool StageStore::is_damaged(const std::string& key) const { return standing_of(file(key)) == Standing::changed; }
 
-void StageStore::keep(const std::string& key, const kinematics::IkResult& result) {
+void StageStore::keep(const std::string& key, const body::IkResult& result) {
   std::vector<int> status;
   status.reserve(result.status.size());
-  for (const kinematics::FrameStatus s : result.status) status.push_back(static_cast<int>(s));
+  for (const body::FrameStatus s : result.status) status.push_back(static_cast<int>(s));
   const json stored = {
       {"q", to_json(result.q)},
       {"errors", to_json(result.errors)},
@@ -113,7 +111,7 @@ void StageStore::keep(const std::string& key, const kinematics::IkResult& result
   };
   const Bytes bytes = json::to_cbor(stored);
   try {
-    recording::write_file(file(key), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    write_file(file(key), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     mark_used(key);
   } catch (const InvalidInput&) {
     return;
@@ -121,12 +119,12 @@ void StageStore::keep(const std::string& key, const kinematics::IkResult& result
 }
 
 void StageStore::remove_unused() {
-  recording::remove_results(folder_, used_);
+  remove_results(folder_, used_);
   record_.finish();
 }
 
-std::string ik_key(const Study& study, std::string_view model_text, const recording::MarkerSeries& markers) {
-  const json settings = parse_json(study_json(study));
+std::string ik_key(const study::Study& study, std::string_view model_text, const MarkerSeries& markers) {
+  const json settings = parse_json(study::study_json(study));
   std::string what = build_identity() + '\n' + sha256(model_text) + '\n';
   for (const char* section : {"model", "markers", "ik"}) what += json_text(settings.at(section), -1) + '\n';
   for (const std::string& name : markers.names) what += name + '\n';
@@ -138,4 +136,4 @@ std::string ik_key(const Study& study, std::string_view model_text, const record
   return sha256(what);
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

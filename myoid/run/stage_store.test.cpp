@@ -8,11 +8,11 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-kinematics::IkResult some_result() {
-  kinematics::IkResult result;
+body::IkResult some_result() {
+  body::IkResult result;
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(3, 0.0, 0.02);
   Eigen::MatrixXd q(3, 1);
   q << 0.1, 1.0 / 3.0, std::nextafter(0.5, 1.0);
@@ -20,8 +20,7 @@ kinematics::IkResult some_result() {
   errors(1, 1) = std::numeric_limits<double>::quiet_NaN();
   result.q = TimeSeries(time, {{"elbow_flexion", Unit::radian}}, q);
   result.errors = TimeSeries(time, {{"total", Unit::dimensionless}, {"wrist", Unit::meter}}, errors);
-  result.status = {kinematics::FrameStatus::converged, kinematics::FrameStatus::not_converged,
-                   kinematics::FrameStatus::no_markers};
+  result.status = {body::FrameStatus::converged, body::FrameStatus::not_converged, body::FrameStatus::no_markers};
   result.objective = {1e-300, 2.0, 3.0};
   result.frames_not_converged = 1;
   result.frames_without_markers = 1;
@@ -30,8 +29,8 @@ kinematics::IkResult some_result() {
   return result;
 }
 
-recording::MarkerSeries some_markers() {
-  recording::MarkerSeries markers;
+MarkerSeries some_markers() {
+  MarkerSeries markers;
   markers.names = {"wrist"};
   markers.time_s = Eigen::VectorXd::LinSpaced(3, 0.0, 0.02);
   markers.positions_m = Eigen::MatrixXd::Constant(3, 3, 0.25);
@@ -40,7 +39,7 @@ recording::MarkerSeries some_markers() {
 
 TEST(StageStore, WhatWasKeptComesBackToTheLastBit) {
   const test::TemporaryFolder folder;
-  const kinematics::IkResult kept = some_result();
+  const body::IkResult kept = some_result();
   StageStore(folder / "stages").keep("k", kept);
   const auto found = StageStore(folder / "stages").find("k");
   ASSERT_TRUE(found);
@@ -88,18 +87,18 @@ TEST(StageStore, OnlyEntriesOfThisRunSurviveIt) {
 }
 
 TEST(StageStore, TheKeyChangesWithEveryInputOfInverseKinematicsAndNoOther) {
-  const Study study;
-  const recording::MarkerSeries markers = some_markers();
+  const study::Study study;
+  const MarkerSeries markers = some_markers();
   const std::string key = ik_key(study, "<model/>", markers);
   EXPECT_EQ(key, ik_key(study, "<model/>", markers));
   EXPECT_NE(key, ik_key(study, "<model />", markers));
-  recording::MarkerSeries moved = markers;
+  MarkerSeries moved = markers;
   moved.positions_m(2, 2) = std::nextafter(0.25, 1.0);
   EXPECT_NE(key, ik_key(study, "<model/>", moved));
   moved = markers;
   moved.names = {"elbow"};
   EXPECT_NE(key, ik_key(study, "<model/>", moved));
-  Study other = study;
+  study::Study other = study;
   other.markers.weight["wrist"] = 2.0;
   EXPECT_NE(key, ik_key(other, "<model/>", markers));
   other = study;
@@ -114,4 +113,4 @@ TEST(StageStore, TheKeyChangesWithEveryInputOfInverseKinematicsAndNoOther) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

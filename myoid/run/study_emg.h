@@ -1,13 +1,12 @@
 #pragma once
 
+#include "myoid/recording/signals/emg_chain.h"
 #include "myoid/run/study_result.h"
-#include "myoid/signals/emg_chain.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// Returns the steps from EMG to the activations of a study, for the headers of files; none without
 /// EMG. `method`: adds the delay that the method found; null: no delay.
-[[nodiscard]] signals::EmgChain emg_chain(const StudyResult& result,
-                                          const identification::IdentificationResult* method);
+[[nodiscard]] recording::EmgChain emg_chain(const StudyResult& result, const fit::IdentificationResult* method);
 
-}  // namespace myoid
+}  // namespace myoid::run

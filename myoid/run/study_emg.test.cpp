@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 using ::testing::Contains;
@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// One trial with an activation, from EMG of this kind.
-StudyResult with_activation(EmgKind kind) {
+StudyResult with_activation(study::EmgKind kind) {
   StudyResult result;
   result.source.study.emg.kind = kind;
   result.trials.resize(1);
@@ -21,14 +21,14 @@ StudyResult with_activation(EmgKind kind) {
 }
 
 TEST(EmgChain, WithoutEmgThereAreNoSteps) {
-  StudyResult result = with_activation(EmgKind::envelope);
+  StudyResult result = with_activation(study::EmgKind::envelope);
   result.trials[0].emg.activation = {};
   EXPECT_TRUE(emg_chain(result, nullptr).steps.empty());
 }
 
 TEST(EmgChain, OnlyEnvelopesAreResampledAndBothSayThatTheyCameProcessed) {
-  const auto envelope = emg_chain(with_activation(EmgKind::envelope), nullptr);
-  const auto activation = emg_chain(with_activation(EmgKind::activation), nullptr);
+  const auto envelope = emg_chain(with_activation(study::EmgKind::envelope), nullptr);
+  const auto activation = emg_chain(with_activation(study::EmgKind::activation), nullptr);
   EXPECT_THAT(envelope.steps, Contains(HasSubstr("resampled to 200 Hz")));
   EXPECT_THAT(activation.steps, Not(Contains(HasSubstr("resampled"))));
   EXPECT_THAT(envelope.steps.front(), HasSubstr("EMG envelopes as the files hold them"));
@@ -36,16 +36,16 @@ TEST(EmgChain, OnlyEnvelopesAreResampledAndBothSayThatTheyCameProcessed) {
 }
 
 TEST(EmgChain, TrialsForValidationAreSaidToTakeNoPartInTheNormalization) {
-  StudyResult result = with_activation(EmgKind::envelope);
+  StudyResult result = with_activation(study::EmgKind::envelope);
   result.trials.push_back(result.trials[0]);
   EXPECT_THAT(emg_chain(result, nullptr).steps, Contains(HasSubstr("over all trials and maximal")));
-  result.trials[1].spec.use = Use::validation;
-  const signals::EmgChain chain = emg_chain(result, nullptr);
+  result.trials[1].spec.use = study::Use::validation;
+  const recording::EmgChain chain = emg_chain(result, nullptr);
   EXPECT_THAT(chain.steps, Contains(HasSubstr("over all trials but those for validation and maximal")));
   EXPECT_THAT(chain.methods, Contains(HasSubstr("(trials for validation took no part)")));
-  result.trials[0].spec.use = Use::validation;
+  result.trials[0].spec.use = study::Use::validation;
   EXPECT_THAT(emg_chain(result, nullptr).steps, Contains(HasSubstr("over all trials and maximal")));
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

@@ -7,16 +7,16 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "myoid/methods/force.h"
-#include "myoid/methods/paper.h"
-#include "myoid/methods/prediction.h"
-#include "myoid/methods/torque.h"
-#include "myoid/signals/quality_limits.h"
+#include "myoid/fit/methods/force.h"
+#include "myoid/fit/methods/paper.h"
+#include "myoid/fit/methods/prediction.h"
+#include "myoid/fit/methods/torque.h"
+#include "myoid/recording/signals/quality_limits.h"
 
-namespace myoid {
+namespace myoid::run {
 
-using identification::IdentificationResult;
-using identification::Method;
+using fit::IdentificationResult;
+using fit::Method;
 
 const IdentificationResult* method_of(const StudyFit& fit, Method method) {
   const auto found = std::ranges::find(fit.methods, method, &IdentificationResult::method);
@@ -30,14 +30,14 @@ const IdentificationResult* best_method(const StudyFit& fit) {
 
 const IdentificationResult* torque_of(const StudyFit& fit) { return method_of(fit, Method::torque); }
 
-const identification::TrialFit* trial_of(const IdentificationResult& method, const std::string& trial) {
-  const auto found = std::ranges::find(method.trials, trial, &identification::TrialFit::trial);
+const fit::TrialFit* trial_of(const IdentificationResult& method, const std::string& trial) {
+  const auto found = std::ranges::find(method.trials, trial, &fit::TrialFit::trial);
   return found == method.trials.end() ? nullptr : &*found;
 }
 
-bool wants_torque(const Study& study) {
-  const std::vector<identification::Method>& methods = study.identify.methods;
-  return std::ranges::find(methods, identification::Method::torque) != methods.end();
+bool wants_torque(const study::Study& study) {
+  const std::vector<fit::Method>& methods = study.identify.methods;
+  return std::ranges::find(methods, fit::Method::torque) != methods.end();
 }
 
 namespace {
@@ -45,10 +45,10 @@ namespace {
 /// Compares the solvers of method `paper`, whose result is the last; their minima join its basins.
 void compare_solvers(
     std::optional<int> starts, const FitInput& input, std::uint64_t seed, const Progress& progress, StudyFit& found) {
-  identification::ContestOptions options{.seed = seed, .progress = progress};
+  fit::ContestOptions options{.seed = seed, .progress = progress};
   options.starts = starts.value_or(options.starts);
-  found.contests = identification::solver_contests(input.data, options);
-  for (const identification::NamedContest& named : found.contests) {
+  found.contests = fit::solver_contests(input.data, options);
+  for (const fit::NamedContest& named : found.contests) {
     if (named.contest.runs.empty()) continue;
     found.methods.back().basins.push_back(named.contest.basins);
     found.methods.back().basins.back().fit = named.fit + ", Levenberg-Marquardt";
@@ -57,55 +57,53 @@ void compare_solvers(
 
 }  // namespace
 
-bool shares_forces(const Study& study) {
+bool shares_forces(const study::Study& study) {
   return std::ranges::any_of(study.trials,
-                             [&](const TrialSpec& trial) { return study.fits(trial) && !trial.given.forces; });
+                             [&](const study::TrialSpec& trial) { return study.fits(trial) && !trial.given.forces; });
 }
 
-StudyFit study_fit(const Study& study, const FitInput& input, std::uint64_t seed, const Progress& progress) {
+StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64_t seed, const Progress& progress) {
   StudyFit found;
   if (wants_torque(study)) {
-    const double delay_s = study.emg.delay_s.value_or(identification::EstimatorOptions{}.delay_prior_mean_s);
-    found.exchanged = identification::exchanged_electrodes(input.data, delay_s);
+    const double delay_s = study.emg.delay_s.value_or(fit::EstimatorOptions{}.delay_prior_mean_s);
+    found.exchanged = fit::exchanged_electrodes(input.data, delay_s);
     found.shifted =
-        identification::shifted_emg(input.data, {signals::kLimits.earliest_offset_s, signals::kLimits.latest_offset_s});
+        fit::shifted_emg(input.data, {recording::kLimits.earliest_offset_s, recording::kLimits.latest_offset_s});
   }
   const bool shared = shares_forces(study);
-  for (const identification::Method method : study.identify.methods) {
+  for (const fit::Method method : study.identify.methods) {
     progress.check();
-    if (method == identification::Method::paper) {
-      found.methods.push_back(
-          identification::identify_paper(input.data, {.multistart = study.identify.starts.value_or(1),
-                                                      .muscles = study.identify.muscles,
-                                                      .shared_forces = shared}));
+    if (method == fit::Method::paper) {
+      found.methods.push_back(fit::identify_paper(input.data, {.multistart = study.identify.starts.value_or(1),
+                                                               .muscles = study.identify.muscles,
+                                                               .shared_forces = shared}));
       if (study.identify.compare_solvers) compare_solvers(study.identify.starts, input, seed, progress, found);
-    } else if (method == identification::Method::force) {
-      found.methods.push_back(identification::identify_force(
+    } else if (method == fit::Method::force) {
+      found.methods.push_back(fit::identify_force(
           input.data, {.estimator = input.options, .shared_forces = shared, .detect_exact = !shared}));
     } else {
       // EMG that is given as activation may be that of a simulation, without noise.
       std::optional<IdentificationResult> exact;
-      if (study.emg.kind == EmgKind::activation) exact = identification::identify_exactly(input.data, input.options);
-      found.methods.push_back(exact ? std::move(*exact) : identification::identify_torque(input.data, input.options));
+      if (study.emg.kind == study::EmgKind::activation) exact = fit::identify_exactly(input.data, input.options);
+      found.methods.push_back(exact ? std::move(*exact) : fit::identify_torque(input.data, input.options));
     }
   }
   return found;
 }
 
-std::vector<identification::InformedForces> informed_forces(const FitInput& input,
-                                                            const std::vector<IdentificationResult>& methods) {
-  std::vector<identification::InformedForces> found;
+std::vector<InformedForces> informed_forces(const FitInput& input, const std::vector<IdentificationResult>& methods) {
+  std::vector<InformedForces> found;
   for (const IdentificationResult& method : methods) {
-    if (method.method != identification::Method::torque) continue;
+    if (method.method != fit::Method::torque) continue;
     const std::size_t before = found.size();
-    const std::vector<identification::TrialData>& trials = input.data.trials;
+    const std::vector<fit::TrialData>& trials = input.data.trials;
     found.resize(before + trials.size());
     oneapi::tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
-      const identification::Prediction p = identification::predict(input.data, trials[i], method.values, method.lag);
-      found[before + i] = identification::informed_forces(trials[i], p.activation, method.values.muscles);
+      const fit::Prediction p = fit::predict(input.data, trials[i], method.values, method.lag);
+      found[before + i] = informed_forces(trials[i], p.activation, method.values.muscles);
     });
   }
   return found;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

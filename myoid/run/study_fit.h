@@ -5,56 +5,55 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/progress.h"
-#include "myoid/intervals/result.h"
-#include "myoid/methods/exchanged_electrodes.h"
-#include "myoid/methods/informed_forces.h"
-#include "myoid/methods/shifted_emg.h"
-#include "myoid/methods/solver_contest.h"
+#include "myoid/fit/intervals/result.h"
+#include "myoid/fit/methods/exchanged_electrodes.h"
+#include "myoid/fit/methods/shifted_emg.h"
+#include "myoid/fit/methods/solver_contest.h"
+#include "myoid/ground/core/progress.h"
 #include "myoid/run/fit_input.h"
+#include "myoid/run/informed_forces.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// The parameters of a study and the forces that follow from the parameters.
 struct StudyFit {
-  std::vector<identification::IdentificationResult> methods;
+  std::vector<fit::IdentificationResult> methods;
   /// Two channels that fit better with exchanged names.
-  std::optional<identification::ExchangedElectrodes> exchanged;
-  std::optional<identification::ShiftedEmg> shifted;   ///< EMG on another clock than the torque.
-  std::vector<identification::NamedContest> contests;  ///< Solvers of method `paper`, if the study compares them.
+  std::optional<fit::ExchangedElectrodes> exchanged;
+  std::optional<fit::ShiftedEmg> shifted;   ///< EMG on another clock than the torque.
+  std::vector<fit::NamedContest> contests;  ///< Solvers of method `paper`, if the study compares them.
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
-  std::vector<identification::InformedForces> informed;
+  std::vector<InformedForces> informed;
 };
 
 /// Returns the result of the method of this name; nullptr if there is none.
-[[nodiscard]] const identification::IdentificationResult* method_of(const StudyFit& fit, identification::Method method);
+[[nodiscard]] const fit::IdentificationResult* method_of(const StudyFit& fit, fit::Method method);
 
 /// Returns the method by which a reader judges the muscles: torque, else force; null: only method `paper` was asked
 /// for.
-[[nodiscard]] const identification::IdentificationResult* best_method(const StudyFit& fit);
+[[nodiscard]] const fit::IdentificationResult* best_method(const StudyFit& fit);
 
 /// Returns the result of method torque; nullptr if there is none.
-[[nodiscard]] const identification::IdentificationResult* torque_of(const StudyFit& fit);
+[[nodiscard]] const fit::IdentificationResult* torque_of(const StudyFit& fit);
 
 /// Returns the first fit of a trial by a method; nullptr if there is none.
-[[nodiscard]] const identification::TrialFit* trial_of(const identification::IdentificationResult& method,
-                                                       const std::string& trial);
+[[nodiscard]] const fit::TrialFit* trial_of(const fit::IdentificationResult& method, const std::string& trial);
 
 /// Returns true if the study asks for method torque.
-[[nodiscard]] bool wants_torque(const Study& study);
+[[nodiscard]] bool wants_torque(const study::Study& study);
 
 /// Returns true if force sharing made the forces of a fitted trial.
-[[nodiscard]] bool shares_forces(const Study& study);
+[[nodiscard]] bool shares_forces(const study::Study& study);
 
 /// Computes the parameters by every method that the study names. `seed` is that of the solvers' comparison.
-[[nodiscard]] StudyFit study_fit(const Study& study,
+[[nodiscard]] StudyFit study_fit(const study::Study& study,
                                  const FitInput& input,
                                  std::uint64_t seed,
                                  const Progress& progress);
 
 /// Returns the forces informed by the EMG, for `StudyFit::informed`.
-[[nodiscard]] std::vector<identification::InformedForces> informed_forces(
-    const FitInput& input, const std::vector<identification::IdentificationResult>& methods);
+[[nodiscard]] std::vector<InformedForces> informed_forces(const FitInput& input,
+                                                          const std::vector<fit::IdentificationResult>& methods);
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -7,29 +7,29 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "myoid/core/error.h"
-#include "myoid/dynamics/inverse_dynamics.h"
-#include "myoid/forces/sharing_input.h"
-#include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/body/dynamics/inverse_dynamics.h"
+#include "myoid/body/forces/sharing_input.h"
+#include "myoid/body/kinematics/muscle_kinematics.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/recording/signals/resample.h"
 #include "myoid/run/resting_joints.h"
-#include "myoid/signals/resample.h"
 #include "myoid/study/study_model.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 /// Returns the times in which a leg's torque lacks the ground reaction; empty if there are none.
-std::optional<dynamics::UncarriedTime> uncarried_time(const Study& study,
-                                                      const TrialSpec& spec,
-                                                      const TrialMotion& motion,
-                                                      const TimeSeries& generalized) {
+std::optional<body::UncarriedTime> uncarried_time(const study::Study& study,
+                                                  const study::TrialSpec& spec,
+                                                  const TrialMotion& motion,
+                                                  const TimeSeries& generalized) {
   if (spec.external_torque || spec.given.torques) return std::nullopt;
-  const std::vector<std::string> names = study_coordinates(study.model);
+  const std::vector<std::string> names = study::study_coordinates(study.model);
   const Eigen::VectorXd posture = motion.joints.q.values().row(0).transpose();
   const bool bears = std::ranges::any_of(names, [&](const std::string& name) {
-    return dynamics::bears_the_body(*motion.model, name, posture, study.subject.mass_kg.value_or(0.0));
+    return body::bears_the_body(*motion.model, name, posture, study.subject.mass_kg.value_or(0.0));
   });
-  return bears ? dynamics::uncarried_time(*motion.model, generalized) : std::nullopt;
+  return bears ? body::uncarried_time(*motion.model, generalized) : std::nullopt;
 }
 
 bool is_computed(const TrialMotion& motion, const TrialForces& forces) {
@@ -54,9 +54,9 @@ void for_each_trial(const std::vector<TrialMotion>& motion,
 }
 
 /// Puts the columns of a given stage in the place of the computed ones. `stage` is empty where nothing was computed.
-void take_given(const model::BodyModel& model, const TimeSeries& given, Unit unit, TimeSeries& stage) {
+void take_given(const body::BodyModel& model, const TimeSeries& given, Unit unit, TimeSeries& stage) {
   std::vector<Channel> channels;
-  for (const model::Muscle& muscle : model.muscles) channels.push_back({muscle.name, unit});
+  for (const body::Muscle& muscle : model.muscles) channels.push_back({muscle.name, unit});
   Eigen::MatrixXd values = stage.values();
   for (Eigen::Index c = 0; c < given.channel_count(); ++c)
     values.col(model.muscle_index(given.channels()[static_cast<std::size_t>(c)].name)) = given.values().col(c);
@@ -64,7 +64,7 @@ void take_given(const model::BodyModel& model, const TimeSeries& given, Unit uni
 }
 
 /// Returns true if the trial gives the paths of every muscle of the model.
-bool gives_paths(const model::BodyModel& model, const GivenStages& given) {
+bool gives_paths(const body::BodyModel& model, const study::GivenStages& given) {
   const auto whole = [&](const TimeSeries& series) {
     return series.channel_count() == static_cast<Eigen::Index>(model.muscles.size());
   };
@@ -73,23 +73,25 @@ bool gives_paths(const model::BodyModel& model, const GivenStages& given) {
 }
 
 /// Returns the muscles' paths: those that the trial gives, and those of the model for the rest.
-kinematics::MuscleKinematics muscle_paths(const Study& study, const TrialMotion& motion, const GivenStages& given) {
-  const model::BodyModel& model = *motion.model;
+body::MuscleKinematics muscle_paths(const study::Study& study,
+                                    const TrialMotion& motion,
+                                    const study::GivenStages& given) {
+  const body::BodyModel& model = *motion.model;
   const Eigen::VectorXd& time_s = motion.joints.q.time_s();
-  const std::vector<std::string> coordinates = study_coordinates(study.model);
-  kinematics::MuscleKinematics found;
+  const std::vector<std::string> coordinates = study::study_coordinates(study.model);
+  body::MuscleKinematics found;
   if (study.model.is_none() || gives_paths(model, given)) {
     std::vector<Channel> names;
-    for (const model::Muscle& muscle : model.muscles) names.push_back({muscle.name, Unit::meter});
+    for (const body::Muscle& muscle : model.muscles) names.push_back({muscle.name, Unit::meter});
     const TimeSeries blank(time_s, names,
                            Eigen::MatrixXd::Zero(time_s.size(), static_cast<Eigen::Index>(names.size())));
     found.length = found.velocity = blank;
     for (const std::string& name : coordinates) found.moment_arm[name] = blank;
   } else {
-    found = kinematics::muscle_kinematics(model, motion.joints);
+    found = body::muscle_kinematics(model, motion.joints);
   }
   const auto put = [&](const TimeSeries& series, Unit unit, TimeSeries& stage) {
-    take_given(model, {time_s, series.channels(), values_at(series, time_s)}, unit, stage);
+    take_given(model, {time_s, series.channels(), study::values_at(series, time_s)}, unit, stage);
   };
   if (given.lengths) {
     put(*given.lengths, Unit::meter, found.length);
@@ -101,25 +103,25 @@ kinematics::MuscleKinematics muscle_paths(const Study& study, const TrialMotion&
 }
 
 /// Returns the torques of all coordinates by inverse dynamics.
-TimeSeries computed_torques(const TrialInput& input, const TrialMotion& motion) {
-  return dynamics::inverse_dynamics(*motion.model, motion.joints, {.loads = input.loads ? &*input.loads : nullptr});
+TimeSeries computed_torques(const study::TrialInput& input, const TrialMotion& motion) {
+  return body::inverse_dynamics(*motion.model, motion.joints, {.loads = input.loads ? &*input.loads : nullptr});
 }
 
 /// Returns given forces on the clock of the motion.
-forces::MuscleForces given_forces(const TimeSeries& given, const Eigen::VectorXd& time_s) {
-  forces::MuscleForces forces;
-  forces.force = TimeSeries(time_s, given.channels(), values_at(given, time_s));
+body::MuscleForces given_forces(const TimeSeries& given, const Eigen::VectorXd& time_s) {
+  body::MuscleForces forces;
+  forces.force = TimeSeries(time_s, given.channels(), study::values_at(given, time_s));
   return forces;
 }
 
-std::vector<identification::RestingJoint> find_resting(const StudyInputs& inputs,
-                                                       const StudyActivation& activation,
-                                                       const std::vector<TrialMotion>& motion,
-                                                       std::vector<TrialForces>& forces) {
+std::vector<fit::RestingJoint> find_resting(const StudyInputs& inputs,
+                                            const study::StudyActivation& activation,
+                                            const std::vector<TrialMotion>& motion,
+                                            std::vector<TrialForces>& forces) {
   std::vector<RelaxedTrial> trials;
   for (std::size_t i = 0; i < motion.size(); ++i) {
-    const TrialSpec& spec = inputs.source.study.trials[i];
-    if (spec.use != Use::passive || !is_computed(motion[i], forces[i])) continue;
+    const study::TrialSpec& spec = inputs.source.study.trials[i];
+    if (spec.use != study::Use::passive || !is_computed(motion[i], forces[i])) continue;
     trials.push_back({i, &spec, &activation.trials[i].activation, &motion[i].joints.q, &motion[i].joints.qdot,
                       &forces[i].muscle_torque, &forces[i].muscles});
   }
@@ -135,10 +137,10 @@ std::vector<identification::RestingJoint> find_resting(const StudyInputs& inputs
 }  // namespace
 
 TrialForces trial_torques(const StudySource& source,
-                          const TrialSpec& spec,
-                          const TrialInput& input,
+                          const study::TrialSpec& spec,
+                          const study::TrialInput& input,
                           const TrialMotion& motion) {
-  const model::BodyModel& model = *motion.model;
+  const body::BodyModel& model = *motion.model;
   TrialForces found;
   found.muscles = muscle_paths(source.study, motion, input.given);
   const std::optional<TimeSeries>& given = input.given.torques;
@@ -146,18 +148,18 @@ TrialForces trial_torques(const StudySource& source,
   if (source.study.model.is_none() && !given) return found;
   const Eigen::VectorXd& time_s = motion.joints.q.time_s();
   found.generalized =
-      given ? TimeSeries(time_s, given->channels(), values_at(*given, time_s)) : computed_torques(input, motion);
-  const std::vector<std::string> coordinates = study_coordinates(source.study.model);
+      given ? TimeSeries(time_s, given->channels(), study::values_at(*given, time_s)) : computed_torques(input, motion);
+  const std::vector<std::string> coordinates = study::study_coordinates(source.study.model);
   std::vector<Channel> columns;
   Eigen::MatrixXd torque(motion.joints.sample_count(), static_cast<Eigen::Index>(coordinates.size()));
   for (const std::string& name : coordinates) {
     const auto index = static_cast<std::size_t>(model.coordinate_index(name));
     const auto column = static_cast<Eigen::Index>(columns.size());
-    columns.push_back({dynamics::generalized_force_name(model.coordinates[index]), Unit::newton_meter});
+    columns.push_back({body::generalized_force_name(model.coordinates[index]), Unit::newton_meter});
     torque.col(column) = found.generalized.column(columns.back().name);
   }
   // The muscles do not produce the torque that acts from outside.
-  if (input.external_torque) torque -= signals::resample(*input.external_torque, time_s).values();
+  if (input.external_torque) torque -= recording::resample(*input.external_torque, time_s).values();
   found.muscle_torque = TimeSeries(time_s, std::move(columns), std::move(torque));
   found.uncarried = uncarried_time(source.study, spec, motion, found.generalized);
   if (found.uncarried)
@@ -165,43 +167,43 @@ TrialForces trial_torques(const StudySource& source,
   return found;
 }
 
-forces::MuscleForces shared_forces(const Study& study,
-                                   const TrialInput& input,
-                                   const TrialMotion& motion,
-                                   const TrialForces& torques,
-                                   const std::vector<identification::RestingJoint>& resting,
-                                   std::vector<Remark>& remarks) {
+body::MuscleForces shared_forces(const study::Study& study,
+                                 const study::TrialInput& input,
+                                 const TrialMotion& motion,
+                                 const TrialForces& torques,
+                                 const std::vector<fit::RestingJoint>& resting,
+                                 std::vector<Remark>& remarks) {
   const Eigen::VectorXd& time_s = motion.joints.q.time_s();
   if (input.given.forces) return given_forces(*input.given.forces, time_s);
-  const std::vector<std::string> coordinates = study_coordinates(study.model);
-  forces::SharingInput sharing =
-      input.given.torques ? forces::sharing_input(*motion.model, torques.generalized, torques.muscles, coordinates)
-                          : forces::sharing_input(*motion.model, motion.joints, torques.muscles, coordinates,
-                                                  input.loads ? &*input.loads : nullptr);
-  add_notes(sharing.notes, remarks);
+  const std::vector<std::string> coordinates = study::study_coordinates(study.model);
+  body::SharingInput sharing =
+      input.given.torques ? body::sharing_input(*motion.model, torques.generalized, torques.muscles, coordinates)
+                          : body::sharing_input(*motion.model, motion.joints, torques.muscles, coordinates,
+                                                input.loads ? &*input.loads : nullptr);
+  study::add_notes(sharing.notes, remarks);
   Eigen::MatrixXd torque = sharing.torques.values();
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
     const auto index = static_cast<std::size_t>(motion.model->coordinate_index(coordinates[j]));
     const Eigen::Index column =
-        sharing.torques.find(dynamics::generalized_force_name(motion.model->coordinates[index])).value();
+        sharing.torques.find(body::generalized_force_name(motion.model->coordinates[index])).value();
     if (input.external_torque)
       torque.col(column) -=
-          signals::resample(*input.external_torque, time_s).values().col(static_cast<Eigen::Index>(j));
+          recording::resample(*input.external_torque, time_s).values().col(static_cast<Eigen::Index>(j));
     const Eigen::VectorXd by_itself = resting_torque_nm(resting, coordinates[j], motion.joints.q);
     if (by_itself.size() > 0) torque.col(column) -= by_itself;
   }
   sharing.torques = TimeSeries(sharing.torques.time_s(), sharing.torques.channels(), std::move(torque));
-  return forces::share(sharing, {.objective = study.sharing.objective,
-                                 .exponent = study.sharing.exponent,
-                                 .reserve_nm = study.sharing.reserve_nm});
+  return body::share(sharing, {.objective = study.sharing.objective,
+                               .exponent = study.sharing.exponent,
+                               .reserve_nm = study.sharing.reserve_nm});
 }
 
 StudyForces study_forces(const StudyInputs& inputs,
-                         const StudyActivation& activation,
+                         const study::StudyActivation& activation,
                          const std::vector<TrialMotion>& motion,
                          bool share,
                          const Progress& progress) {
-  const Study& study = inputs.source.study;
+  const study::Study& study = inputs.source.study;
   StudyForces found;
   found.trials.resize(motion.size());
   std::atomic<int> done = 0;
@@ -214,12 +216,12 @@ StudyForces study_forces(const StudyInputs& inputs,
   for_each_trial(motion, found.trials, progress, [&](std::size_t i) {
     TrialForces& trial = found.trials[i];
     // The passive trials give the resting torques, so in them the muscles share the whole torque.
-    const bool passive = study.trials[i].use == Use::passive;
+    const bool passive = study.trials[i].use == study::Use::passive;
     trial.shared = shared_forces(study, inputs.trials[i], motion[i], trial,
-                                 passive ? std::vector<identification::RestingJoint>{} : found.resting, trial.remarks);
+                                 passive ? std::vector<fit::RestingJoint>{} : found.resting, trial.remarks);
     progress.tell(++done / (2.0 * static_cast<double>(motion.size())), study.trials[i].name);
   });
   return found;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

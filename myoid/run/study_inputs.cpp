@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "myoid/checks/study_plausibility.h"
-#include "myoid/core/error.h"
-#include "myoid/files/text_file.h"
-#include "myoid/intake/read_trial.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/recording/tables/csv_reader.h"
+#include "myoid/study/checks/study_plausibility.h"
+#include "myoid/study/intake/read_trial.h"
 #include "myoid/study/study_model.h"
-#include "myoid/tables/csv_reader.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
@@ -28,7 +28,7 @@ std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
   const std::size_t value = column("value");
   std::vector<TrueValue> truth;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const auto number = recording::parse_number(table.rows[r][value]);
+    const auto number = parse_number(table.rows[r][value]);
     if (!number)
       throw ReadError(path, table.lines[r], fmt::format("expected a number, found '{}'", table.rows[r][value]));
     truth.push_back({table.rows[r][muscle], table.rows[r][parameter], *number});
@@ -36,42 +36,42 @@ std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
   return truth;
 }
 
-StudySource read_source(const Study& study) {
+StudySource read_source(const study::Study& study) {
   StudySource source{
-      .study = study, .model_text = model_text(study), .model = {}, .truth = {}, .norms = {}, .files = {}};
-  source.model = std::make_shared<const model::BodyModel>(load_model(study, source.model_text));
+      .study = study, .model_text = study::model_text(study), .model = {}, .truth = {}, .norms = {}, .files = {}};
+  source.model = std::make_shared<const body::BodyModel>(study::load_model(study, source.model_text));
   return source;
 }
 
 }  // namespace
 
-StudyInputs read_inputs(const Study& study) {
+StudyInputs read_inputs(const study::Study& study) {
   StudyInputs inputs{read_source(study), {}};
   StudySource& source = inputs.source;
-  source.files.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
+  source.files.push_back({study.file.string(), sha256(read_text_file(study.file))});
   if (study.model.file) source.files.push_back({study.model.file->string(), sha256(source.model_text)});
   if (study.truth) source.truth = read_truth(*study.truth);
-  for (const NormSpec& norm : study.norms) {
-    source.norms.push_back(read_norm(norm, study));
-    source.files.push_back({norm.file.string(), sha256(recording::read_text_file(norm.file))});
+  for (const study::NormSpec& norm : study.norms) {
+    source.norms.push_back(study::read_norm(norm, study));
+    source.files.push_back({norm.file.string(), sha256(read_text_file(norm.file))});
   }
-  std::vector<std::vector<TrialPart>> parts(study.trials.size());
+  std::vector<std::vector<study::TrialPart>> parts(study.trials.size());
   oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
     try {
-      parts[i] = read_trial_parts(study, study.trials[i], *source.model);
+      parts[i] = study::read_trial_parts(study, study.trials[i], *source.model);
     } catch (const InvalidInput& error) {
       throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), study.trials[i].name));
     }
   });
   source.study.trials.clear();
-  for (std::vector<TrialPart>& of_one : parts) {
-    for (TrialPart& part : of_one) {
+  for (std::vector<study::TrialPart>& of_one : parts) {
+    for (study::TrialPart& part : of_one) {
       source.study.trials.push_back(std::move(part.spec));
       inputs.trials.push_back(std::move(part.input));
     }
   }
-  require_plausible(source.study, *source.model, inputs.trials);
-  for (const TrialInput& trial : inputs.trials) {
+  study::require_plausible(source.study, *source.model, inputs.trials);
+  for (const study::TrialInput& trial : inputs.trials) {
     for (const InputFile& file : trial.files) {
       const bool known = std::ranges::any_of(source.files, [&](const InputFile& f) { return f.path == file.path; });
       if (!known) source.files.push_back(file);
@@ -80,10 +80,10 @@ StudyInputs read_inputs(const Study& study) {
   return inputs;
 }
 
-StudyInputs in_memory(const Study& study, std::vector<TrialInput> trials) {
+StudyInputs in_memory(const study::Study& study, std::vector<study::TrialInput> trials) {
   if (trials.size() != study.trials.size())
     throw InvalidInput(fmt::format("{} inputs are given for {} trials", trials.size(), study.trials.size()));
   return {read_source(study), std::move(trials)};
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -6,7 +6,7 @@
 
 #include "tests/support/written_trial.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 using namespace test_trials;
@@ -14,12 +14,12 @@ using namespace test_trials;
 /// A study on disk, of one trial.
 struct StudyWithTruth {
   WrittenTrial trial{0.01, 8.0, 3.0};
-  Study study;
+  study::Study study;
 
   explicit StudyWithTruth(const std::string& truth) {
     const auto file = trial.folder / "study.toml";
-    recording::write_file(file, "\n");
-    recording::write_file(trial.folder / "truth.csv", truth);
+    write_file(file, "\n");
+    write_file(trial.folder / "truth.csv", truth);
     study = arm_study();
     study.file = file;
     study.trials = {trial.spec};
@@ -48,4 +48,4 @@ TEST(ReadInputs, ATrueValueThatIsNoNumberIsRefusedAtItsLine) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

@@ -5,14 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/math/butterworth.h"
-#include "myoid/math/random.h"
-#include "myoid/math/zero_phase.h"
+#include "myoid/ground/math/butterworth.h"
+#include "myoid/ground/math/random.h"
+#include "myoid/ground/math/zero_phase.h"
 #include "myoid/run/study_result.h"
 
 #include "tests/support/elbow_study.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 constexpr double kTired_s = 36.0;
@@ -26,7 +26,7 @@ struct Tiring {
   explicit Tiring(double seconds = 60.0) {
     test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = seconds, .delay_s = 0.05});
     for (std::size_t k = 0; k < 4; ++k) study.data.muscles[k].start = study.truth[k];
-    identification::TrialData& trial = study.data.trials[0];
+    fit::TrialData& trial = study.data.trials[0];
     trial.velocity_radps = -trial.velocity_mps.col(0).cwiseQuotient(trial.moment_arm_m.col(0));
     for (Eigen::Index i = 0; i < trial.time_s.size(); ++i)
       trial.torque_nm[i] *= trial.time_s[i] > kTired_s ? 0.75 : 1.0;
@@ -34,7 +34,7 @@ struct Tiring {
     result.trials.resize(1);
     result.trials[0].spec.name = trial.name;
   }
-  [[nodiscard]] identification::TrialData& trial() { return result.fit_input.data.trials[0]; }
+  [[nodiscard]] fit::TrialData& trial() { return result.fit_input.data.trials[0]; }
 
   /// Noise of each muscle below 150 Hz, then below 120 Hz.
   void record_emg() {
@@ -52,7 +52,7 @@ struct Tiring {
       };
       volts.col(k) << below(150.0).head(fresh), below(120.0).tail(n - fresh);
     }
-    signals::EmgStages& emg = result.trials[0].emg.stages.emplace();
+    recording::EmgStages& emg = result.trials[0].emg.stages.emplace();
     emg.raw = TimeSeries(clock(begin_s, n), channels(), volts);
   }
   /// After `record_emg`. What the envelope without whitening comes from: every muscle's activation
@@ -68,19 +68,19 @@ struct Tiring {
     // Ten seconds in which nobody moves: the level of rest.
     TrialResult& rest = result.trials.emplace_back();
     rest.spec.name = "rest";
-    signals::EmgStages& quiet = rest.emg.stages.emplace();
+    recording::EmgStages& quiet = rest.emg.stages.emplace();
     quiet.raw = quiet.filtered = TimeSeries(clock(0.0, 10000), channels(), 1e-6 * volts.topRows(10000));
   }
-  [[nodiscard]] const Phase* found(PhaseKind kind) {
+  [[nodiscard]] const study::Phase* found(study::PhaseKind kind) {
     result.source.study.trials.resize(result.trials.size());
-    identification::EstimatorOptions options;
+    fit::EstimatorOptions options;
     options.delay_s = 0.05;
     phases = study_phases(fit_source(result), result.fit_input.data, options);
     const auto& list = phases.at(0).phases;
-    const auto it = std::find_if(list.begin(), list.end(), [&](const Phase& p) { return p.kind == kind; });
+    const auto it = std::find_if(list.begin(), list.end(), [&](const study::Phase& p) { return p.kind == kind; });
     return it == list.end() ? nullptr : &*it;
   }
-  std::vector<TrialPhases> phases;
+  std::vector<study::TrialPhases> phases;
 
  private:
   static Eigen::VectorXd clock(double begin_s, Eigen::Index n) {
@@ -96,7 +96,7 @@ struct Tiring {
 TEST(StudyPhases, FatigueIsWhereTorqueAndFrequencyFall) {
   Tiring tiring;
   tiring.record_emg();
-  const Phase* tired = tiring.found(PhaseKind::fatigued);
+  const study::Phase* tired = tiring.found(study::PhaseKind::fatigued);
   ASSERT_NE(tired, nullptr);
   // A block is a swing or more, some 3 s.
   EXPECT_NEAR(tired->begin_s, kTired_s, 3.0);
@@ -104,12 +104,12 @@ TEST(StudyPhases, FatigueIsWhereTorqueAndFrequencyFall) {
   EXPECT_NEAR(tired->gain.value_or(0.0), 0.75, 0.03);
   EXPECT_NEAR(tired->frequency.value_or(0.0), 0.8, 0.03);
   ASSERT_EQ(tiring.phases[0].trial, "trial1");
-  EXPECT_EQ(tiring.phases[0].phases[0].kind, PhaseKind::regular);
+  EXPECT_EQ(tiring.phases[0].phases[0].kind, study::PhaseKind::regular);
 }
 
 TEST(StudyPhases, WithoutRawEmgTheTorqueAloneSpeaks) {
   Tiring tiring;
-  const Phase* tired = tiring.found(PhaseKind::fatigued);
+  const study::Phase* tired = tiring.found(study::PhaseKind::fatigued);
   ASSERT_NE(tired, nullptr);
   EXPECT_FALSE(tired->frequency);
   EXPECT_NEAR(tired->begin_s, kTired_s, 3.0);
@@ -126,9 +126,9 @@ TEST(StudyPhases, AreFoundWithoutTheWhiteningThatHidesFatigue) {
   }
   tiring.trial().activation =
       TimeSeries(tiring.trial().activation.time_s(), tiring.trial().activation.channels(), whitened);
-  EXPECT_EQ(tiring.found(PhaseKind::fatigued), nullptr);
+  EXPECT_EQ(tiring.found(study::PhaseKind::fatigued), nullptr);
   tiring.result.emg.whitening.applied = true;
-  const Phase* tired = tiring.found(PhaseKind::fatigued);
+  const study::Phase* tired = tiring.found(study::PhaseKind::fatigued);
   ASSERT_NE(tired, nullptr);
   EXPECT_NEAR(tired->begin_s, kTired_s, 3.0);
   EXPECT_NEAR(tired->gain.value_or(0.0), 0.75, 0.05);
@@ -136,22 +136,22 @@ TEST(StudyPhases, AreFoundWithoutTheWhiteningThatHidesFatigue) {
 
 TEST(StudyPhases, AShortTrialHasOnePhase) {
   Tiring brief(15.0);
-  EXPECT_NE(brief.found(PhaseKind::regular), nullptr);
+  EXPECT_NE(brief.found(study::PhaseKind::regular), nullptr);
   EXPECT_EQ(brief.phases[0].phases.size(), 1U);
 }
 
-std::vector<TrialPhases> phases_of_one_trial() {
+std::vector<study::TrialPhases> phases_of_one_trial() {
   return {{"a",
-           {{.kind = PhaseKind::warm_up, .begin_s = 0.0, .end_s = 6.0},
-            {.kind = PhaseKind::regular, .begin_s = 6.0, .end_s = 40.0},
-            {.kind = PhaseKind::fatigued, .begin_s = 40.0, .end_s = 60.0, .frequency = 0.85}}}};
+           {{.kind = study::PhaseKind::warm_up, .begin_s = 0.0, .end_s = 6.0},
+            {.kind = study::PhaseKind::regular, .begin_s = 6.0, .end_s = 40.0},
+            {.kind = study::PhaseKind::fatigued, .begin_s = 40.0, .end_s = 60.0, .frequency = 0.85}}}};
 }
 
 TEST(ExcludePhases, TakesWhatTheRuleNames) {
-  identification::StudyData data;
+  fit::StudyData data;
   data.trials.resize(1);
   auto phases = phases_of_one_trial();
-  exclude_phases({PhaseKind::warm_up, PhaseKind::fatigued}, phases, data);
+  exclude_phases({study::PhaseKind::warm_up, study::PhaseKind::fatigued}, phases, data);
   ASSERT_EQ(data.trials[0].excluded.size(), 2u);
   EXPECT_EQ(data.trials[0].excluded[1].begin_s, 40.0);
   EXPECT_TRUE(phases[0].phases[0].excluded);
@@ -159,13 +159,13 @@ TEST(ExcludePhases, TakesWhatTheRuleNames) {
 }
 
 TEST(ExcludePhases, KeepsFatigueThatOnlyTheTorqueShows) {
-  identification::StudyData data;
+  fit::StudyData data;
   data.trials.resize(1);
   auto phases = phases_of_one_trial();
   phases[0].phases[2].frequency.reset();
-  exclude_phases({PhaseKind::fatigued}, phases, data);
+  exclude_phases({study::PhaseKind::fatigued}, phases, data);
   EXPECT_TRUE(data.trials[0].excluded.empty());
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

@@ -5,17 +5,17 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/core/remark.h"
-#include "myoid/design/design_study.h"
-#include "myoid/intake/study_activation.h"
-#include "myoid/methods/cross_validation.h"
+#include "myoid/fit/methods/cross_validation.h"
+#include "myoid/ground/core/remark.h"
+#include "myoid/run/design/design_study.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/study_fit.h"
 #include "myoid/run/study_forces.h"
 #include "myoid/run/study_inputs.h"
 #include "myoid/run/trial_result.h"
+#include "myoid/study/intake/study_activation.h"
 
-namespace myoid {
+namespace myoid::run {
 
 struct StageTime {
   std::string stage;
@@ -24,15 +24,15 @@ struct StageTime {
 
 /// All results of a run, stage by stage. The writers of files and reports receive this struct.
 struct StudyResult {
-  std::optional<double> start_s, end_s;               ///< As in RunOptions.
-  StudySource source;                                 ///< read
-  std::vector<TrialResult> trials;                    ///< read, activation, motion, forces; in the study's order.
-  EmgScale emg;                                       ///< activation
-  std::vector<Remark> level_faults;                   ///< findings: about EMG channels, over all trials.
-  std::vector<identification::RestingJoint> resting;  ///< forces
-  FitInput fit_input;                                 ///< data
-  StudyFit fit;                                       ///< fit
-  std::vector<identification::Fold> folds;            ///< validation
+  std::optional<double> start_s, end_s;    ///< As in RunOptions.
+  StudySource source;                      ///< read
+  std::vector<TrialResult> trials;         ///< read, activation, motion, forces; in the study's order.
+  study::EmgScale emg;                     ///< activation
+  std::vector<Remark> level_faults;        ///< findings: about EMG channels, over all trials.
+  std::vector<fit::RestingJoint> resting;  ///< forces
+  FitInput fit_input;                      ///< data
+  StudyFit fit;                            ///< fit
+  std::vector<fit::Fold> folds;            ///< validation
   /// Movements that would determine more; empty without method torque, or if none is asked for.
   std::optional<DesignStudyResult> next;
   /// Not the same on another day and computer, and empty where results have to be.
@@ -57,4 +57,4 @@ struct PredictedByFolds {
   return source;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

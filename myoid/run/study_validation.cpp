@@ -3,40 +3,37 @@
 #include <algorithm>
 #include <utility>
 
-#include "myoid/methods/force.h"
-#include "myoid/methods/prediction.h"
-#include "myoid/methods/torque.h"
+#include "myoid/fit/methods/force.h"
+#include "myoid/fit/methods/prediction.h"
+#include "myoid/fit/methods/torque.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 /// Returns the study with the trials that a split leaves out held back for validation.
-Study with_uses_of(const identification::StudyData& split, Study study) {
-  for (TrialSpec& trial : study.trials) {
-    for (const identification::TrialData& data : split.trials) {
-      if (data.name == trial.name && !data.calibration) trial.use = Use::validation;
+study::Study with_uses_of(const fit::StudyData& split, study::Study study) {
+  for (study::TrialSpec& trial : study.trials) {
+    for (const fit::TrialData& data : split.trials) {
+      if (data.name == trial.name && !data.calibration) trial.use = study::Use::validation;
     }
   }
   return study;
 }
 
 /// Returns the data of a fold as if its left-out trials had been held back for validation.
-FitInput without_left_out(const FitSource& source,
-                          const identification::StudyData& split,
-                          bool hold,
-                          const Progress& progress) {
-  const Study study = with_uses_of(split, source.study);
-  EmgOfTrials emg;
-  std::vector<const TrialActivation*> known;
+FitInput without_left_out(const FitSource& source, const fit::StudyData& split, bool hold, const Progress& progress) {
+  const study::Study study = with_uses_of(split, source.study);
+  study::EmgOfTrials emg;
+  std::vector<const study::TrialActivation*> known;
   for (const TrialResult& trial : source.trials) {
     emg.push_back(trial.input.emg ? &*trial.input.emg : nullptr);
     known.push_back(&trial.emg);
   }
-  const StudyActivation seen = activation_with_uses(study, emg, known, source.scale);
+  const study::StudyActivation seen = study::activation_with_uses(study, emg, known, source.scale);
   FitSource of_fold{study, source.model, source.trials, source.resting, {}, seen.scale};
-  for (const TrialActivation& trial : seen.trials) of_fold.activation.push_back(&trial.activation);
+  for (const study::TrialActivation& trial : seen.trials) of_fold.activation.push_back(&trial.activation);
   FitInput input = fit_input(of_fold, progress, hold);
-  std::erase_if(input.data.trials, [&](const identification::TrialData& trial) {
+  std::erase_if(input.data.trials, [&](const fit::TrialData& trial) {
     return std::ranges::none_of(split.trials, [&](const auto& of_split) { return of_split.name == trial.name; });
   });
   return input;
@@ -46,34 +43,33 @@ FitInput without_left_out(const FitSource& source,
 
 StudyValidation study_validation(const FitSource& source,
                                  const FitInput& input,
-                                 const identification::IdentificationResult& whole,
+                                 const fit::IdentificationResult& whole,
                                  const Progress& progress) {
-  const identification::CrossValidationOptions how{.kind = source.study.identify.folds,
-                                                   .setting = "folds of [identify] (identify: --folds)"};
-  const auto fit = [&](identification::StudyData& split, identification::EstimatorOptions& options) {
-    if (how.kind != identification::FoldKind::block) {
+  const fit::CrossValidationOptions how{.kind = source.study.identify.folds,
+                                        .setting = "folds of [identify] (identify: --folds)"};
+  const auto fit = [&](fit::StudyData& split, fit::EstimatorOptions& options) {
+    if (how.kind != fit::FoldKind::block) {
       FitInput of_fold = without_left_out(source, split, input.nuisances_held, progress);
       split = std::move(of_fold.data);
       of_fold.options.drives = options.drives;
       of_fold.options.begin_at = options.begin_at;
-      options = identification::of_a_fold(std::move(of_fold.options));
+      options = fit::of_a_fold(std::move(of_fold.options));
     }
     if (whole.exact) {
-      if (auto exact = identification::identify_exactly(split, options)) return std::move(*exact);
+      if (auto exact = fit::identify_exactly(split, options)) return std::move(*exact);
     }
-    return identification::identify_torque(split, options);
+    return fit::identify_torque(split, options);
   };
   StudyValidation found;
-  if (whole.method == identification::Method::force && whole.exact) return found;
-  found.folds = whole.method == identification::Method::force
-                    ? identification::cross_validate_force(input.data, input.options, how)
-                    : identification::cross_validate(input.data, fit, beginning_at(whole, input.options), how);
+  if (whole.method == fit::Method::force && whole.exact) return found;
+  found.folds = whole.method == fit::Method::force
+                    ? fit::cross_validate_force(input.data, input.options, how)
+                    : fit::cross_validate(input.data, fit, beginning_at(whole, input.options), how);
   std::string why_not;
-  (void)identification::splits(input.data, how, &why_not);
+  (void)fit::splits(input.data, how, &why_not);
   if (!why_not.empty()) found.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);
-  if (std::string bad = identification::generalises_badly(found.folds); !bad.empty())
-    found.warnings.push_back(std::move(bad));
+  if (std::string bad = fit::generalises_badly(found.folds); !bad.empty()) found.warnings.push_back(std::move(bad));
   return found;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

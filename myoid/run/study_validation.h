@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/progress.h"
-#include "myoid/methods/cross_validation.h"
+#include "myoid/fit/methods/cross_validation.h"
+#include "myoid/ground/core/progress.h"
 #include "myoid/run/fit_input.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// The predictions of trials outside the fit.
 struct StudyValidation {
-  std::vector<identification::Fold> folds;
+  std::vector<fit::Fold> folds;
   std::vector<std::string> warnings;  ///< About the method that predicts.
 };
 
@@ -21,7 +21,7 @@ struct StudyValidation {
 /// forces muscle by muscle (cross_validate_force); exact fits of it are not validated.
 [[nodiscard]] StudyValidation study_validation(const FitSource& source,
                                                const FitInput& input,
-                                               const identification::IdentificationResult& whole,
+                                               const fit::IdentificationResult& whole,
                                                const Progress& progress);
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 /// A flexor that works in the first half of a movement and an extensor in the second, by hand.
@@ -48,4 +48,4 @@ TEST(SignsExplained, AgreesWithEveryPairOfStrengthsOnAGrid) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

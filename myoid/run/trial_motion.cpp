@@ -9,69 +9,66 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "myoid/core/error.h"
-#include "myoid/dynamics/held_mass.h"
-#include "myoid/intake/trial_markers.h"
-#include "myoid/kinematics/motion_plausibility.h"
-#include "myoid/signals/resample.h"
+#include "myoid/body/dynamics/held_mass.h"
+#include "myoid/body/kinematics/motion_plausibility.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/recording/signals/resample.h"
+#include "myoid/study/intake/trial_markers.h"
 #include "myoid/study/study_model.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 /// Finds coordinates that are constant in a trial while the posture is known, and then holds them.
-void calibrate(const CalibrationSpec& spec, const recording::MarkerSeries& markers, model::BodyModel& model) {
-  model::BodyModel posed = model;
-  for (model::Coordinate& c : posed.coordinates) c.locked = true;
+void calibrate(const study::CalibrationSpec& spec, const MarkerSeries& markers, body::BodyModel& model) {
+  body::BodyModel posed = model;
+  for (body::Coordinate& c : posed.coordinates) c.locked = true;
   for (const std::string& name : spec.free)
     posed.coordinates[static_cast<std::size_t>(posed.coordinate_index(name))].locked = false;
-  const kinematics::IkResult pose = kinematics::inverse_kinematics(posed, calibration_window(spec, markers));
+  const body::IkResult pose = body::inverse_kinematics(posed, study::calibration_window(spec, markers));
   for (const std::string& name : spec.hold) {
     Eigen::VectorXd values = pose.q.column(name);
     std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    model::Coordinate& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
+    body::Coordinate& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
     c.default_value = values[values.size() / 2];
     c.locked = true;
   }
 }
 
 /// Returns the model of a trial: a copy only where it differs from the study's.
-std::shared_ptr<const model::BodyModel> trial_model(const StudySource& source,
-                                                    const TrialSpec& spec,
-                                                    const TrialInput& input) {
-  const Study& study = source.study;
-  std::optional<model::BodyModel> own;
-  const auto changed = [&]() -> model::BodyModel& { return own ? *own : own.emplace(*source.model); };
-  if (input.markers) own = arm_of_markers(study, *input.markers);
+std::shared_ptr<const body::BodyModel> trial_model(const StudySource& source,
+                                                   const study::TrialSpec& spec,
+                                                   const study::TrialInput& input) {
+  const study::Study& study = source.study;
+  std::optional<body::BodyModel> own;
+  const auto changed = [&]() -> body::BodyModel& { return own ? *own : own.emplace(*source.model); };
+  if (input.markers) own = study::arm_of_markers(study, *input.markers);
   if (spec.held_mass_kg.value_or(0.0) > 0.0) {
-    const HeldMassSpec held = held_mass_place(study);
-    own = dynamics::with_held_mass(std::move(changed()), held.body, held.p_BP_m, *spec.held_mass_kg);
+    const study::HeldMassSpec held = study::held_mass_place(study);
+    own = body::with_held_mass(std::move(changed()), held.body, held.p_BP_m, *spec.held_mass_kg);
   }
   if (input.markers && study.ik.calibrate) calibrate(*study.ik.calibrate, *input.markers, changed());
-  return own ? std::make_shared<const model::BodyModel>(std::move(*own)) : source.model;
+  return own ? std::make_shared<const body::BodyModel>(std::move(*own)) : source.model;
 }
 
 /// Solves inverse kinematics, or takes the result of an earlier run from the same input.
-void solve_ik(const StudySource& source,
-              const recording::MarkerSeries& markers,
-              StageStore* store,
-              TrialMotion& motion) {
+void solve_ik(const StudySource& source, const MarkerSeries& markers, StageStore* store, TrialMotion& motion) {
   const std::string key = store != nullptr ? ik_key(source.study, source.model_text, markers) : "";
   if (store != nullptr) motion.ik = store->find(key);
   motion.ik_reused = motion.ik.has_value();
   if (motion.ik_reused) return;
   motion.ik_was_damaged = store != nullptr && store->is_damaged(key);
-  kinematics::IkOptions options;
+  body::IkOptions options;
   options.marker_weights = source.study.markers.weight;
-  motion.ik = kinematics::inverse_kinematics(*motion.model, markers, options);
+  motion.ik = body::inverse_kinematics(*motion.model, markers, options);
   if (store != nullptr) store->keep(key, *motion.ik);
 }
 
 /// Adds the coordinates at the times of given lengths, else on the clock of the analysis, smoothed as the study says,
 /// with derivatives.
-void add_joint_motion(const Study& study, const GivenStages& given, TimeSeries q, TrialMotion& motion) {
-  kinematics::MotionOptions options;
-  options.cutoff_hz = motion_cutoff_hz(study);
+void add_joint_motion(const study::Study& study, const study::GivenStages& given, TimeSeries q, TrialMotion& motion) {
+  body::MotionOptions options;
+  options.cutoff_hz = study::motion_cutoff_hz(study);
   const double rate = q.mean_rate_hz();
   const double wanted = options.cutoff_hz ? study.motion.rate_hz : rate;
   if (options.cutoff_hz && *options.cutoff_hz >= 0.45 * rate) {
@@ -83,26 +80,29 @@ void add_joint_motion(const Study& study, const GivenStages& given, TimeSeries q
   if (given.lengths)
     options.time_s = given.lengths->time_s();
   else if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform())
-    options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
+    options.time_s = recording::even_clock(clock[0], clock[clock.size() - 1], wanted);
   // Frequencies that a slower clock cannot hold are removed first, if the smoothing spline, whose
   // gain is 1 / (1 + (f/f_c)^6), leaves more than a thousandth of them at half the new rate.
   const bool smoothed_away = options.cutoff_hz && std::pow(0.5 * wanted / *options.cutoff_hz, 6) >= 999.0;
-  if (options.time_s && !given.lengths && !smoothed_away && q.is_uniform()) q = signals::anti_aliased(q, wanted);
-  kinematics::MotionResult result = kinematics::joint_motion(*motion.model, q, options);
+  if (options.time_s && !given.lengths && !smoothed_away && q.is_uniform()) q = recording::anti_aliased(q, wanted);
+  body::MotionResult result = body::joint_motion(*motion.model, q, options);
   motion.joints = std::move(result.motion);
   motion.notes.insert(motion.notes.end(), result.notes.begin(), result.notes.end());
 }
 
 }  // namespace
 
-TrialMotion trial_motion(const StudySource& source, const TrialSpec& spec, const TrialInput& input, StageStore* store) {
+TrialMotion trial_motion(const StudySource& source,
+                         const study::TrialSpec& spec,
+                         const study::TrialInput& input,
+                         StageStore* store) {
   TrialMotion motion;
   motion.model = trial_model(source, spec, input);
   if (input.markers) {
     solve_ik(source, *input.markers, store, motion);
     motion.notes = motion.ik->notes;
-    motion.remarks = kinematics::implausible(motion.ik->q);
-    std::ranges::move(kinematics::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(motion.remarks));
+    motion.remarks = body::implausible_motion(motion.ik->q);
+    std::ranges::move(body::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(motion.remarks));
     for (Remark& remark : motion.remarks) remark.where = spec.name;
     add_joint_motion(source.study, input.given, motion.ik->q, motion);
   } else if (input.motion && input.motion->channel_count() == 0) {
@@ -115,7 +115,7 @@ TrialMotion trial_motion(const StudySource& source, const TrialSpec& spec, const
 }
 
 std::vector<TrialMotion> study_motion(const StudyInputs& inputs, StageStore* store, const Progress& progress) {
-  const std::vector<TrialSpec>& specs = inputs.source.study.trials;
+  const std::vector<study::TrialSpec>& specs = inputs.source.study.trials;
   std::vector<TrialMotion> motions(specs.size());
   std::atomic<int> done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, specs.size(), [&](std::size_t i) {
@@ -131,4 +131,4 @@ std::vector<TrialMotion> study_motion(const StudyInputs& inputs, StageStore* sto
   return motions;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

@@ -5,25 +5,25 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/remark.h"
-#include "myoid/kinematics/inverse_kinematics.h"
-#include "myoid/kinematics/joint_motion.h"
-#include "myoid/model/body_model.h"
+#include "myoid/body/kinematics/inverse_kinematics.h"
+#include "myoid/body/kinematics/joint_motion.h"
+#include "myoid/body/model/body_model.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/run/stage_store.h"
 #include "myoid/run/study_inputs.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// The motion of one trial.
 struct TrialMotion {
   /// The study's model, or a model of the trial: with its held mass, its calibrated coordinates, or
   /// the arm that its markers measure. Never null.
-  std::shared_ptr<const model::BodyModel> model = std::make_shared<const model::BodyModel>();
-  std::optional<kinematics::IkResult> ik;  ///< For a trial with markers.
-  bool ik_reused = false;                  ///< Read from an earlier run with the same input.
-  bool ik_was_damaged = false;             ///< An earlier run kept it, and its bytes changed since.
-  kinematics::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
-                                           ///< motion, without columns where lengths are given and no angles.
+  std::shared_ptr<const body::BodyModel> model = std::make_shared<const body::BodyModel>();
+  std::optional<body::IkResult> ik;  ///< For a trial with markers.
+  bool ik_reused = false;            ///< Read from an earlier run with the same input.
+  bool ik_was_damaged = false;       ///< An earlier run kept it, and its bytes changed since.
+  body::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
+                                     ///< motion, without columns where lengths are given and no angles.
   std::vector<std::string> notes;
   std::vector<Remark> remarks;  ///< What no movement does, in the solution of inverse kinematics.
   std::string failure;          ///< Reason why the motion is missing; empty: none.
@@ -33,8 +33,8 @@ struct TrialMotion {
 /// `store` and keeps new results there, unless `store` is nullptr. Throws InvalidInput if the motion cannot be
 /// computed, for example if a held mass has no point of action.
 [[nodiscard]] TrialMotion trial_motion(const StudySource& source,
-                                       const TrialSpec& spec,
-                                       const TrialInput& input,
+                                       const study::TrialSpec& spec,
+                                       const study::TrialInput& input,
                                        StageStore* store);
 
 /// Computes the motion of all trials, in parallel. A trial whose motion cannot be computed holds the failure.
@@ -42,4 +42,4 @@ struct TrialMotion {
                                                     StageStore* store,
                                                     const Progress& progress);
 
-}  // namespace myoid
+}  // namespace myoid::run

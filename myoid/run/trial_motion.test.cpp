@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/arm/arm4.h"
+#include "myoid/body/arm/arm4.h"
 
 #include "tests/support/written_trial.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 using namespace test_trials;
@@ -16,17 +16,17 @@ using namespace test_trials;
 /// A study of two trials, of which the second holds a mass, with a model on disk.
 struct OnDisk {
   test::TemporaryFolder folder;
-  Study study = arm_study();
+  study::Study study = arm_study();
 
   OnDisk() {
-    recording::write_file(folder / "arm.osim", model::arm4_osim());
+    write_file(folder / "arm.osim", body::arm4_osim());
     study.model.file = folder / "arm.osim";
-    study.model.held_mass = {"forearm_hand", model::arm4_held_at_m()};
+    study.model.held_mass = {"forearm_hand", body::arm4_held_at_m()};
     study.trials.resize(2, study.trials[0]);
     study.trials[1].held_mass_kg = 2.0;
   }
   [[nodiscard]] StudyInputs inputs() const {
-    TrialInput input;
+    study::TrialInput input;
     const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(201, 0.0, 2.0);
     input.motion =
         TimeSeries(time_s, {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd(0.5 + 0.3 * time_s.array().sin()));
@@ -58,4 +58,4 @@ TEST(StudyMotion, AHeldMassWithoutAPlaceIsTheFailureOfItsTrial) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

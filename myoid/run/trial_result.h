@@ -4,20 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/remark.h"
-#include "myoid/intake/study_activation.h"
-#include "myoid/intake/trial_input.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/run/study_forces.h"
 #include "myoid/run/trial_motion.h"
+#include "myoid/study/intake/study_activation.h"
+#include "myoid/study/intake/trial_input.h"
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::run {
 
 /// All results about one trial, stage by stage.
 struct TrialResult {
-  TrialSpec spec;
-  TrialInput input;             ///< read
-  TrialActivation emg;          ///< activation
+  study::TrialSpec spec;
+  study::TrialInput input;      ///< read
+  study::TrialActivation emg;   ///< activation
   TrialMotion motion;           ///< motion
   TrialForces forces;           ///< forces
   std::vector<Remark> faults;   ///< findings: about its recordings, unprocessed.
@@ -34,4 +34,4 @@ struct TrialResult {
       std::ranges::count_if(trials, [](const TrialResult& trial) { return !trial.failure().empty(); }));
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

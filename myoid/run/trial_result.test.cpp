@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
 TEST(TrialResult, HasMotionUnlessItHasNoneOrItsComputationFailed) {
@@ -22,4 +22,4 @@ TEST(TrialResult, HasMotionUnlessItHasNoneOrItsComputationFailed) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::run

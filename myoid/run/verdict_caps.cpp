@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "myoid/report/typeset.h"
+#include "myoid/page/typeset.h"
 #include "myoid/run/quality_gates.h"
 
-namespace myoid {
+namespace myoid::run {
 namespace {
 
-using identification::VerdictCap;
+using fit::VerdictCap;
 
 VerdictCap of_all(std::string reason) { return {.reason = std::move(reason)}; }
 
@@ -29,9 +29,9 @@ bool spoils_emg(RemarkCode code) {
 bool spoils_level(RemarkCode code) { return code == RemarkCode::emg_over_reference || code == RemarkCode::emg_gain; }
 
 /// Returns the channel and the muscles that take their EMG from it.
-std::vector<std::string> owners_of(const Study& study, const std::string& channel) {
+std::vector<std::string> owners_of(const study::Study& study, const std::string& channel) {
   std::vector<std::string> owners{channel};
-  for (const MuscleSpec& muscle : study.muscles) {
+  for (const study::MuscleSpec& muscle : study.muscles) {
     if (muscle.emg == channel) owners.push_back(muscle.name);
   }
   return owners;
@@ -41,16 +41,16 @@ std::vector<std::string> owners_of(const Study& study, const std::string& channe
 std::vector<std::string> strengths() { return {"max_isometric_force", "emg_gain", "emg_exponent", "activation_share"}; }
 
 /// Returns true if the fault of the trial lies in windows that the study excludes.
-bool is_excluded(const TrialSpec& trial, const Remark& fault) {
+bool is_excluded(const study::TrialSpec& trial, const Remark& fault) {
   return fault.when && std::ranges::any_of(trial.exclude.windows, [&](const Stretch& window) {
            return fault.when->begin_s >= window.begin_s && fault.when->end_s <= window.end_s;
          });
 }
 
 void add_emg(const StudyResult& result, std::vector<VerdictCap>& caps) {
-  const Study& study = result.source.study;
+  const study::Study& study = result.source.study;
   const auto reason = [](const Remark& fault, const std::string& where) {
-    return fmt::format("{} of {} in {}: mend that first.", report::spelled(name(fault.code)), fault.about, where);
+    return fmt::format("{} of {} in {}: mend that first.", page::spelled(name(fault.code)), fault.about, where);
   };
   for (const TrialResult& trial : result.trials) {
     for (const Remark& fault : trial.faults) {
@@ -86,21 +86,21 @@ void add_contacts(const StudyResult& result, std::vector<VerdictCap>& caps) {
   }
 }
 
-void add_gates(const std::vector<report::Gate>& gates, std::vector<VerdictCap>& caps) {
-  for (const report::Gate& gate : gates) {
-    if (gate.status != report::GateStatus::fail) continue;
+void add_gates(const std::vector<page::Gate>& gates, std::vector<VerdictCap>& caps) {
+  for (const page::Gate& gate : gates) {
+    if (gate.status != page::GateStatus::fail) continue;
     caps.push_back(of_all(fmt::format("The gate \"{}\" failed: mend that first.", gate.name)));
-    if (gate.name == kSharingGate) caps.back().method = identification::Method::force;
+    if (gate.name == kSharingGate) caps.back().method = fit::Method::force;
   }
 }
 
 }  // namespace
 
-std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vector<report::Gate>& gates) {
+std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vector<page::Gate>& gates) {
   std::vector<VerdictCap> caps;
   if (motion_is_unreliable(result.source.study, result.trials))
     caps.push_back(of_all("The motion it rests on failed its quality gate: mend that first."));
-  if (result.fit.exchanged) caps.push_back(of_all(std::string(identification::kExchangedCap)));
+  if (result.fit.exchanged) caps.push_back(of_all(std::string(fit::kExchangedCap)));
   if (result.fit.shifted) caps.push_back(of_all("EMG and torque seem to be on different clocks: mend that first."));
   add_contacts(result, caps);
   add_emg(result, caps);
@@ -108,4 +108,4 @@ std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vecto
   return caps;
 }
 
-}  // namespace myoid
+}  // namespace myoid::run

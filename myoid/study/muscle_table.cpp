@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/units.h"
-#include "myoid/files/text_file.h"
-#include "myoid/identification/parameter_fields.h"
+#include "myoid/fit/measurement/parameter_fields.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/study/study_ids.h"
 
-namespace myoid {
+namespace myoid::study {
 
 namespace {
 
@@ -28,7 +28,7 @@ constexpr auto kHillNames = [] {
 ChoiceNames parameter_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;
-    for (const identification::ParameterField& field : identification::parameter_fields()) list.push_back(field.name);
+    for (const fit::ParameterField& field : fit::parameter_fields()) list.push_back(field.name);
     return list;
   }();
   return names;
@@ -36,7 +36,7 @@ ChoiceNames parameter_names() {
 
 /// Refuses a pennation beyond every muscle's, which most often is in degrees.
 void require_in_radians(std::string_view key, std::optional<double> angle_rad, SettingVisitor& v) {
-  const double most_rad = identification::parameter_field("pennation_angle").bounds.upper;
+  const double most_rad = fit::parameter_field("pennation_angle").bounds.upper;
   const double found = angle_rad.value_or(0.0);
   v.must(found >= 0.0 && found <= most_rad, key,
          fmt::format("found {:g}, expected 0 to {:g} rad; of an angle in degrees write {:.4g}", found, most_rad,
@@ -76,7 +76,7 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
        .required = "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode",
        .table = "same_as"});
   if (!muscle.same_as) must_be_name(v, "emg", muscle.emg);
-  muscle.emg = std::string(recording::trim(muscle.emg));  // as the readers of recordings do with their labels
+  muscle.emg = std::string(trim(muscle.emg));  // as the readers of recordings do with their labels
   v.table("start", !muscle.start.empty(), {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
           [&muscle](SettingVisitor& inside) { visit_start(muscle.start, inside); });
   v.texts("fixed", muscle.fixed,
@@ -85,7 +85,7 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
            .words = kHillNames});
 }
 
-void visit(identification::ParameterRule& rule, SettingVisitor& v) {
+void visit(fit::ParameterRule& rule, SettingVisitor& v) {
   v.text("name", rule.parameter,
          {.says = "The parameter.",
           .required = "a parameter, such as \"tendon_slack_length\"",
@@ -109,4 +109,4 @@ void visit(identification::ParameterRule& rule, SettingVisitor& v) {
          fmt::format("found {}, not below upper = {}", rule.lower.value_or(0.0), rule.upper.value_or(0.0)));
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -8,12 +8,12 @@
 
 #include "tests/support/message_of.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 template <typename Spec>
 std::string table_message(const std::string& text) {
-  const toml::table root = recording::parse_toml(text, "dir/study.toml");
+  const toml::table root = parse_toml(text, "dir/study.toml");
   return test::message_of([&] { (void)read_spec<Spec>({root, "dir/study.toml", "[[table]]"}, "dir"); });
 }
 
@@ -31,30 +31,30 @@ TEST(MuscleTable, AnUnknownParameterIsRefusedAtItsLine) {
 }
 
 TEST(MuscleTable, WithoutOsimTheModelsMuscleHasTheSameName) {
-  const toml::table root = recording::parse_toml("name = \"B\"\nemg = \"b\"\n", "study.toml");
+  const toml::table root = parse_toml("name = \"B\"\nemg = \"b\"\n", "study.toml");
   EXPECT_EQ(read_spec<MuscleSpec>({root, "study.toml", "[[muscle]]"}, "").osim, std::vector<std::string>{"B"});
 }
 
 TEST(ParameterRuleTable, APennationInDegreesIsRefused) {
   for (const char* key : {"value", "prior_mean"}) {
     const std::string message =
-        table_message<identification::ParameterRule>(std::string("name = \"pennation_angle\"\n") + key + " = 25\n");
+        table_message<fit::ParameterRule>(std::string("name = \"pennation_angle\"\n") + key + " = 25\n");
     for (const char* part : {"study.toml:2", "found 25, expected 0 to 1 rad", "write 0.4363"})
       EXPECT_NE(message.find(part), std::string::npos) << message;
   }
-  const toml::table root = recording::parse_toml("name = \"pennation_angle\"\nvalue = 0.44\n", "study.toml");
-  EXPECT_EQ(read_spec<identification::ParameterRule>({root, "study.toml", "[[parameter]]"}, "").value, 0.44);
+  const toml::table root = parse_toml("name = \"pennation_angle\"\nvalue = 0.44\n", "study.toml");
+  EXPECT_EQ(read_spec<fit::ParameterRule>({root, "study.toml", "[[parameter]]"}, "").value, 0.44);
 }
 
 TEST(ParameterRuleTable, ARuleForAnUnknownParameterAndBoundsInTheWrongOrderAreRefused) {
-  EXPECT_NE(table_message<identification::ParameterRule>("name = \"F_mx\"\n").find("study.toml:1"), std::string::npos);
-  EXPECT_NE(table_message<identification::ParameterRule>("name = \"optimal_fiber_length\"\nlower = 0.3\nupper = 0.2\n")
+  EXPECT_NE(table_message<fit::ParameterRule>("name = \"F_mx\"\n").find("study.toml:1"), std::string::npos);
+  EXPECT_NE(table_message<fit::ParameterRule>("name = \"optimal_fiber_length\"\nlower = 0.3\nupper = 0.2\n")
                 .find("found 0.3, not below upper = 0.2"),
             std::string::npos);
-  EXPECT_NE(table_message<identification::ParameterRule>("name = \"optimal_fiber_length\"\nprior_sd = 0\n")
+  EXPECT_NE(table_message<fit::ParameterRule>("name = \"optimal_fiber_length\"\nprior_sd = 0\n")
                 .find("expected a positive number"),
             std::string::npos);
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

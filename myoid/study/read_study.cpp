@@ -6,17 +6,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/text_file.h"
-#include "myoid/files/toml_table.h"
-#include "myoid/identification/parameters.h"
+#include "myoid/fit/measurement/parameters.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/ground/files/toml_table.h"
 #include "myoid/study/setting_reader.h"
 #include "myoid/study/study_settings.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
-using recording::TomlTable;
+using ground::TomlTable;
 
 using Names = std::set<std::string>;
 
@@ -51,12 +51,12 @@ void check_muscles(const Study& study, const Names& names) {
   }
 }
 
-void check_rule(const Study& study, const identification::ParameterRule& rule, const Names& names) {
-  if (identification::is_lag(rule.parameter) && !study.identify.dynamics)
+void check_rule(const Study& study, const fit::ParameterRule& rule, const Names& names) {
+  if (fit::is_lag(rule.parameter) && !study.identify.dynamics)
     refuse(study, fmt::format("[[parameter]] {}: the lags of the activation act only with dynamics = true in "
                               "[identify]; add that, or leave the table out",
                               rule.parameter));
-  if (identification::parameter_field(rule.parameter).scope != identification::Scope::muscle) return;
+  if (fit::parameter_field(rule.parameter).scope != fit::Scope::muscle) return;
   for (const std::string& owner : rule.owners) {
     if (!names.contains(owner))
       refuse(study, fmt::format("[[parameter]] {}: '{}' is no [[muscle]]; there are {}", rule.parameter, owner,
@@ -68,7 +68,7 @@ void check_rule(const Study& study, const identification::ParameterRule& rule, c
 void check_given(const Study& study) {
   const std::size_t joints = study_coordinates(study.model).size();
   const bool to_torques =
-      std::ranges::find(study.identify.methods, identification::Method::torque) != study.identify.methods.end();
+      std::ranges::find(study.identify.methods, fit::Method::torque) != study.identify.methods.end();
   for (const TrialSpec& trial : study.trials) {
     const std::size_t arms = trial.given.moment_arms.size();
     if (arms > 0 && arms != joints)
@@ -138,7 +138,7 @@ bool gives_everything(const Study& study) {
 void check_references(const Study& study) {
   const Names muscles = muscle_names(study);
   check_muscles(study, muscles);
-  for (const identification::ParameterRule& rule : study.parameters) check_rule(study, rule, muscles);
+  for (const fit::ParameterRule& rule : study.parameters) check_rule(study, rule, muscles);
   check_trials(study);
   check_given(study);
   check_norms(study);
@@ -147,7 +147,7 @@ void check_references(const Study& study) {
 }  // namespace
 
 Study parse_study(std::string_view text, const std::filesystem::path& file) {
-  const toml::table root = recording::parse_toml(text, file);
+  const toml::table root = parse_toml(text, file);
   TomlTable table(root, file, "study");
   Study study;
   study.file = file;
@@ -168,14 +168,14 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
   return study;
 }
 
-identification::UnseenSpreads read_beliefs(const std::filesystem::path& file) {
-  const toml::table root = recording::parse_toml(recording::read_text_file(file), file);
+fit::UnseenSpreads read_beliefs(const std::filesystem::path& file) {
+  const toml::table root = parse_toml(read_text_file(file), file);
   TomlTable whole(root, file, "study");
   std::optional<TomlTable> table = whole.table("beliefs");
   if (!table) throw ReadError(file, 0, "there is no table [beliefs]");
-  return read_spec<identification::UnseenSpreads>(*std::move(table), file.parent_path());
+  return read_spec<fit::UnseenSpreads>(*std::move(table), file.parent_path());
 }
 
-Study read_study(const std::filesystem::path& file) { return parse_study(recording::read_text_file(file), file); }
+Study read_study(const std::filesystem::path& file) { return parse_study(read_text_file(file), file); }
 
-}  // namespace myoid
+}  // namespace myoid::study

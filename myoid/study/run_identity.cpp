@@ -7,15 +7,15 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/error.h"
-#include "myoid/core/json_text.h"
-#include "myoid/core/provenance.h"
-#include "myoid/files/file_format.h"
-#include "myoid/files/text_file.h"
-#include "myoid/osim/osim_document.h"
+#include "myoid/body/osim/osim_document.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/core/provenance.h"
+#include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/study/study_text.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 using nlohmann::json;
@@ -85,22 +85,22 @@ void compare_subjects(const RunIdentity& here, const RunIdentity& there, std::ve
 
 RunIdentity identity_of(const Study& study) {
   RunIdentity identity = identity_of(parse_json(study_json(study)));
-  if (study.model.file) identity.model_sha256 = sha256(model::read_whole_text(*study.model.file));
+  if (study.model.file) identity.model_sha256 = sha256(body::read_whole_text(*study.model.file));
   return identity;
 }
 
 RunIdentity read_run_identity(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "parameters.json";
   try {
-    const json content = parse_json(recording::read_text_file(path));
+    const json content = parse_json(read_text_file(path));
     const auto provenance = content.find("provenance");
     if (provenance == content.end()) return {};
     RunIdentity identity = identity_of(provenance->value("options", json::object()));
     for (const json& input : provenance->value("inputs", json::array())) {
       if (!identity.model.empty() && text(input, "path") == identity.model)
         identity.model_sha256 = text(input, "sha256");
-      const auto format = recording::format_of(text(input, "path"));
-      if (format && recording::is_recording(*format))
+      const auto format = format_of(text(input, "path"));
+      if (format && is_recording(*format))
         identity.recordings.push_back(
             {std::filesystem::path(text(input, "path")).filename().string(), text(input, "sha256")});
     }
@@ -148,4 +148,4 @@ IdentityDifferences differences(const RunIdentity& here, const RunIdentity& ther
   return found;
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

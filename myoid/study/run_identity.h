@@ -7,7 +7,7 @@
 
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// A file of a recording that a run rests on.
 struct RecordedFile {
@@ -46,4 +46,4 @@ struct IdentityDifferences {
                                               const RunIdentity& there,
                                               Whose whose = Whose::one_person);
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/provenance.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/provenance.h"
+#include "myoid/ground/files/atomic_file.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/study/study_text.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 Study study_of(const std::vector<std::string>& muscles) {
@@ -35,7 +35,7 @@ std::filesystem::path folder_of(const Study& study, const std::filesystem::path&
   provenance.options_json = study_json(study);
   if (study.model.file) provenance.inputs.push_back({study.model.file->string(), "one"});
   std::filesystem::create_directories(folder);
-  recording::write_file(folder / "parameters.json", parameters_json({}, {}, provenance));
+  write_file(folder / "parameters.json", results::parameters_json({}, {}, provenance));
   return folder;
 }
 
@@ -63,7 +63,7 @@ TEST(RunIdentity, AnotherModelOrNoCommonMuscleIsGrave) {
   ASSERT_EQ(muscles.grave.size(), 1U);
   EXPECT_NE(muscles.grave[0].find("SOL, GAS"), std::string::npos);
   // One name, other content: the run has the sum "one", the file another.
-  recording::write_file(folder.path() / "wu.osim", "changed");
+  write_file(folder.path() / "wu.osim", "changed");
   Study changed = study_of({"BIC", "TRI"});
   changed.model.file = folder.path() / "wu.osim";
   EXPECT_EQ(differences(identity_of(changed), read_run_identity(folder.path() / "wu")).grave.size(), 1U);
@@ -107,9 +107,9 @@ TEST(RunIdentity, AStudyWithoutABodyIsNotHeldAgainstOneWithABody) {
   EXPECT_FALSE(there.known);
   EXPECT_TRUE(differences(identity_of(study_of({"BIC"})), there).grave.empty());
   EXPECT_FALSE(differences(identity_of(study_of({"SOL"})), there).grave.empty());
-  recording::write_file(folder / "parameters.json", "{\"provenance\": [");
+  write_file(folder / "parameters.json", "{\"provenance\": [");
   EXPECT_THROW((void)read_run_identity(folder.path()), ReadError);
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/error.h"
-#include "myoid/core/json_text.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/text_file.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,7 +34,7 @@ RunRecord read_run_record(const fs::path& folder) {
   const fs::path path = folder / "run.json";
   RunRecord record{.folder = folder};
   try {
-    const json run = parse_json(recording::read_text_file(path));
+    const json run = parse_json(read_text_file(path));
     if (!run.contains("study")) throw ReadError(path, 0, "does not name its study; run the study again");
     record.study = run.at("study").get<std::string>();
     record.command = run.value("command", "");
@@ -66,4 +66,4 @@ void refuse_changed(const std::vector<InputFile>& inputs, const RunRecord& run, 
   }
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/provenance.h"
+#include "myoid/ground/core/provenance.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// The facts of run.json from which a finished run can be computed again.
 struct RunRecord {
@@ -27,4 +27,4 @@ struct RunRecord {
 /// most. Files of the name `but` may differ.
 void refuse_changed(const std::vector<InputFile>& inputs, const RunRecord& run, const std::filesystem::path& but = {});
 
-}  // namespace myoid
+}  // namespace myoid::study

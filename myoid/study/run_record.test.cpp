@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 constexpr const char* kRun = R"({"command": "myoid run s.toml", "study": "/there/s.toml",
@@ -17,7 +17,7 @@ constexpr const char* kRun = R"({"command": "myoid run s.toml", "study": "/there
 
 TEST(RunRecord, HoldsWhatARunIsComputedAgainBy) {
   const test::TemporaryFolder folder;
-  recording::write_file(folder / "run.json", kRun);
+  write_file(folder / "run.json", kRun);
   const RunRecord run = read_run_record(folder.path());
   EXPECT_EQ(run.study, "/there/s.toml");
   EXPECT_EQ(run.start_s, 0.5);
@@ -42,10 +42,10 @@ TEST(RunRecord, AFileThatIsNoneIsRefused) {
   const test::TemporaryFolder folder;
   EXPECT_THROW((void)read_run_record(folder.path()), ReadError);
   for (const char* text : {"", "[", "{\"trials\": 3}", "{\"study\": 7}"}) {
-    recording::write_file(folder / "run.json", text);
+    write_file(folder / "run.json", text);
     EXPECT_THROW((void)read_run_record(folder.path()), ReadError) << text;
   }
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/files/toml_table.h"
+#include "myoid/ground/files/toml_table.h"
 
-namespace myoid {
+namespace myoid::study {
 
 namespace {
 
@@ -67,7 +67,7 @@ std::string refusal(const Setting& setting, const std::string& word) {
   for (const std::string_view each : words) {
     if (!each.empty()) named.emplace_back(each);
   }
-  const auto near = recording::nearest_word(word, named);
+  const auto near = nearest_word(word, named);
   return fmt::format("found \"{}\"{}, expected {}{}", word, near ? fmt::format(" (did you mean '{}'?)", *near) : "",
                      named.size() > 1 ? "one of " : "", fmt::join(named, ", "));
 }
@@ -189,4 +189,4 @@ bool SettingVisitor::numbers_by_name(std::string_view key, std::map<std::string,
 void SettingVisitor::retired(std::string_view /*key*/, std::string_view /*why*/, std::vector<std::string>& /*said*/) {}
 void SettingVisitor::must(bool /*holds*/, std::string_view /*key*/, const std::string& /*message*/) {}
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -11,11 +11,11 @@
 #include <variant>
 #include <vector>
 
-#include "myoid/core/choice.h"
-#include "myoid/core/stretch.h"
+#include "myoid/ground/core/choice.h"
+#include "myoid/ground/core/stretch.h"
 #include "myoid/study/equal_stretches.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// The allowed numbers of a setting.
 struct SettingLimits {
@@ -201,4 +201,4 @@ class FlatSettingVisitor : public SettingVisitor {
                 const InsideEach& /*inside*/) override {}
 };
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 enum class Side { left, right };
@@ -56,4 +56,4 @@ TEST(SettingVisitor, AWordStandsInsteadOfANumber) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-namespace myoid {
+namespace myoid::study {
 
-using recording::TomlTable;
+using ground::TomlTable;
 
 void SettingReader::retired(std::string_view key, std::string_view why, std::vector<std::string>& said) {
   if (table_->asked(key)) said.push_back(fmt::format("the setting {} has no effect: {}", key, why));
@@ -171,4 +171,4 @@ void SettingReader::repeated(std::string_view key,
   }
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

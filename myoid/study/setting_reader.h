@@ -2,18 +2,17 @@
 
 #include <filesystem>
 
-#include "myoid/files/toml_table.h"
+#include "myoid/ground/files/toml_table.h"
 #include "myoid/study/setting.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// Reads settings from a table of a TOML file. A setting that the file does not give keeps its value; paths are
 /// resolved against `folder`. Throws ReadError with the line for a wrong type, a refused number or word, and settings
 /// that exclude each other. The caller checks the table for unknown keys at the end (TomlTable::finish).
 class SettingReader : public SettingVisitor {
  public:
-  SettingReader(recording::TomlTable& table, std::filesystem::path folder)
-      : table_(&table), folder_(std::move(folder)) {}
+  SettingReader(TomlTable& table, std::filesystem::path folder) : table_(&table), folder_(std::move(folder)) {}
 
   void retired(std::string_view key, std::string_view why, std::vector<std::string>& said) override;
   void must(bool holds, std::string_view key, const std::string& message) override;
@@ -33,14 +32,14 @@ class SettingReader : public SettingVisitor {
   /// Throws ReadError at the setting's line if there is a reason to refuse the setting.
   void refuse(const Setting& setting, const std::string& reason) const;
 
-  recording::TomlTable* table_;
+  TomlTable* table_;
   std::filesystem::path folder_;
 };
 
 /// Reads one table of a study as its struct: `read_spec<TrialSpec>(table, folder)`. Throws
 /// ReadError as SettingReader does, and for an unknown key with the nearest known one.
 template <typename Spec>
-[[nodiscard]] Spec read_spec(recording::TomlTable table, const std::filesystem::path& folder) {
+[[nodiscard]] Spec read_spec(TomlTable table, const std::filesystem::path& folder) {
   Spec spec;
   SettingReader reader(table, folder);
   visit(spec, reader);
@@ -48,4 +47,4 @@ template <typename Spec>
   return spec;
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

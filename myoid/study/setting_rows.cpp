@@ -7,12 +7,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/json_text.h"
-#include "myoid/core/wrapped_text.h"
-#include "myoid/files/quoted_text.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/core/wrapped_text.h"
+#include "myoid/ground/files/quoted_text.h"
 #include "myoid/study/study_settings.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
@@ -85,10 +85,10 @@ std::string default_of(const Setting& setting, const SettingValue& value, bool o
   if (const auto* flag = std::get_if<bool>(&value)) return option ? (*flag ? "on" : "off") : (*flag ? "true" : "false");
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string>(&value); text != nullptr && !text->empty())
-    return code(option ? *text : recording::toml_text(*text));
+    return code(option ? *text : toml_text(*text));
   if (const auto* list = std::get_if<std::vector<std::string>>(&value); list != nullptr && !list->empty()) {
     std::vector<std::string> quoted;
-    std::transform(list->begin(), list->end(), std::back_inserter(quoted), recording::toml_text);
+    std::transform(list->begin(), list->end(), std::back_inserter(quoted), toml_text);
     return list->size() == 1 ? code(quoted.front()) : code(fmt::format("[{}]", fmt::join(quoted, ", ")));
   }
   if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)
@@ -212,4 +212,4 @@ std::string markdown(const std::vector<SettingRow>& rows, std::string_view headi
   return text;
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -5,7 +5,7 @@
 
 #include "myoid/study/setting.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// A setting as the reference describes it.
 struct SettingRow {
@@ -68,4 +68,4 @@ template <typename Options>
   return visitor.rows;
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

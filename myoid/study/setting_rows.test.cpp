@@ -6,7 +6,7 @@
 
 #include "tests/support/printed_page.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 SettingRow row_of(const std::string& table, const std::string& key) {
@@ -51,4 +51,4 @@ TEST(ReferenceText, IsFreeOfMarkdown) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
-namespace myoid {
+namespace myoid::study {
 
 std::vector<std::string> study_coordinates(const ModelSpec& model) {
   std::vector<std::string> names{model.coordinate};
@@ -39,4 +39,4 @@ void restrict_trials(Study& study, std::optional<double> start_s, std::optional<
   }
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/choice.h"
-#include "myoid/core/geometry.h"
-#include "myoid/core/stretch.h"
-#include "myoid/forces/sharing_objective.h"
-#include "myoid/identification/options.h"
-#include "myoid/identification/study_data.h"
-#include "myoid/phases/phases.h"
+#include "myoid/body/forces/sharing_objective.h"
+#include "myoid/fit/measurement/options.h"
+#include "myoid/fit/measurement/study_data.h"
+#include "myoid/ground/core/choice.h"
+#include "myoid/ground/core/geometry.h"
+#include "myoid/ground/core/stretch.h"
 #include "myoid/study/equal_stretches.h"
+#include "myoid/study/phases/phases.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// The purpose of a trial.
 enum class Use { calibration, validation, mvc, static_pose, passive, isometric };
@@ -181,8 +181,9 @@ struct PlateSpec {
 
 /// Times of a trial that are predicted, but neither fitted nor scored, and from which no EMG reference is taken.
 struct ExcludeSpec {
-  std::vector<Stretch> windows;   ///< On the clock of the motion.
-  bool foreign_contacts = false;  ///< Adds the times in which another foot stands on a plate (checks/foreign_contacts).
+  std::vector<Stretch> windows;  ///< On the clock of the motion.
+  bool foreign_contacts =
+      false;  ///< Adds the times in which another foot stands on a plate (study/checks/foreign_contacts).
   bool operator==(const ExcludeSpec& other) const {
     return foreign_contacts == other.foreign_contacts && equal_stretches(windows, other.windows);
   }
@@ -242,7 +243,7 @@ struct VideoChoice {
 };
 
 struct SharingSpec {
-  forces::SharingObjective objective = forces::SharingObjective::activation;
+  body::SharingObjective objective = body::SharingObjective::activation;
   double exponent = 2.0;
   double reserve_nm = 1.0;  ///< Optimal force of the reserve on the coordinate.
   bool operator==(const SharingSpec&) const = default;
@@ -257,19 +258,19 @@ struct PhasesSpec {
 };
 
 struct IdentifySpec {
-  std::vector<identification::Method> methods{identification::Method::paper, identification::Method::torque};
+  std::vector<fit::Method> methods{fit::Method::paper, fit::Method::torque};
   std::vector<std::string> muscles;  ///< Empty: all.
   int posterior_draws = 0;           ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
   bool gain = true;                  ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
   int next_movements = 4;  ///< Movements to suggest for the next recording; 0: none.
-  identification::FoldKind folds = identification::FoldKind::trial;
+  fit::FoldKind folds = fit::FoldKind::trial;
   /// Method `paper`: above 1 adds Sobol points, and the table of basins; empty: 1, and 3 to compare solvers.
   std::optional<int> starts;
   bool compare_solvers = false;  ///< Method `paper`: every solver from the same starts.
-  identification::Eccentric eccentric = identification::Eccentric::automatic;
+  fit::Eccentric eccentric = fit::Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
-  identification::LagChoice lag = identification::LagChoice::automatic;
+  fit::LagChoice lag = fit::LagChoice::automatic;
   bool dynamics = false;       ///< Turns envelope into activation by the lags of equation (1).
   bool model_muscles = false;  ///< Pennation and passive force of the model; else none.
   bool elastic_tendon = true;  ///< The model's tendon strain, quasi-static; else rigid.
@@ -293,13 +294,13 @@ struct Study {
   SharingSpec sharing;
   PhasesSpec phases;
   IdentifySpec identify;
-  identification::UnseenSpreads beliefs;
+  fit::UnseenSpreads beliefs;
   std::optional<LoadCellSpec> load_cell;
   std::optional<SyncSpec> sync;  ///< For trials without their own.
   std::vector<MuscleSpec> muscles;
   std::vector<TrialSpec> trials;
-  std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]
-  std::vector<NormSpec> norms;                            ///< [[norm]]
+  std::vector<fit::ParameterRule> parameters;  ///< [[parameter]]
+  std::vector<NormSpec> norms;                 ///< [[norm]]
   std::optional<std::filesystem::path> truth;
   bool operator==(const Study&) const = default;
 
@@ -324,4 +325,4 @@ struct Study {
 /// InvalidInput, with the trial's name, if a trial has no such time.
 void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s);
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 #include "myoid/study/read_study.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 const std::string kMinimal = R"(
@@ -84,4 +84,4 @@ TEST(ParseStudy, AnEmgIsFollowedInOneWayOnly) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

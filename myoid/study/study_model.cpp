@@ -10,31 +10,31 @@
 #include <fmt/ranges.h>
 #include <pugixml.hpp>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/core/error.h"
-#include "myoid/core/names.h"
-#include "myoid/core/units.h"
-#include "myoid/files/text_file.h"
-#include "myoid/identification/parameter_fields.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/osim/muscle_laws.h"
+#include "myoid/body/osim/osim_document.h"
+#include "myoid/body/osim/osim_reader.h"
+#include "myoid/body/osim/osim_writer.h"
+#include "myoid/fit/measurement/parameter_fields.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/names.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/muscle/absent_parameters.h"
-#include "myoid/osim/muscle_laws.h"
-#include "myoid/osim/osim_document.h"
-#include "myoid/osim/osim_reader.h"
-#include "myoid/osim/osim_writer.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 /// Returns the mean length; empty if the markers do not show it.
-std::optional<double> forearm_length(const recording::MarkerSeries& markers) {
+std::optional<double> forearm_length(const MarkerSeries& markers) {
   const std::vector<double> lengths_m = forearm_lengths_m(markers);
   if (lengths_m.empty()) return std::nullopt;
   return std::accumulate(lengths_m.begin(), lengths_m.end(), 0.0) / static_cast<double>(lengths_m.size());
 }
 
-model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries* markers) {
+body::Arm4Options arm_options(const Study& study, const MarkerSeries* markers) {
   constexpr double kUpperArmOverForearm = 0.2817 / 0.2689;  // de Leva (1996), men
-  model::Arm4Options options;
+  body::Arm4Options options;
   if (study.subject.mass_kg) options.person.mass_kg = *study.subject.mass_kg;
   options.person.female = study.subject.sex == Sex::female;
   options.horizontal = study.model.horizontal;
@@ -60,10 +60,10 @@ muscle::HillParameters<double> stated_start(const MuscleSpec& spec) {
 }
 
 /// Returns a head of such a muscle, without a path: its length is constant, and it has no moment arm.
-model::Muscle stated_head(const MuscleSpec& spec, const std::string& name) {
+body::Muscle stated_head(const MuscleSpec& spec, const std::string& name) {
   const muscle::HillParameters<double> start = stated_start(spec);
   const double l0_m = start.optimal_fiber_length_m;
-  model::Muscle head{.name = name, .class_name = "Thelen2003Muscle", .properties = {}, .path = {}};
+  body::Muscle head{.name = name, .class_name = "Thelen2003Muscle", .properties = {}, .path = {}};
   head.properties = {.max_isometric_force_n = start.max_isometric_force_n / static_cast<double>(spec.osim.size()),
                      .optimal_fiber_length_m = l0_m,
                      .tendon_slack_length_m = start.tendon_slack_length_m,
@@ -80,14 +80,14 @@ model::Muscle stated_head(const MuscleSpec& spec, const std::string& name) {
 
 /// Returns the names of a study without a body as a model: massless bodies that turn about each other by the study's
 /// coordinates, and muscles without paths.
-model::BodyModel names_alone(const Study& study) {
-  model::BodyModel model;
+body::BodyModel names_alone(const Study& study) {
+  body::BodyModel model;
   model.name = "none";
   model.bodies.push_back({.name = "ground"});
   for (const std::string& name : study_coordinates(study.model)) {
     const auto c = static_cast<int>(model.coordinates.size());
-    model::Joint joint{.name = name, .class_name = "PinJoint", .parent = c, .child = c + 1, .coordinates = {c}};
-    joint.rotation[2] = {.axis = Vec3::UnitZ(), .coordinate = c, .function = {model::Linear{}}};
+    body::Joint joint{.name = name, .class_name = "PinJoint", .parent = c, .child = c + 1, .coordinates = {c}};
+    joint.rotation[2] = {.axis = Vec3::UnitZ(), .coordinate = c, .function = {body::Linear{}}};
     model.joints.push_back(std::move(joint));
     model.bodies.push_back({.name = name});
     model.coordinates.push_back({.name = name, .joint = c});
@@ -95,21 +95,21 @@ model::BodyModel names_alone(const Study& study) {
   for (const MuscleSpec& spec : study.muscles) {
     for (const std::string& name : spec.osim) model.muscles.push_back(stated_head(spec, name));
   }
-  return model::finalize(std::move(model));
+  return body::finalize(std::move(model));
 }
 
 /// Returns pennation, passive force and tendon of a model's muscle.
-identification::MuscleExtras model_extras(const model::Muscle& muscle) {
-  const model::MuscleProperties& p = muscle.properties;
-  if (std::holds_alternative<model::SchutteCurves>(p.curves)) {
+fit::MuscleExtras model_extras(const body::Muscle& muscle) {
+  const body::MuscleProperties& p = muscle.properties;
+  if (std::holds_alternative<body::SchutteCurves>(p.curves)) {
     throw ModelError(
         fmt::format("muscle '{}' is a {}, whose passive force is a free curve; give passive_force and pennation_angle "
                     "by [[parameter]] and leave [identify] muscle_law and tendon at their defaults",
                     muscle.name, muscle.class_name));
   }
-  const muscle::MusculotendonLaws laws = model::class_laws(p, muscle::TendonMode::equilibrium);
-  const muscle::MusculotendonParameters<double> unit = model::musculotendon_parameters(p, laws);
-  if (unit.pennation_at_optimal_rad > identification::parameter_field("pennation_angle").bounds.upper)
+  const muscle::MusculotendonLaws laws = body::class_laws(p, muscle::TendonMode::equilibrium);
+  const muscle::MusculotendonParameters<double> unit = body::musculotendon_parameters(p, laws);
+  if (unit.pennation_at_optimal_rad > fit::parameter_field("pennation_angle").bounds.upper)
     throw ModelError(
         fmt::format("muscle '{}': pennation_angle_at_optimal = {:g} rad, expected 0 to 1 rad; of an angle "
                     "in degrees write {:.4g}",
@@ -123,16 +123,16 @@ identification::MuscleExtras model_extras(const model::Muscle& muscle) {
 
 /// Returns true if the study bounds V_sh V_shl of the muscle, or has a prior of its own for it.
 bool wishes_product(const Study& study, const std::string& muscle) {
-  return std::ranges::any_of(study.parameters, [&](const identification::ParameterRule& rule) {
+  return std::ranges::any_of(study.parameters, [&](const fit::ParameterRule& rule) {
     return rule.parameter == "eccentric_curvature_product" && (rule.lower || rule.upper || rule.prior_sd) &&
-           identification::covers(rule.owners, muscle);
+           fit::covers(rule.owners, muscle);
   });
 }
 
 /// Applies the study's settings to the model, after a check that it has the study's names.
-model::BodyModel prepared(const Study& study, model::BodyModel model) {
-  model::require_lengths_in_m(model, study.model.file.value_or("arm4.osim"));
-  const auto coordinate = [&](std::string_view key, const std::string& name) -> model::Coordinate& {
+body::BodyModel prepared(const Study& study, body::BodyModel model) {
+  body::require_lengths_in_m(model, study.model.file.value_or("arm4.osim"));
+  const auto coordinate = [&](std::string_view key, const std::string& name) -> body::Coordinate& {
     try {
       return model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
     } catch (const ModelError& error) {
@@ -154,7 +154,7 @@ model::BodyModel prepared(const Study& study, model::BodyModel model) {
   for (const auto& [name, weight] : study.markers.weight) {
     if (model.find_marker(name)) continue;
     std::vector<std::string> names;
-    for (const model::Marker& marker : model.markers) names.push_back(marker.name);
+    for (const body::Marker& marker : model.markers) names.push_back(marker.name);
     throw ModelError(fmt::format("{}: [markers.weight] {}: the model has no such marker; there are {}",
                                  study.file.string(), name, fmt::join(names, ", ")));
   }
@@ -190,7 +190,7 @@ std::string assumed_starts(const Study& study) {
   return fmt::format("{}: start from the literature's values: {}", study.file.string(), fmt::join(parts, ", "));
 }
 
-std::vector<double> forearm_lengths_m(const recording::MarkerSeries& markers) {
+std::vector<double> forearm_lengths_m(const MarkerSeries& markers) {
   const auto find = [&](std::string_view name) -> Eigen::Index {
     const auto it = std::ranges::find(markers.names, name);
     return it == markers.names.end() ? -1 : it - markers.names.begin();
@@ -212,37 +212,37 @@ std::vector<double> forearm_lengths_m(const recording::MarkerSeries& markers) {
 
 std::string model_text(const Study& study) {
   if (!study.model.text.empty()) return study.model.text;
-  if (study.model.file) return model::read_whole_text(*study.model.file);
+  if (study.model.file) return body::read_whole_text(*study.model.file);
   if (study.model.is_none()) return "";
-  return model::arm4_osim(arm_options(study, nullptr));
+  return body::arm4_osim(arm_options(study, nullptr));
 }
 
-model::BodyModel load_model(const Study& study, const std::string& text) {
+body::BodyModel load_model(const Study& study, const std::string& text) {
   if (study.model.is_none()) return names_alone(study);
-  return prepared(study, model::parse_osim(text, study.model.file.value_or("arm4.osim")));
+  return prepared(study, body::parse_osim(text, study.model.file.value_or("arm4.osim")));
 }
 
-model::BodyModel load_model(const Study& study) { return load_model(study, model_text(study)); }
+body::BodyModel load_model(const Study& study) { return load_model(study, model_text(study)); }
 
-std::optional<model::BodyModel> arm_of_markers(const Study& study, const recording::MarkerSeries& markers) {
+std::optional<body::BodyModel> arm_of_markers(const Study& study, const MarkerSeries& markers) {
   if (!study.model.is_arm() || study.model.forearm_length_m || !forearm_length(markers)) return std::nullopt;
-  return prepared(study, model::parse_osim(model::arm4_osim(arm_options(study, &markers)), "arm4.osim"));
+  return prepared(study, body::parse_osim(body::arm4_osim(arm_options(study, &markers)), "arm4.osim"));
 }
 
-std::string body_names(const model::BodyModel& model) {
-  return name_list(std::span(model.bodies).subspan(1), &model::Body::name);
+std::string body_names(const body::BodyModel& model) {
+  return name_list(std::span(model.bodies).subspan(1), &body::Body::name);
 }
 
 HeldMassSpec held_mass_place(const Study& study) {
   if (study.model.held_mass) return *study.model.held_mass;
-  if (study.model.is_arm()) return {"forearm_hand", model::arm4_held_at_m()};
+  if (study.model.is_arm()) return {"forearm_hand", body::arm4_held_at_m()};
   throw InvalidInput("held_mass_kg is given, but [model] held_mass does not say where it acts");
 }
 
-std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study, const model::BodyModel& model) {
-  std::vector<kinematics::MuscleGroup> groups;
+std::vector<body::MuscleGroup> muscle_groups(const Study& study, const body::BodyModel& model) {
+  std::vector<body::MuscleGroup> groups;
   for (const MuscleSpec& spec : study.muscles) {
-    kinematics::MuscleGroup group;
+    body::MuscleGroup group;
     double sum = 0.0;
     for (const std::string& name : spec.osim) {
       group.members.push_back(model.muscle_index(name));
@@ -256,18 +256,17 @@ std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study, const mod
   return groups;
 }
 
-std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const model::BodyModel& model) {
-  std::vector<identification::MuscleSetup> setups;
-  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, model);
+std::vector<fit::MuscleSetup> muscle_setups(const Study& study, const body::BodyModel& model) {
+  std::vector<fit::MuscleSetup> setups;
+  const std::vector<body::MuscleGroup> groups = muscle_groups(study, model);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const MuscleSpec& spec = study.muscles[g];
-    identification::MuscleSetup setup;
+    fit::MuscleSetup setup;
     setup.name = spec.name;
     setup.emg_channel = spec.emg;
     setup.start = {};
     for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
-      const auto head =
-          model::hill_parameters(model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties);
+      const auto head = body::hill_parameters(model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties);
       for (const muscle::HillField& field : muscle::kHillFields) {
         const double share = field.name == "max_isometric_force" ? 1.0 : groups[g].weights[i];
         setup.start.*field.member += share * head.*field.member;
@@ -276,7 +275,7 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const
     if (study.model.is_none()) {
       setup.start = stated_start(spec);
     } else if (study.identify.model_muscles || study.identify.elastic_tendon) {
-      identification::MuscleExtras mean{.passive_strain = 0.0, .passive_shape = 0.0};
+      fit::MuscleExtras mean{.passive_strain = 0.0, .passive_shape = 0.0};
       for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
         const auto head = model_extras(model.muscles[static_cast<std::size_t>(groups[g].members[i])]);
         const double weight = groups[g].weights[i];
@@ -291,7 +290,7 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const
     }
     for (const auto& [name, value] : spec.start) setup.start.*muscle::hill_field(name).member = value;
     setup.fixed = spec.fixed;
-    setup.priors = identification::literature_priors(setup.start);
+    setup.priors = fit::literature_priors(setup.start);
     // A wish for the product makes it the unknown, in the place of the ratio of slopes.
     if (wishes_product(study, spec.name)) setup.priors.erase("eccentric_slope_ratio");
     muscle::validate(setup.start);
@@ -303,8 +302,8 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const
 std::string identified_model(const Study& study,
                              const std::string& osim,
                              const std::vector<IdentifiedMuscle>& muscles) {
-  const model::BodyModel before = model::parse_osim(osim, "the identified model");
-  std::vector<model::OsimChange> changes;
+  const body::BodyModel before = body::parse_osim(osim, "the identified model");
+  std::vector<body::OsimChange> changes;
   for (const IdentifiedMuscle& muscle : muscles) {
     const auto spec = std::ranges::find_if(study.muscles, [&](const MuscleSpec& m) { return m.name == muscle.group; });
     if (spec == study.muscles.end()) continue;
@@ -314,7 +313,7 @@ std::string identified_model(const Study& study,
     for (const std::string& name : spec->osim) {
       const auto index = before.find_muscle(name);
       if (!index) continue;
-      const model::Muscle& old = before.muscles[static_cast<std::size_t>(*index)];
+      const body::Muscle& old = before.muscles[static_cast<std::size_t>(*index)];
       const auto set = [&](const char* property, double value) {
         changes.push_back({"ForceSet", name, property, {value}});
       };
@@ -337,7 +336,7 @@ std::string identified_model(const Study& study,
       if (changed("eccentric_plateau")) set("Flen", muscle.identified.eccentric_plateau);
     }
   }
-  return model::changed_osim(osim, "the identified model", changes);
+  return body::changed_osim(osim, "the identified model", changes);
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -11,7 +11,7 @@
 #include "myoid/study/trial_table.h"
 #include "myoid/study/trial_up.h"
 
-namespace myoid {
+namespace myoid::study {
 
 void visit(SubjectSpec& subject, SettingVisitor& v) {
   v.text("name", subject.name, {.says = "The person's name or number, for the report."});
@@ -310,7 +310,7 @@ void visit(IdentifySpec& identify, SettingVisitor& v) {
   visit_data(identify, v);
 }
 
-void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
+void visit(fit::UnseenSpreads& beliefs, SettingVisitor& v) {
   constexpr SettingLimits kSpread = within(0.0, 1.0);
   v.number(
       "moment_arm_sd", beliefs.moment_arm,
@@ -377,4 +377,4 @@ void visit(Study& study, SettingVisitor& v) {
           });
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -3,7 +3,7 @@
 #include "myoid/study/setting.h"
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// Visit every setting of a table once: key, allowed values, default (the struct's), one sentence
 /// of the reference, and the rules that relate it to other settings.
@@ -19,10 +19,10 @@ void visit(LoadCellSpec& cell, SettingVisitor& v);
 void visit(SharingSpec& sharing, SettingVisitor& v);
 void visit(PhasesSpec& phases, SettingVisitor& v);
 void visit(IdentifySpec& identify, SettingVisitor& v);
-void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v);
+void visit(fit::UnseenSpreads& beliefs, SettingVisitor& v);
 void visit(NormSpec& norm, SettingVisitor& v);
 
 /// Visits every table of a study.
 void visit(Study& study, SettingVisitor& v);
 
-}  // namespace myoid
+}  // namespace myoid::study

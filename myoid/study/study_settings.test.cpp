@@ -8,11 +8,11 @@
 
 #include "tests/support/message_of.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 Study settings_of(const std::string& text) {
-  const toml::table root = recording::parse_toml(text, "dir/study.toml");
+  const toml::table root = parse_toml(text, "dir/study.toml");
   return read_spec<Study>({root, "dir/study.toml", "study"}, "dir");
 }
 
@@ -80,4 +80,4 @@ TEST(StudySettings, ACutOffSaysHowToSmooth) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

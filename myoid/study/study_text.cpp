@@ -8,11 +8,11 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/json_text.h"
-#include "myoid/files/quoted_text.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/quoted_text.h"
 #include "myoid/study/study_settings.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 using nlohmann::ordered_json;
@@ -92,13 +92,13 @@ std::string toml_key(const std::string& key) {
   const bool bare = !key.empty() && std::ranges::all_of(key, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
-  return bare ? key : recording::toml_text(key);
+  return bare ? key : toml_text(key);
 }
 
 std::string toml_value(const ordered_json& value) {
   std::vector<std::string> parts;
-  if (value.is_string()) return recording::toml_text(value.get<std::string>());
-  if (value.is_number_float()) return recording::toml_number(value.get<double>());
+  if (value.is_string()) return toml_text(value.get<std::string>());
+  if (value.is_number_float()) return toml_number(value.get<double>());
   if (value.is_array()) {
     for (const ordered_json& each : value) parts.push_back(toml_value(each));
     return fmt::format("[{}]", fmt::join(parts, ", "));
@@ -135,4 +135,4 @@ std::string study_toml(const Study& study) {
   return text;
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -4,7 +4,7 @@
 
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// Returns the full settings of a study, defaults included, as JSON with the tables and keys of the
 /// file; null: not given. Paths are absolute or relative to the working directory.
@@ -13,4 +13,4 @@ namespace myoid {
 /// Returns the settings as a study file at `study.file`: read_study of it gives the same study.
 [[nodiscard]] std::string study_toml(const Study& study);
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -6,7 +6,7 @@
 #include "myoid/study/read_study.h"
 #include "myoid/study/setting_rows.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 TEST(StudyJson, HoldsWhatTheFileSaysAndTheDefaultsOfWhatItDoesNot) {
@@ -226,4 +226,4 @@ TEST(StudyJson, EverySettingOfTheReferenceStandsInIt) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

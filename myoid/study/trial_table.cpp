@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "myoid/files/file_format.h"
+#include "myoid/ground/files/file_format.h"
 #include "myoid/study/study_ids.h"
 
-namespace myoid {
+namespace myoid::study {
 
 void visit(SyncSpec& sync, SettingVisitor& v) {
   constexpr SettingLimits kDrift = within(-1e5, 1e5, "ppm");
@@ -78,7 +78,7 @@ void visit_name(TrialSpec& trial, SettingVisitor& v) {
 
 /// Visits the recordings of a trial.
 void visit_files(TrialSpec& trial, SettingVisitor& v) {
-  static const std::string kEmgFiles = recording::emg_endings_text() + ". A C3D file may be that of the markers.";
+  static const std::string kEmgFiles = emg_endings_text() + ". A C3D file may be that of the markers.";
   v.path("markers", trial.markers,
          {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS `_motion.tsv`.",
           .otherwise = "this or `motion`, but for `mvc`"});
@@ -197,4 +197,4 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
   visit_clock(trial, v);
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -3,7 +3,7 @@
 #include "myoid/study/setting.h"
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// Visits the settings of one [[trial]]. Its name must suit a folder, files that exclude each other
 /// are refused, and the use determines which ones are needed.
@@ -16,4 +16,4 @@ void visit(SyncSpec& sync, SettingVisitor& v);
 /// Visits the force plates under the person in one trial.
 void visit(PlateSpec& plates, SettingVisitor& v);
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -8,11 +8,11 @@
 
 #include "tests/support/message_of.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 TrialSpec trial_of(const std::string& text) {
-  const toml::table root = recording::parse_toml(text, "dir/study.toml");
+  const toml::table root = parse_toml(text, "dir/study.toml");
   return read_spec<TrialSpec>({root, "dir/study.toml", "[[trial]]"}, "dir");
 }
 
@@ -132,4 +132,4 @@ TEST(TrialTable, ClocksAreJoinedByTriggersOrByANumber) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

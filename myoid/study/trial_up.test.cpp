@@ -2,25 +2,25 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/model/kinematic_tree.h"
-#include "myoid/osim/osim_reader.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/model/kinematic_tree.h"
+#include "myoid/body/osim/osim_reader.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 TEST(Upright, IsOneForTheAxisThatPointsUp) {
-  const model::BodyModel arm = model::parse_osim(model::arm4_osim(), "arm4.osim");
-  model::BodyState state = model::make_state(arm);
-  model::compute_poses(arm, arm.default_q(), state);
-  recording::MarkerSeries markers;
+  const body::BodyModel arm = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  body::BodyState state = body::make_state(arm);
+  body::compute_poses(arm, arm.default_q(), state);
+  MarkerSeries markers;
   markers.time_s = Eigen::VectorXd::Zero(1);
   markers.positions_m.resize(1, static_cast<Eigen::Index>(3 * arm.markers.size()));
   for (std::size_t m = 0; m < arm.markers.size(); ++m) {
     markers.names.push_back(arm.markers[m].name);
     const Vec3 p = state.X_GB[static_cast<std::size_t>(arm.markers[m].body)] * arm.markers[m].p_BM;
     markers.positions_m.block<1, 3>(0, static_cast<Eigen::Index>(3 * m)) =
-        (recording::rotation_to_y_up('z').transpose() * p).transpose();
+        (rotation_to_y_up('z').transpose() * p).transpose();
   }
   EXPECT_NEAR(upright(arm, markers, Vec3::UnitZ()).value(), 1.0, 1e-9);
   EXPECT_LT(upright(arm, markers, Vec3::UnitY()).value(), 0.1);
@@ -29,4 +29,4 @@ TEST(Upright, IsOneForTheAxisThatPointsUp) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 #include "myoid/study/read_study.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 /// Returns the trials with a movement.
@@ -81,4 +81,4 @@ Study read_filmed_study(const std::filesystem::path& file, const VideoChoice& ch
   return study;
 }
 
-}  // namespace myoid
+}  // namespace myoid::study

@@ -4,7 +4,7 @@
 
 #include "myoid/study/study.h"
 
-namespace myoid {
+namespace myoid::study {
 
 /// Sets the films of the trials that `choice` names, in place of the study's. Throws InvalidInput for a trial that the
 /// study lacks, a repeated trial, a missing name in a study of several movements, and an offset without a film.
@@ -17,4 +17,4 @@ void require_videos(const Study& study);
 /// `set_videos` and `require_videos` do.
 [[nodiscard]] Study read_filmed_study(const std::filesystem::path& file, const VideoChoice& choice);
 
-}  // namespace myoid
+}  // namespace myoid::study

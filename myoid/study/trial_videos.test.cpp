@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/files/atomic_file.h"
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
-namespace myoid {
+namespace myoid::study {
 namespace {
 
 using testing::HasSubstr;
@@ -56,9 +56,9 @@ TEST(TrialVideos, AMissingFilmIsNamedWithItsTrial) {
   study.trials[0].video = std::string(folder / "film.mp4");
   EXPECT_THAT(test::message_of([&] { require_videos(study); }),
               testing::AllOf(HasSubstr("film.mp4"), HasSubstr("trial 'slow'")));
-  recording::write_file(*study.trials[0].video, "x");
+  write_file(*study.trials[0].video, "x");
   EXPECT_NO_THROW(require_videos(study));
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::study

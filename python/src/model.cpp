@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "myoid/commands/stage_input.h"
-#include "myoid/core/error.h"
-#include "myoid/kinematics/joint_motion.h"
-#include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/model/body_model.h"
-#include "myoid/model/constraints.h"
+#include "myoid/body/kinematics/joint_motion.h"
+#include "myoid/body/kinematics/muscle_kinematics.h"
+#include "myoid/body/model/body_model.h"
+#include "myoid/body/model/constraints.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/program/commands/stage_input.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -21,7 +21,7 @@
 namespace myoid::python {
 namespace {
 
-using model::BodyModel;
+using body::BodyModel;
 
 /// A model and the remarks of its reader.
 struct ReadModel {
@@ -36,11 +36,11 @@ std::shared_ptr<ReadModel> read_model(py::dict given) {
   k.take("file", file);
   k.word("compat", compat, {"exact", "opensim"});
   k.refuse_others();
-  const commands::Call call = work.call();
+  const program::Call call = work.call();
   return work.run([&] {
-    commands::Remarks remarks(call);
+    program::Remarks remarks(call);
     auto read = std::make_shared<ReadModel>();
-    read->model = commands::load_model(file, compat, remarks);
+    read->model = program::load_model(file, compat, remarks);
     read->remarks = remarks.list();
     return read;
   });
@@ -51,10 +51,10 @@ py::list coordinates(const ReadModel& read) {
   const BodyModel& model = read.model;
   const Eigen::VectorXd usual = model.default_q();
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
-    const model::Coordinate& c = model.coordinates[i];
+    const body::Coordinate& c = model.coordinates[i];
     py::dict d;
     d["name"] = c.name;
-    d["unit"] = std::string(symbol(kinematics::coordinate_unit(c, 0)));
+    d["unit"] = std::string(symbol(body::coordinate_unit(c, 0)));
     d["default"] = usual[static_cast<Eigen::Index>(i)];
     d["lower"] = c.lower;
     d["upper"] = c.upper;
@@ -68,8 +68,8 @@ py::list coordinates(const ReadModel& read) {
 
 py::list muscles(const ReadModel& read) {
   py::list list;
-  for (const model::Muscle& muscle : read.model.muscles) {
-    const model::MuscleProperties& p = muscle.properties;
+  for (const body::Muscle& muscle : read.model.muscles) {
+    const body::MuscleProperties& p = muscle.properties;
     py::dict d;
     d["name"] = muscle.name;
     d["class_name"] = muscle.class_name;
@@ -85,7 +85,7 @@ py::list muscles(const ReadModel& read) {
 
 py::list bodies(const ReadModel& read) {
   py::list list;
-  for (const model::Body& body : read.model.bodies) {
+  for (const body::Body& body : read.model.bodies) {
     py::dict d;
     d["name"] = body.name;
     d["mass"] = body.mass_kg;
@@ -96,16 +96,16 @@ py::list bodies(const ReadModel& read) {
 
 std::vector<std::string> marker_names(const ReadModel& read) {
   std::vector<std::string> names;
-  for (const model::Marker& marker : read.model.markers) names.push_back(marker.name);
+  for (const body::Marker& marker : read.model.markers) names.push_back(marker.name);
   return names;
 }
 
 /// The postures as a motion: coordinates that are not given rest at their default, couplers give
 /// the dependent ones, and the speeds are those given, else 0.
-kinematics::JointMotion motion_of(const BodyModel& model,
-                                  const std::map<std::string, Eigen::VectorXd>& q,
-                                  const std::map<std::string, Eigen::VectorXd>& speeds,
-                                  Eigen::Index postures) {
+body::JointMotion motion_of(const BodyModel& model,
+                            const std::map<std::string, Eigen::VectorXd>& q,
+                            const std::map<std::string, Eigen::VectorXd>& speeds,
+                            Eigen::Index postures) {
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd values = model.default_q().transpose().replicate(postures, 1);
   Eigen::MatrixXd rates = Eigen::MatrixXd::Zero(postures, count);
@@ -114,14 +114,13 @@ kinematics::JointMotion motion_of(const BodyModel& model,
   if (!values.allFinite() || !rates.allFinite()) throw InvalidInput("posture: a value is not finite");
   for (Eigen::Index i = 0; i < postures; ++i) {
     Eigen::VectorXd row = values.row(i).transpose();
-    model::apply_couplers(model, row);
+    body::apply_couplers(model, row);
     values.row(i) = row.transpose();
   }
   const Eigen::VectorXd number = Eigen::VectorXd::LinSpaced(postures, 0.0, static_cast<double>(postures - 1));
   const auto series = [&](int order, Eigen::MatrixXd numbers) {
     std::vector<Channel> channels;
-    for (const model::Coordinate& c : model.coordinates)
-      channels.push_back({c.name, kinematics::coordinate_unit(c, order)});
+    for (const body::Coordinate& c : model.coordinates) channels.push_back({c.name, body::coordinate_unit(c, order)});
     return TimeSeries(number, std::move(channels), std::move(numbers));
   };
   return {.q = series(0, std::move(values)),
@@ -149,10 +148,10 @@ py::dict muscle_kinematics(const ReadModel& read,
                            Eigen::Index postures) {
   const auto q = columns_of(posture, postures);
   const auto rates = columns_of(speeds, postures);
-  kinematics::MuscleKinematics muscles;
+  body::MuscleKinematics muscles;
   {
     const py::gil_scoped_release others_may_run;
-    muscles = kinematics::muscle_kinematics(read.model, motion_of(read.model, q, rates, postures));
+    muscles = body::muscle_kinematics(read.model, motion_of(read.model, q, rates, postures));
   }
   py::dict arms;
   for (const auto& [coordinate, arm] : muscles.moment_arm) arms[py::str(coordinate)] = to_array(arm.values());

@@ -1,7 +1,7 @@
 #include <pybind11/pybind11.h>
 
-#include "myoid/core/error.h"
-#include "myoid/core/provenance.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/provenance.h"
 
 #include "bindings.h"
 #include "work.h"

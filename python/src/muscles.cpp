@@ -2,9 +2,9 @@
 #include <utility>
 #include <vector>
 
-#include "myoid/commands/muscle.h"
-#include "myoid/commands/simulate.h"
-#include "myoid/files/output_file.h"
+#include "myoid/ground/files/output_file.h"
+#include "myoid/program/commands/muscle.h"
+#include "myoid/program/commands/simulate.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -31,9 +31,9 @@ py::list estimate_rows(const muscle::IsolatedFit& fit) {
   return rows;
 }
 
-py::list error_rows(const std::vector<commands::RecordingErrors>& errors) {
+py::list error_rows(const std::vector<program::RecordingErrors>& errors) {
   py::list rows;
-  for (const commands::RecordingErrors& error : errors) {
+  for (const program::RecordingErrors& error : errors) {
     py::dict d;
     d["recording"] = error.recording;
     d["starting_values"] = error.starting_values;
@@ -44,8 +44,8 @@ py::list error_rows(const std::vector<commands::RecordingErrors>& errors) {
   return rows;
 }
 
-commands::MuscleOptions muscle_options(Keywords& k) {
-  commands::MuscleOptions o;
+program::MuscleOptions muscle_options(Keywords& k) {
+  program::MuscleOptions o;
   k.take("muscle", o.muscle);
   k.take("length", o.lengths);
   k.take("column", o.column);
@@ -79,7 +79,7 @@ commands::MuscleOptions muscle_options(Keywords& k) {
   return o;
 }
 
-py::dict muscle_dict(commands::MuscleResult result) {
+py::dict muscle_dict(program::MuscleResult result) {
   py::dict d;
   d["name"] = result.name;
   d["remarks"] = to_python(result.remarks);
@@ -105,7 +105,7 @@ py::dict muscle_dict(commands::MuscleResult result) {
 py::dict muscle_command(py::dict given) {
   Keywords k("muscle", std::move(given));
   Work work(k);
-  commands::MuscleOptions o = muscle_options(k);
+  program::MuscleOptions o = muscle_options(k);
   std::string out;
   bool overwrite = false;
   k.take("out", out);
@@ -117,16 +117,16 @@ py::dict muscle_command(py::dict given) {
       std::vector<std::string> inputs{o.muscle};
       for (const auto* files : {&o.lengths, &o.activation, &o.excitation, &o.measured})
         inputs.insert(inputs.end(), files->begin(), files->end());
-      recording::check_output(out, inputs, overwrite);
+      check_output(out, inputs, overwrite);
     }
-    commands::MuscleResult r = commands::muscle(o);
-    if (!out.empty()) commands::write_muscle(r, out);
+    program::MuscleResult r = program::muscle(o);
+    if (!out.empty()) program::write_muscle(r, out);
     return r;
   }));
 }
 
-commands::SimulateOptions simulate_options(Keywords& k) {
-  commands::SimulateOptions o;
+program::SimulateOptions simulate_options(Keywords& k) {
+  program::SimulateOptions o;
   k.take("model", o.model);
   k.take("excitations", o.excitations);
   k.take("excite", o.excite);
@@ -149,35 +149,35 @@ commands::SimulateOptions simulate_options(Keywords& k) {
   return o;
 }
 
-py::dict sensitivity_dict(simulation::Sensitivities s) {
+py::dict sensitivity_dict(body::Sensitivities s) {
   py::dict d;
   d["parameters"] = s.parameters;
   d["time"] = to_array(std::move(s.time_s));
-  for (simulation::Sensitivity& of : s.of) d[py::str(of.quantity)] = to_array(std::move(of.by_parameter));
+  for (body::Sensitivity& of : s.of) d[py::str(of.quantity)] = to_array(std::move(of.by_parameter));
   return d;
 }
 
 py::dict simulate(py::dict given) {
   Keywords k("simulate", std::move(given));
   Work work(k);
-  commands::SimulateOptions o = simulate_options(k);
+  program::SimulateOptions o = simulate_options(k);
   std::string out;
   bool overwrite = false;
   k.take("out", out);
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  commands::SimulateResult result = work.run([&] {
+  program::SimulateResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) recording::protect_files(out, commands::kSimulateFiles, {o.model, o.excitations});
-    commands::SimulateResult r = commands::simulate(o);
-    if (!out.empty()) commands::write_simulate(r, out);
+    if (!out.empty()) protect_files(out, program::kSimulateFiles, {o.model, o.excitations});
+    program::SimulateResult r = program::simulate(o);
+    if (!out.empty()) program::write_simulate(r, out);
     folder.finish();
     return r;
   });
   py::dict d;
   d["finished"] = result.finished();
-  simulation::Simulation& s = result.simulation;
+  body::Simulation& s = result.simulation;
   d["message"] = s.message;
   d["motion"] = to_python(std::move(s.motion));
   d["excitation"] = to_python(std::move(s.excitation));

@@ -6,14 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "myoid/commands/convert.h"
-#include "myoid/commands/info.h"
-#include "myoid/files/file_format.h"
+#include "myoid/ground/files/file_format.h"
+#include "myoid/program/commands/convert.h"
+#include "myoid/program/commands/info.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/recording.h"
-#include "myoid/tables/result_units.h"
-#include "myoid/tables/series_file.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/tables/result_units.h"
+#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -23,7 +23,7 @@
 namespace myoid::python {
 namespace {
 
-using recording::AnalogChannels;
+using ground::AnalogChannels;
 using recording::ForcePlate;
 using recording::Recording;
 
@@ -49,7 +49,7 @@ py::dict plate_dict(ForcePlate plate) {
 
 py::list event_list(const Recording& recording) {
   py::list list;
-  for (const recording::Event& event : recording.events) {
+  for (const Event& event : recording.events) {
     py::dict d;
     d["time"] = event.time_s;
     d["label"] = event.label;
@@ -86,7 +86,7 @@ py::object from_json(const nlohmann::ordered_json& json) {
 py::object info(py::dict given) {
   Keywords k("info", std::move(given));
   Work work(k);
-  commands::InfoOptions o;
+  program::InfoOptions o;
   k.take("file", o.file);
   k.take("compat", o.compat);
   k.take("compare_compat", o.ask.compare_compat);
@@ -94,13 +94,13 @@ py::object info(py::dict given) {
   k.take("jumps", o.ask.jumps);
   k.refuse_others();
   o.call = work.call();
-  return from_json(work.run([&] { return commands::info(o); }));
+  return from_json(work.run([&] { return program::info(o); }));
 }
 
 py::object convert(py::dict given) {
   Keywords k("convert", std::move(given));
   Work work(k);
-  commands::ConvertOptions o;
+  program::ConvertOptions o;
   k.take("source", o.in);
   k.take("out", o.out);
   k.take("what", o.what);
@@ -116,7 +116,7 @@ py::object convert(py::dict given) {
   k.take("overwrite", o.overwrite);
   k.refuse_others();
   o.call = work.call();
-  return py::cast(work.run([&] { return commands::convert(o); }).files);
+  return py::cast(work.run([&] { return program::convert(o); }).files);
 }
 
 }  // namespace
@@ -124,9 +124,7 @@ py::object convert(py::dict given) {
 void bind_recordings(py::module_& module) {
   py::class_<Recording, std::shared_ptr<Recording>>(module, "Recording")
       .def("markers",
-           [](const std::shared_ptr<Recording>& r) {
-             return to_python(std::shared_ptr<recording::MarkerSeries>(r, &r->markers));
-           })
+           [](const std::shared_ptr<Recording>& r) { return to_python(std::shared_ptr<MarkerSeries>(r, &r->markers)); })
       .def("clock_count", [](const Recording& r) { return r.clocks().size(); })
       .def("channels", [](const Recording& r, std::size_t clock) { return channel_units(clock_of(r, clock)); })
       .def("series", [](const Recording& r, std::size_t clock) { return to_python(series_of(r, clock)); })
@@ -148,7 +146,7 @@ void bind_recordings(py::module_& module) {
     return alone([&] { return std::make_shared<Recording>(recording::read_recording(path)); });
   });
   module.def("read_series", [](const std::string& path) {
-    if (recording::format_of(path) != recording::FileFormat::storage) {
+    if (format_of(path) != FileFormat::storage) {
       recording::SeriesFile file = alone([&] { return recording::read_series(path); });
       return py::make_tuple(to_python(std::move(file.data)), to_texts(file.repairs));
     }

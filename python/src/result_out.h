@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/commands/call.h"
-#include "myoid/core/error.h"
-#include "myoid/files/result_folder.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/result_folder.h"
+#include "myoid/program/commands/call.h"
 
 #include "keywords.h"
 
@@ -16,22 +16,22 @@ namespace myoid::python {
 /// The folder of a command's results; nothing where the user named none.
 class ResultOut {
  public:
-  ResultOut(const std::string& folder, const commands::Call& call, bool overwrite, std::string_view unless_only = "")
+  ResultOut(const std::string& folder, const program::Call& call, bool overwrite, std::string_view unless_only = "")
       : call_(call) {
     if (folder.empty()) return;
     folder_.emplace(folder, call.command, overwrite, unless_only);
-    if (!folder_->note().empty()) commands::Remarks(call).note(folder_->note());
+    if (!folder_->note().empty()) program::Remarks(call).note(folder_->note());
   }
   void finish() {
     if (!folder_) return;
     folder_->finish();
-    commands::Remarks remarks(call_);
+    program::Remarks remarks(call_);
     for (std::string& note : folder_->take_notes()) remarks.note(std::move(note));
   }
 
  private:
-  commands::Call call_;
-  std::optional<recording::ResultFolder> folder_;
+  program::Call call_;
+  std::optional<ResultFolder> folder_;
 };
 
 /// A point of three numbers [m].

@@ -2,14 +2,14 @@
 #include <utility>
 #include <vector>
 
-#include "myoid/commands/emg.h"
-#include "myoid/commands/id.h"
-#include "myoid/commands/ik.h"
-#include "myoid/commands/paths.h"
-#include "myoid/commands/run_tool.h"
-#include "myoid/commands/so.h"
-#include "myoid/commands/sweep.h"
-#include "myoid/files/output_file.h"
+#include "myoid/ground/files/output_file.h"
+#include "myoid/program/commands/emg.h"
+#include "myoid/program/commands/id.h"
+#include "myoid/program/commands/ik.h"
+#include "myoid/program/commands/paths.h"
+#include "myoid/program/commands/run_tool.h"
+#include "myoid/program/commands/so.h"
+#include "myoid/program/commands/sweep.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -26,9 +26,9 @@ py::list series_list(std::vector<TimeSeries> series) {
   return list;
 }
 
-py::list normalisation_rows(const std::vector<signals::ChannelNormalisation>& channels) {
+py::list normalisation_rows(const std::vector<recording::ChannelNormalisation>& channels) {
   py::list rows;
-  for (const signals::ChannelNormalisation& n : channels) {
+  for (const recording::ChannelNormalisation& n : channels) {
     py::dict d;
     d["channel"] = n.channel;
     d["rests"] = n.rests;
@@ -45,7 +45,7 @@ py::list normalisation_rows(const std::vector<signals::ChannelNormalisation>& ch
 py::dict emg(py::dict given) {
   Keywords k("emg", std::move(given));
   Work work(k);
-  commands::EmgOptions o;
+  program::EmgOptions o;
   std::string out, envelope, measures;
   bool overwrite = false, no_notch = false, whitening = false, no_whitening = false;
   k.take("inputs", o.in);
@@ -71,14 +71,14 @@ py::dict emg(py::dict given) {
   if (whitening || no_whitening) o.chain.whitening = whitening;
   o.keep_envelopes = true;
   o.call = work.call();
-  commands::EmgResult result = work.run([&] {
-    const auto activations = commands::emg_files(o.in, out, "out");
-    const auto envelopes = commands::emg_files(o.in, envelope, "envelope");
-    commands::check_emg_files(o, activations, envelopes, overwrite);
-    if (!measures.empty()) commands::check_emg_files(o, {measures}, {}, overwrite);
-    commands::EmgResult r = commands::emg(o);
-    if (!activations.empty() || !envelopes.empty()) commands::write_emg(r, activations, envelopes);
-    if (!measures.empty()) commands::write_emg_measures(r, measures);
+  program::EmgResult result = work.run([&] {
+    const auto activations = program::emg_files(o.in, out, "out");
+    const auto envelopes = program::emg_files(o.in, envelope, "envelope");
+    program::check_emg_files(o, activations, envelopes, overwrite);
+    if (!measures.empty()) program::check_emg_files(o, {measures}, {}, overwrite);
+    program::EmgResult r = program::emg(o);
+    if (!activations.empty() || !envelopes.empty()) program::write_emg(r, activations, envelopes);
+    if (!measures.empty()) program::write_emg_measures(r, measures);
     return r;
   });
   py::dict d;
@@ -96,7 +96,7 @@ py::dict emg(py::dict given) {
 py::dict ik(py::dict given) {
   Keywords k("ik", std::move(given));
   Work work(k);
-  commands::IkOptions o;
+  program::IkOptions o;
   std::string out;
   bool overwrite = false;
   k.take("model", o.model);
@@ -110,14 +110,13 @@ py::dict ik(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  commands::IkResult result = work.run([&] {
+  program::IkResult result = work.run([&] {
     if (!out.empty()) {
-      recording::check_output(out, {o.model, o.markers}, overwrite);
-      recording::check_companion(commands::marker_errors_path(out), {o.model, o.markers}, overwrite,
-                                 commands::kMarkerErrorsBegin);
+      check_output(out, {o.model, o.markers}, overwrite);
+      check_companion(program::marker_errors_path(out), {o.model, o.markers}, overwrite, program::kMarkerErrorsBegin);
     }
-    commands::IkResult r = commands::ik(o);
-    if (!out.empty()) commands::write_ik(r, out);
+    program::IkResult r = program::ik(o);
+    if (!out.empty()) program::write_ik(r, out);
     return r;
   });
   py::dict d;
@@ -136,7 +135,7 @@ py::dict ik(py::dict given) {
 py::dict id(py::dict given) {
   Keywords k("id", std::move(given));
   Work work(k);
-  commands::IdOptions o;
+  program::IdOptions o;
   std::string out;
   bool overwrite = false;
   k.take("model", o.model);
@@ -153,10 +152,10 @@ py::dict id(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  commands::IdResult result = work.run([&] {
-    if (!out.empty()) recording::check_output(out, {o.model, o.motion, o.speeds, o.accelerations, o.loads}, overwrite);
-    commands::IdResult r = commands::id(o);
-    if (!out.empty()) commands::write_id(r, out);
+  program::IdResult result = work.run([&] {
+    if (!out.empty()) check_output(out, {o.model, o.motion, o.speeds, o.accelerations, o.loads}, overwrite);
+    program::IdResult r = program::id(o);
+    if (!out.empty()) program::write_id(r, out);
     return r;
   });
   py::dict d;
@@ -168,7 +167,7 @@ py::dict id(py::dict given) {
 py::dict paths(py::dict given) {
   Keywords k("paths", std::move(given));
   Work work(k);
-  commands::PathsOptions o;
+  program::PathsOptions o;
   std::string out;
   bool overwrite = false;
   k.take("model", o.model);
@@ -182,11 +181,11 @@ py::dict paths(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  commands::PathsResult result = work.run([&] {
+  program::PathsResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) recording::protect_files(out, commands::kPathsFiles, {o.model, o.motion, o.surrogates});
-    commands::PathsResult r = commands::paths(o);
-    if (!out.empty()) commands::write_paths(r, out);
+    if (!out.empty()) protect_files(out, program::kPathsFiles, {o.model, o.motion, o.surrogates});
+    program::PathsResult r = program::paths(o);
+    if (!out.empty()) program::write_paths(r, out);
     folder.finish();
     return r;
   });
@@ -203,7 +202,7 @@ py::dict paths(py::dict given) {
 py::dict sweep(py::dict given) {
   Keywords k("sweep", std::move(given));
   Work work(k);
-  commands::SweepOptions o;
+  program::SweepOptions o;
   std::string out;
   bool overwrite = false;
   k.take("model", o.model);
@@ -214,16 +213,16 @@ py::dict sweep(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  commands::SweepResult result = work.run([&] {
+  program::SweepResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) recording::protect_files(out, commands::kSweepFiles, {o.model});
-    commands::SweepResult r = commands::sweep(o);
-    if (!out.empty()) (void)commands::write_sweep(r, out);
+    if (!out.empty()) protect_files(out, program::kSweepFiles, {o.model});
+    program::SweepResult r = program::sweep(o);
+    if (!out.empty()) (void)program::write_sweep(r, out);
     folder.finish();
     return r;
   });
   py::dict arm, length, full, passive;
-  for (forces::SweptMuscle& muscle : result.muscles) {
+  for (body::SweptMuscle& muscle : result.muscles) {
     const py::str name(muscle.name);
     arm[name] = to_array(std::move(muscle.path.arms_m));
     length[name] = to_array(std::move(muscle.path.lengths_m));
@@ -244,7 +243,7 @@ py::dict sweep(py::dict given) {
 py::dict so(py::dict given) {
   Keywords k("so", std::move(given));
   Work work(k);
-  commands::SoOptions o;
+  program::SoOptions o;
   std::string out;
   bool overwrite = false;
   k.take("model", o.model);
@@ -264,17 +263,17 @@ py::dict so(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  commands::SoResult result = work.run([&] {
+  program::SoResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) recording::protect_files(out, commands::kSoFiles, {o.model, o.motion, o.emg, o.loads});
-    commands::SoResult r = commands::so(o);
-    if (!out.empty()) commands::write_so(r, out);
+    if (!out.empty()) protect_files(out, program::kSoFiles, {o.model, o.motion, o.emg, o.loads});
+    program::SoResult r = program::so(o);
+    if (!out.empty()) program::write_so(r, out);
     folder.finish();
     return r;
   });
-  forces::MuscleForces& shared = result.shared;
+  body::MuscleForces& shared = result.shared;
   std::vector<std::string> status;
-  for (const forces::SharingStatus each : shared.status) status.emplace_back(forces::name(each));
+  for (const body::SharingStatus each : shared.status) status.emplace_back(body::name(each));
   py::dict d;
   d["force"] = to_python(std::move(shared.force));
   d["activation"] = to_python(std::move(shared.activation));
@@ -290,7 +289,7 @@ py::dict so(py::dict given) {
 py::dict run_tool(py::dict given) {
   Keywords k("run_tool", std::move(given));
   Work work(k);
-  commands::RunToolOptions o;
+  program::RunToolOptions o;
   k.take("setup", o.setup);
   const auto take_path = [&](const char* name, std::filesystem::path& path) {
     std::string text;
@@ -305,7 +304,7 @@ py::dict run_tool(py::dict given) {
   k.word("compat", o.compat, {"opensim", "exact"});
   k.refuse_others();
   o.call = work.call();
-  const commands::RunToolResult result = work.run([&] { return commands::run_tool(o); });
+  const program::RunToolResult result = work.run([&] { return program::run_tool(o); });
   std::vector<std::string> files;
   for (const auto& file : result.tool.files) files.push_back(file.string());
   py::dict d;

@@ -4,16 +4,16 @@
 #include <utility>
 #include <vector>
 
-#include "myoid/commands/check.h"
-#include "myoid/commands/compare.h"
-#include "myoid/commands/design.h"
-#include "myoid/commands/identify.h"
-#include "myoid/commands/predict.h"
-#include "myoid/commands/run.h"
-#include "myoid/core/choice.h"
-#include "myoid/core/error.h"
-#include "myoid/files/output_file.h"
-#include "myoid/mat/results_mat.h"
+#include "myoid/ground/core/choice.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/output_file.h"
+#include "myoid/program/commands/check.h"
+#include "myoid/program/commands/compare.h"
+#include "myoid/program/commands/design.h"
+#include "myoid/program/commands/identify.h"
+#include "myoid/program/commands/predict.h"
+#include "myoid/program/commands/run.h"
+#include "myoid/results/mat/results_mat.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -24,23 +24,23 @@
 namespace myoid::python {
 namespace {
 
-const char* status_name(report::GateStatus status) {
+const char* status_name(page::GateStatus status) {
   switch (status) {
-    case report::GateStatus::pass:
+    case page::GateStatus::pass:
       return "pass";
-    case report::GateStatus::warn:
+    case page::GateStatus::warn:
       return "warn";
-    case report::GateStatus::fail:
+    case page::GateStatus::fail:
       return "fail";
-    case report::GateStatus::info:
+    case page::GateStatus::info:
       return "info";
   }
   return "info";
 }
 
-py::list gate_rows(const std::vector<report::Gate>& gates) {
+py::list gate_rows(const std::vector<page::Gate>& gates) {
   py::list rows;
-  for (const report::Gate& gate : gates) {
+  for (const page::Gate& gate : gates) {
     py::dict d;
     d["name"] = gate.name;
     d["status"] = status_name(gate.status);
@@ -55,13 +55,13 @@ py::list gate_rows(const std::vector<report::Gate>& gates) {
 py::dict check(py::dict given) {
   Keywords k("check", std::move(given));
   Work work(k);
-  commands::CheckOptions o;
+  program::CheckOptions o;
   k.take("study", o.input);
   k.take("model", o.model);
   k.word("up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
   k.refuse_others();
   o.call = work.call();
-  const commands::CheckResult result = work.run([&] { return commands::check(o); });
+  const program::CheckResult result = work.run([&] { return program::check(o); });
   py::dict d;
   d["findings"] = to_python(result.findings);
   d["of_study"] = result.of_study;
@@ -74,12 +74,12 @@ py::dict check(py::dict given) {
 /// Refuses a MATLAB file that cannot be written, before anything is computed.
 void prepare_mat(const std::string& file, const std::string& input, bool overwrite) {
   if (file.empty()) return;
-  check_mat_file(file);
-  recording::check_output(file, {input}, overwrite);
+  results::check_mat_file(file);
+  check_output(file, {input}, overwrite);
 }
 
 /// The values of a run for Python.
-py::dict run_values(const commands::RunResult& run) {
+py::dict run_values(const program::RunResult& run) {
   py::dict d;
   d["gates"] = gate_rows(run.gates);
   d["failed"] = run.failed(false);
@@ -90,7 +90,7 @@ py::dict run_values(const commands::RunResult& run) {
 py::dict run(py::dict given) {
   Keywords k("run", std::move(given));
   Work work(k);
-  commands::RunOptions o;
+  program::RunOptions o;
   std::string out, mat;
   bool overwrite = false;
   k.take("study", o.study);
@@ -100,26 +100,26 @@ py::dict run(py::dict given) {
   k.take("video_offset", o.video.offset_s);
   k.take("overwrite", overwrite);
   k.refuse_others();
-  o.store = std::filesystem::path(out) / commands::kStageFolder;
+  o.store = std::filesystem::path(out) / program::kStageFolder;
   o.call = work.call();
   return run_values(work.run([&] {
     prepare_mat(mat, o.study, overwrite);
-    ResultOut folder(out, o.call, overwrite, commands::kStageFolder);
-    commands::RunResult r = commands::run(o);
-    commands::write_run(r, out);
-    if (!mat.empty()) write_results_mat(out, mat);
+    ResultOut folder(out, o.call, overwrite, program::kStageFolder);
+    program::RunResult r = program::run(o);
+    program::write_run(r, out);
+    if (!mat.empty()) results::write_results_mat(out, mat);
     folder.finish();
     return r;
   }));
 }
 
 /// Sets the settings of a struct from the arguments of their names, with '_' for '-'.
-class KeywordReader : public FlatSettingVisitor {
+class KeywordReader : public study::FlatSettingVisitor {
  public:
   explicit KeywordReader(Keywords& keywords) : keywords_(&keywords) {}
 
  protected:
-  bool met(const Setting& setting, const SettingValue& /*now*/, const Set& set) override {
+  bool met(const study::Setting& setting, const study::SettingValue& /*now*/, const Set& set) override {
     std::string name(setting.key);
     for (char& c : name) c = c == '-' ? '_' : c;
     const char* const key = name.c_str();
@@ -129,14 +129,15 @@ class KeywordReader : public FlatSettingVisitor {
   }
 
  private:
-  SettingValue value(const Setting& setting, const char* key) {
-    if (setting.kind == SettingKind::flag) return taken<bool>(key);
-    if (setting.kind == SettingKind::number || setting.kind == SettingKind::count) return taken<double>(key);
-    if (setting.kind == SettingKind::texts) return taken<std::vector<std::string>>(key);
+  study::SettingValue value(const study::Setting& setting, const char* key) {
+    if (setting.kind == study::SettingKind::flag) return taken<bool>(key);
+    if (setting.kind == study::SettingKind::number || setting.kind == study::SettingKind::count)
+      return taken<double>(key);
+    if (setting.kind == study::SettingKind::texts) return taken<std::vector<std::string>>(key);
     return taken<std::string>(key);
   }
   template <typename Value>
-  SettingValue taken(const char* key) {
+  study::SettingValue taken(const char* key) {
     Value value{};
     keywords_->take(key, value);
     return value;
@@ -148,7 +149,7 @@ class KeywordReader : public FlatSettingVisitor {
 py::dict identify(py::dict given) {
   Keywords k("identify", std::move(given));
   Work work(k);
-  commands::IdentifyOptions o;
+  program::IdentifyOptions o;
   KeywordReader reader(k);
   visit(o, reader);
   std::string out, mat;
@@ -158,18 +159,18 @@ py::dict identify(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  const commands::IdentifyResult done = work.run([&] {
+  const program::IdentifyResult done = work.run([&] {
     prepare_mat(mat, o.muscles.string(), overwrite);
     ResultOut folder(out, o.call, overwrite);
-    recording::protect_files(out, commands::kIdentifyFiles, {o.muscles.string()});
-    commands::IdentifyResult r = commands::identify(o);
-    commands::write_identify(r, out);
-    if (!mat.empty()) write_results_mat(out, mat);
+    protect_files(out, program::kIdentifyFiles, {o.muscles.string()});
+    program::IdentifyResult r = program::identify(o);
+    program::write_identify(r, out);
+    if (!mat.empty()) results::write_results_mat(out, mat);
     folder.finish();
     return r;
   });
   py::dict d = run_values(done.run);
-  const identification::IdentificationResult& fit = done.fit();
+  const fit::IdentificationResult& fit = done.fit();
   d["undetermined"] = fit.undetermined;
   d["diagnoses"] = fit.diagnoses;
   d["message"] = fit.message;
@@ -185,7 +186,7 @@ py::object optional(const std::optional<double>& value) {
 py::dict compare(py::dict given) {
   Keywords k("compare", std::move(given));
   Work work(k);
-  commands::CompareOptions o;
+  program::CompareOptions o;
   std::string out;
   bool overwrite = false;
   k.take("first", o.first);
@@ -194,27 +195,27 @@ py::dict compare(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  const commands::CompareResult result = work.run([&] {
+  const program::CompareResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    commands::CompareResult r = commands::compare(o);
-    if (!out.empty()) commands::write_compare(r, out);
+    program::CompareResult r = program::compare(o);
+    if (!out.empty()) program::write_compare(r, out);
     folder.finish();
     return r;
   });
   py::list rows;
-  for (const ComparedParameter& p : result.comparison.parameters) {
+  for (const results::ComparedParameter& p : result.comparison.parameters) {
     py::dict d;
     d["muscle"] = p.muscle;
     d["parameter"] = p.first.parameter;
     d["unit"] = std::string(symbol(p.first.unit));
-    d["method"] = std::string(name(p.first.method));
+    d["method"] = std::string(fit::name(p.first.method));
     d["case"] = p.first.fit_case;
     d["first"] = p.first.estimate;
     d["second"] = p.second.estimate;
     d["difference"] = p.difference;
     d["smallest_detectable"] = optional(p.smallest_detectable);
     d["p_value"] = optional(p.p_value);
-    d["change"] = std::string(name(p.change));
+    d["change"] = std::string(results::name(p.change));
     rows.append(d);
   }
   py::dict d;
@@ -228,7 +229,7 @@ py::dict compare(py::dict given) {
 py::dict predict(py::dict given) {
   Keywords k("predict", std::move(given));
   Work work(k);
-  commands::PredictOptions o;
+  program::PredictOptions o;
   std::string out;
   bool overwrite = false;
   k.take("folder", o.folder);
@@ -244,11 +245,11 @@ py::dict predict(py::dict given) {
   };
   const Done done = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    const commands::PredictResult r = commands::predict(o);
-    commands::write_predict(r, out);
+    const program::PredictResult r = program::predict(o);
+    program::write_predict(r, out);
     folder.finish();
     std::vector<std::string> trials;
-    for (const identification::TrialFit& trial : r.trials)
+    for (const fit::TrialFit& trial : r.trials)
       if (trials.empty() || trials.back() != trial.trial) trials.push_back(trial.trial);
     return Done{.trials = trials, .remarks = r.remarks};
   });
@@ -258,9 +259,9 @@ py::dict predict(py::dict given) {
   return d;
 }
 
-py::list expected_rows(const std::vector<identification::ParameterEstimate>& estimates) {
+py::list expected_rows(const std::vector<fit::ParameterEstimate>& estimates) {
   py::list rows;
-  for (const identification::ParameterEstimate& e : estimates) {
+  for (const fit::ParameterEstimate& e : estimates) {
     py::dict d;
     d["muscle"] = e.muscle;
     d["parameter"] = e.parameter;
@@ -268,14 +269,14 @@ py::list expected_rows(const std::vector<identification::ParameterEstimate>& est
     d["value"] = e.estimate;
     d["ci_low"] = optional(e.ci_low);
     d["ci_high"] = optional(e.ci_high);
-    d["verdict"] = std::string(identification::name(e.verdict));
+    d["verdict"] = std::string(fit::name(e.verdict));
     rows.append(d);
   }
   return rows;
 }
 
-commands::DesignOptions design_options(Keywords& k) {
-  commands::DesignOptions o;
+program::DesignOptions design_options(Keywords& k) {
+  program::DesignOptions o;
   bool no_dynamometer = false;
   k.take("study", o.study);
   k.take("model", o.model);
@@ -301,12 +302,12 @@ commands::DesignOptions design_options(Keywords& k) {
 py::dict design(py::dict given) {
   Keywords k("design", std::move(given));
   Work work(k);
-  commands::DesignOptions o = design_options(k);
+  program::DesignOptions o = design_options(k);
   k.refuse_others();
   o.call = work.call();
-  const commands::DesignResult result = work.run([&] { return commands::design(o); });
+  const program::DesignResult result = work.run([&] { return program::design(o); });
   py::list plan, expected;
-  for (const PlannedMovement& m : result.design.plan) {
+  for (const run::PlannedMovement& m : result.design.plan) {
     py::dict d;
     d["movement"] = m.movement.description();
     d["duration_s"] = m.movement.duration_s;

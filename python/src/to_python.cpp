@@ -48,7 +48,7 @@ py::object to_python(TimeSeries series) {
       columns(kept->values().data(), kept->values().rows(), kept->values().cols(), owner), names, units);
 }
 
-py::object to_python(std::shared_ptr<recording::MarkerSeries> kept) {
+py::object to_python(std::shared_ptr<MarkerSeries> kept) {
   const py::capsule owner = keeper(kept);
   const py::ssize_t frames = kept->frame_count();
   return attribute("myoid.series", "Markers")(
@@ -77,9 +77,9 @@ py::list to_python(const std::vector<Remark>& remarks) {
   return list;
 }
 
-std::vector<std::string> to_texts(const std::vector<recording::Repair>& repairs) {
+std::vector<std::string> to_texts(const std::vector<Repair>& repairs) {
   std::vector<std::string> texts;
-  for (const recording::Repair& repair : repairs) texts.push_back(recording::to_string(repair));
+  for (const Repair& repair : repairs) texts.push_back(recording::to_string(repair));
   return texts;
 }
 

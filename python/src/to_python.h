@@ -9,10 +9,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "myoid/core/remark.h"
-#include "myoid/core/time_series.h"
-#include "myoid/files/marker_series.h"
-#include "myoid/files/text_file.h"
+#include "myoid/ground/core/remark.h"
+#include "myoid/ground/core/time_series.h"
+#include "myoid/ground/files/marker_series.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::python {
 
@@ -25,10 +25,10 @@ namespace py = pybind11;
 /// A `myoid.TimeSeries`.
 [[nodiscard]] py::object to_python(TimeSeries series);
 /// A `myoid.Markers` that shows this memory: positions are frames x markers x 3 [m].
-[[nodiscard]] py::object to_python(std::shared_ptr<recording::MarkerSeries> markers);
+[[nodiscard]] py::object to_python(std::shared_ptr<MarkerSeries> markers);
 /// A `myoid.Remark`.
 [[nodiscard]] py::object to_python(const Remark& remark);
 [[nodiscard]] py::list to_python(const std::vector<Remark>& remarks);
-[[nodiscard]] std::vector<std::string> to_texts(const std::vector<recording::Repair>& repairs);
+[[nodiscard]] std::vector<std::string> to_texts(const std::vector<Repair>& repairs);
 
 }  // namespace myoid::python

@@ -2,10 +2,10 @@
 #include <utility>
 #include <vector>
 
-#include "myoid/commands/twin.h"
-#include "myoid/commands/twin_study.h"
-#include "myoid/core/choice.h"
-#include "myoid/core/error.h"
+#include "myoid/ground/core/choice.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/program/commands/twin.h"
+#include "myoid/program/commands/twin_study.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 py::dict twin(py::dict given) {
   Keywords k("twin", std::move(given));
   Work work(k);
-  commands::TwinPersonsOptions o;
+  program::TwinPersonsOptions o;
   std::string out;
   bool overwrite = false;
   k.take("protocol", o.twin.protocol);
@@ -37,13 +37,13 @@ py::dict twin(py::dict given) {
   k.refuse_others();
   if (o.truth_only && !many) throw InvalidInput("truth_only needs subjects: one person's truth is in truth.csv");
   o.twin.call = work.call();
-  const commands::TwinPersonsResult result = work.run([&] {
+  const program::TwinPersonsResult result = work.run([&] {
     ResultOut folder(out, o.twin.call, overwrite);
-    commands::TwinPersonsResult made;
+    program::TwinPersonsResult made;
     if (many) {
-      made = commands::write_twin_persons(o, out);
+      made = program::write_twin_persons(o, out);
     } else {
-      commands::write_twin(commands::twin(o.twin), out);
+      program::write_twin(program::twin(o.twin), out);
       made.table = fs::path(out) / "truth.csv";
       made.studies = {fs::path(out) / "study.toml"};
     }
@@ -75,7 +75,7 @@ void take_choices(Keywords& k, const char* name, std::vector<Enumeration>& value
 py::dict twin_study(py::dict given) {
   Keywords k("twin_study", std::move(given));
   Work work(k);
-  commands::TwinStudyOptions o;
+  program::TwinStudyOptions o;
   std::string out;
   bool overwrite = false;
   k.take("protocol", o.protocol);
@@ -90,15 +90,15 @@ py::dict twin_study(py::dict given) {
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
-  const commands::TwinStudyResult result = work.run([&] {
+  const program::TwinStudyResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    commands::TwinStudyResult r = commands::twin_study(o);
-    commands::write_twin_study(r, out);
+    program::TwinStudyResult r = program::twin_study(o);
+    program::write_twin_study(r, out);
     if (!r.study.interrupted) folder.finish();
     return r;
   });
   py::list failures;
-  for (const twin::TwinFailure& failure : result.study.failures)
+  for (const lab::TwinFailure& failure : result.study.failures)
     failures.append(py::make_tuple(failure.seed, failure.message));
   py::dict d;
   d["level"] = result.study.level;

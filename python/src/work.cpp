@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 namespace myoid::python {
 
@@ -24,13 +24,13 @@ Work::Work(Keywords& keywords) {
     throw InvalidInput(fmt::format("end: expected a time after start {}, found {}", *start_s_, *end_s_));
 }
 
-commands::Call Work::call() {
-  commands::Call call{.seed = seed_,
-                      .start_s = start_s_,
-                      .end_s = end_s_,
-                      .command = command_line_,
-                      .progress = {.report = {}, .stop = stop_.get_token()},
-                      .listener = {}};
+program::Call Work::call() {
+  program::Call call{.seed = seed_,
+                     .start_s = start_s_,
+                     .end_s = end_s_,
+                     .command = command_line_,
+                     .progress = {.report = {}, .stop = stop_.get_token()},
+                     .listener = {}};
   if (!progress_.is_none()) {
     call.progress.report = [this](double share, std::string_view what) {
       const std::scoped_lock lock(mutex_);

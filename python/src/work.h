@@ -12,8 +12,8 @@
 
 #include <pybind11/pybind11.h>
 
-#include "myoid/commands/call.h"
-#include "myoid/files/input_log.h"
+#include "myoid/ground/files/input_log.h"
+#include "myoid/program/commands/call.h"
 
 #include "keywords.h"
 
@@ -35,13 +35,13 @@ class Work {
   explicit Work(Keywords& keywords);
 
   /// The values for the options of the command.
-  [[nodiscard]] commands::Call call();
+  [[nodiscard]] program::Call call();
 
   template <typename Action>
   auto run(Action action) {
     std::optional<std::invoke_result_t<Action>> result;
     attend([&] {
-      const recording::InputLog inputs;
+      const InputLog inputs;
       result.emplace(action());
     });
     return std::move(*result);

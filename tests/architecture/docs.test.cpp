@@ -200,7 +200,7 @@ TEST(Documentation, EveryMessageOfTheTroubleshootingPageIsOneOfTheProgram) {
 std::set<std::string> commands_of_the_program() {
   const std::regex subcommand(R"re(add_subcommand\(\s*"([\w-]+)")re");
   std::set<std::string> commands;
-  for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "cli")) {
+  for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "program" / "cli")) {
     const std::string text = content(entry.path());
     for (std::sregex_iterator it(text.begin(), text.end(), subcommand), end; it != end; ++it) {
       commands.insert((*it)[1]);
@@ -242,7 +242,7 @@ TEST(Documentation, NoPageAndNoMessageNamesACommandThatIsNone) {
 TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
   const std::regex option(R"re(add_(?:option|flag)\(\s*"(--[\w-]+)")re");
   int seen = 0;
-  for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "cli")) {
+  for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "program" / "cli")) {
     const std::string text = content(entry.path());
     if (text.find("add_subcommand(") == std::string::npos) continue;
     std::string command = entry.path().stem().string();  // twin_study.cpp is twin-study

@@ -13,7 +13,7 @@ namespace myoid::architecture {
 namespace {
 
 struct Function {
-  std::string place;  ///< "myoid/virtual_person/protocol.cpp:207"
+  std::string place;  ///< "myoid/lab/virtual_person/protocol.cpp:207"
   std::size_t lines = 0;
 };
 

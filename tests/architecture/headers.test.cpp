@@ -19,52 +19,52 @@ namespace {
 /// No test includes these; each with the reason. A missing test is a visible hole: this is the list
 /// of the holes, and it may only become shorter.
 const std::map<std::string, std::string> kWithoutTest = {
-    {"myoid/cli/command_help.h", "exercised by running the program"},
-    {"myoid/cli/context.h", "the program's options, exercised by running the program"},
-    {"myoid/cli/help_files.h", "exercised by running the program"},
-    {"myoid/cli/option_checks.h", "exercised by running the program"},
-    {"myoid/cli/options.h", "exercised by running the program"},
-    {"myoid/cli/run.h", "exercised by running the program"},
-    {"myoid/cli/wrong_line.h", "exercised by running the program"},
-    {"myoid/commands/check.h", "exercised by running the program"},
-    {"myoid/commands/cohort.h", "exercised by running the program"},
-    {"myoid/commands/compare.h", "exercised by running the program"},
-    {"myoid/commands/design.h", "exercised by running the program"},
-    {"myoid/commands/init.h", "exercised by running the program"},
-    {"myoid/commands/model_page.h", "exercised by running the program"},
-    {"myoid/commands/predict.h", "exercised by running the program"},
+    {"myoid/program/cli/command_help.h", "exercised by running the program"},
+    {"myoid/program/cli/context.h", "the program's options, exercised by running the program"},
+    {"myoid/program/cli/help_files.h", "exercised by running the program"},
+    {"myoid/program/cli/option_checks.h", "exercised by running the program"},
+    {"myoid/program/cli/options.h", "exercised by running the program"},
+    {"myoid/program/cli/run.h", "exercised by running the program"},
+    {"myoid/program/cli/wrong_line.h", "exercised by running the program"},
+    {"myoid/program/commands/check.h", "exercised by running the program"},
+    {"myoid/program/commands/cohort.h", "exercised by running the program"},
+    {"myoid/program/commands/compare.h", "exercised by running the program"},
+    {"myoid/program/commands/design.h", "exercised by running the program"},
+    {"myoid/program/commands/init.h", "exercised by running the program"},
+    {"myoid/program/commands/model_page.h", "exercised by running the program"},
+    {"myoid/program/commands/predict.h", "exercised by running the program"},
     {"myoid/run/prediction_input.h", "exercised by running the program"},
-    {"myoid/commands/report.h", "exercised by running the program"},
-    {"myoid/commands/settings.h", "exercised by running the program"},
-    {"myoid/commands/simulate.h", "exercised by running the program"},
-    {"myoid/commands/twin.h", "exercised by running the program"},
-    {"myoid/commands/twin_study.h", "exercised by running the program"},
-    {"myoid/commands/update_file.h", "exercised by running the program"},
-    {"myoid/core/prior.h", "a plain value, exercised by the estimators"},
-    {"myoid/core/stretch.h", "a plain value, exercised by the estimators"},
-    {"myoid/files/event.h", "a plain value, exercised by the readers"},
-    {"myoid/tables/marker_file.h", "a plain value, exercised by the readers"},
-    {"myoid/c3d/c3d_header.h", "exercised by c3d_layout.test"},
-    {"myoid/tables/storage_header.h", "exercised by storage.test"},
-    {"myoid/posterior/likelihood_block.h", "a plain value, exercised by likelihood.test"},
-    {"myoid/intervals/result.h", "values only; exercised by torque.test"},
-    {"myoid/model/opensim_defects/compat.h", "switches, exercised by muscle_path.test and the OpenSim table"},
-    {"myoid/opensim_tools/tool_result.h", "plain values, exercised by run_tool.test"},
-    {"myoid/phases/phases.h", "plain values, exercised by find_phases.test"},
-    {"myoid/commands/convert.h", "exercised by running the program"},
-    {"myoid/realtime/c_interface.h", "the C interface, exercised by examples/realtime"},
-    {"myoid/realtime/read_predictor.h", "exercised by examples/realtime on a finished run"},
-    {"myoid/osim/osim_update_parts.h", "a part of the updater, tested as part of osim_updater"},
-    {"myoid/cli/say.h", "exercised by running the program"},
-    {"myoid/draft/draft_model.h", "exercised by study_draft.test"},
-    {"myoid/kinematics/ik_options.h", "plain values, exercised by pose_fit.test"},
+    {"myoid/program/commands/report.h", "exercised by running the program"},
+    {"myoid/program/commands/settings.h", "exercised by running the program"},
+    {"myoid/program/commands/simulate.h", "exercised by running the program"},
+    {"myoid/program/commands/twin.h", "exercised by running the program"},
+    {"myoid/program/commands/twin_study.h", "exercised by running the program"},
+    {"myoid/program/commands/update_file.h", "exercised by running the program"},
+    {"myoid/ground/core/prior.h", "a plain value, exercised by the estimators"},
+    {"myoid/ground/core/stretch.h", "a plain value, exercised by the estimators"},
+    {"myoid/ground/files/event.h", "a plain value, exercised by the readers"},
+    {"myoid/recording/tables/marker_file.h", "a plain value, exercised by the readers"},
+    {"myoid/recording/c3d/c3d_header.h", "exercised by c3d_layout.test"},
+    {"myoid/recording/tables/storage_header.h", "exercised by storage.test"},
+    {"myoid/fit/posterior/likelihood_block.h", "a plain value, exercised by likelihood.test"},
+    {"myoid/fit/intervals/result.h", "values only; exercised by torque.test"},
+    {"myoid/body/model/opensim_defects/compat.h", "switches, exercised by muscle_path.test and the OpenSim table"},
+    {"myoid/opensim/tool_result.h", "plain values, exercised by run_tool.test"},
+    {"myoid/study/phases/phases.h", "plain values, exercised by find_phases.test"},
+    {"myoid/program/commands/convert.h", "exercised by running the program"},
+    {"myoid/results/realtime/c_interface.h", "the C interface, exercised by examples/realtime"},
+    {"myoid/results/realtime/read_predictor.h", "exercised by examples/realtime on a finished run"},
+    {"myoid/body/osim/osim_update_parts.h", "a part of the updater, tested as part of osim_updater"},
+    {"myoid/program/cli/say.h", "exercised by running the program"},
+    {"myoid/study/draft/draft_model.h", "exercised by study_draft.test"},
+    {"myoid/body/kinematics/ik_options.h", "plain values, exercised by pose_fit.test"},
     {"myoid/recording/angle_file.h", "exercised by the tests of info and check"},
     {"myoid/recording/edf_header.h", "exercised by edf_reader.test"},
     {"myoid/recording/recorded_trial.h", "a plain value, exercised by recording.test"},
     {"myoid/run/study_validation.h", "exercised by run_study.test"},
     {"myoid/study/equal_stretches.h", "exercised by trial_table.test"},
-    {"myoid/kinematics/lumped_muscles.h", "exercised by design_study.test"},
-    {"myoid/design/movement.h", "exercised by design_study.test"},
+    {"myoid/body/kinematics/lumped_muscles.h", "exercised by design_study.test"},
+    {"myoid/run/design/movement.h", "exercised by design_study.test"},
     {"myoid/results/phases_report.h", "words and drawings, seen by running the program"},
 };
 
@@ -144,7 +144,7 @@ TEST(Headers, EveryHeaderHasAReaderInTheProgram) {
     }
   }
   for (const fs::path& header : files_below("myoid", ".h")) {
-    if (header == "myoid/realtime/c_interface.h") continue;  // other languages read it
+    if (header == "myoid/results/realtime/c_interface.h") continue;  // other languages read it
     std::set<std::string> others = readers[quoted(header)];
     others.erase(fs::path(header).replace_extension(".cpp").generic_string());
     EXPECT_FALSE(others.empty()) << header << " is included by no other file of the program";
@@ -153,9 +153,9 @@ TEST(Headers, EveryHeaderHasAReaderInTheProgram) {
 
 TEST(Headers, EveryTestIsBuilt) {
   for (const fs::path& test : files_below("myoid", ".test.cpp")) {
-    const fs::path room = *std::next(test.begin());
-    const std::string list = content(kRoot / "myoid" / room / "CMakeLists.txt");
-    std::string unit = test.lexically_relative("myoid" / room).generic_string();
+    const fs::path room = folder_of(room_of(test.generic_string()));
+    const std::string list = content(kRoot / room / "CMakeLists.txt");
+    std::string unit = test.lexically_relative(room).generic_string();
     unit.resize(unit.size() - std::string(".test.cpp").size());
     EXPECT_TRUE(std::regex_search(list, std::regex("\\s" + unit + "(\\s|\\))")))
         << test << " is not in the CMakeLists.txt of its folder";
@@ -167,7 +167,7 @@ TEST(Headers, NoSourceTakesTheStandardsViews) {
   for (const char* ending : {".h", ".cpp"}) {
     for (const fs::path& file : files_below("myoid", ending)) {
       const auto included = includes(file);
-      EXPECT_EQ(std::ranges::count(included, "<ranges>"), 0) << file << ": see myoid/core/names.h";
+      EXPECT_EQ(std::ranges::count(included, "<ranges>"), 0) << file << ": see myoid/ground/core/names.h";
     }
   }
 }

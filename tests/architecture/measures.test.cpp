@@ -44,22 +44,19 @@ std::ptrdiff_t count(const std::string& text, const std::regex& what) {
   return std::distance(std::sregex_iterator(text.begin(), text.end(), what), std::sregex_iterator());
 }
 
-std::string room_of(const std::string& path) { return path.substr(6, path.find('/', 6) - 6); }
-
 /// Facts lead to a finding and a finding to a verdict in one file; others copy a verdict or spell it.
 TEST(Measures, OneFileMakesVerdicts) {
-  const std::regex made(
-      R"(\w(\.|->)verdict\s*=[^=]|[^=!<>]=\s*(identification::)?Verdict::|return\s+(identification::)?Verdict::)");
+  const std::regex made(R"(\w(\.|->)verdict\s*=[^=]|[^=!<>]=\s*(fit::)?Verdict::|return\s+(fit::)?Verdict::)");
   std::set<std::string> makers;
   for (const Source& source : program())
     if (count(source.text, made) > 0) makers.insert(source.path);
-  EXPECT_EQ(makers, (std::set<std::string>{"myoid/intervals/result.h",  // the verdict before any
-                                           "myoid/intervals/verdicts.cpp"}));
+  EXPECT_EQ(makers, (std::set<std::string>{"myoid/fit/intervals/result.h",  // the verdict before any
+                                           "myoid/fit/intervals/verdicts.cpp"}));
 }
 
 /// Lines of the rooms that identify, docstrings and blank lines included.
 TEST(Measures, TheRoomsThatIdentifyShrink) {
-  const std::set<std::string> rooms{"beliefs", "identification", "intervals", "methods", "posterior"};
+  const std::set<std::string> rooms{"beliefs", "measurement", "intervals", "methods", "posterior"};
   std::map<std::string, std::ptrdiff_t> lines;
   std::ptrdiff_t all = 0;
   for (const Source& source : program()) {
@@ -77,7 +74,7 @@ TEST(Measures, TheRoomsThatIdentifyShrink) {
 /// An enumeration stays one: a word is compared only where text is read, as in a model file or a table.
 TEST(Measures, EnumerationsAreNotComparedAsWords) {
   const std::regex word(R"(\b(method|verdict|lag|folds|fit_case|scales|criterion|use)\s*[!=]=\s*")");
-  const std::set<std::string> reads{"osim", "opensim_tools", "arm", "recording", "dynamics"};
+  const std::set<std::string> reads{"osim", "opensim", "arm", "recording", "dynamics"};
   std::map<std::string, std::ptrdiff_t> found;
   std::ptrdiff_t all = 0;
   for (const Source& source : program()) {
@@ -95,7 +92,7 @@ TEST(Measures, NoBranchReadsASentence) {
   for (const Source& source : program()) EXPECT_EQ(count(source.text, sentence), 0) << source.path;
 }
 
-/// Remarks of results are core/remark.h's, which have a code; a loose list of sentences has none.
+/// Remarks of results are ground/core/remark.h's, which have a code; a loose list of sentences has none.
 TEST(Measures, LooseListsOfSentencesBecomeFewer) {
   const std::regex list(
       R"(std::vector<std::string>\s+(notes|warnings|remarks|messages|hints|findings|diagnoses|undetermined|sentences)\b[^(;]*;)");

@@ -25,10 +25,10 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "myoid/model/kinematic_tree.h"
-#include "myoid/model/muscle_path.h"
-#include "myoid/model/path_survey.h"
-#include "myoid/osim/osim_reader.h"
+#include "myoid/body/model/kinematic_tree.h"
+#include "myoid/body/model/muscle_path.h"
+#include "myoid/body/model/path_survey.h"
+#include "myoid/body/osim/osim_reader.h"
 
 #include "tests/support/places.h"
 
@@ -146,9 +146,9 @@ std::map<std::string, double> read_times(const fs::path& file) {
 }
 
 /// Microseconds a frame of one piece of work over random postures.
-double microseconds(const model::BodyModel& m, const auto& work) {
+double microseconds(const body::BodyModel& m, const auto& work) {
   std::vector<Eigen::VectorXd> postures;
-  for (std::uint64_t i = 0; i < 64; ++i) postures.push_back(model::random_posture(m, 5, i));
+  for (std::uint64_t i = 0; i < 64; ++i) postures.push_back(body::random_posture(m, 5, i));
   double best = 1e9;
   for (int round = 0; round < 5; ++round) {
     const auto start = std::chrono::steady_clock::now();
@@ -158,21 +158,21 @@ double microseconds(const model::BodyModel& m, const auto& work) {
   return 1e6 * best / static_cast<double>(postures.size());
 }
 
-void print_floor(const std::string& name, const model::BodyModel& m) {
-  model::BodyState state = model::make_state(m);
-  model::PathWorkspace workspace;
-  model::PathResult path;
+void print_floor(const std::string& name, const body::BodyModel& m) {
+  body::BodyState state = body::make_state(m);
+  body::PathWorkspace workspace;
+  body::PathResult path;
   const Eigen::VectorXd u = Eigen::VectorXd::Constant(state.q.size(), 0.1);
   const double poses = microseconds(m, [&](const Eigen::VectorXd& q) {
-    model::compute_poses(m, q, state);
-    model::compute_velocities(m, u, state);
+    body::compute_poses(m, q, state);
+    body::compute_velocities(m, u, state);
   });
   const double dynamics =
-      microseconds(m, [&](const Eigen::VectorXd& q) { (void)model::inverse_dynamics(m, q, u, u, {}, state); });
+      microseconds(m, [&](const Eigen::VectorXd& q) { (void)body::inverse_dynamics(m, q, u, u, {}, state); });
   const double paths = microseconds(m, [&](const Eigen::VectorXd& q) {
-    model::compute_poses(m, q, state);
-    model::compute_velocities(m, u, state);
-    for (const model::Muscle& muscle : m.muscles) model::compute_path(m, muscle.path, state, workspace, path);
+    body::compute_poses(m, q, state);
+    body::compute_velocities(m, u, state);
+    for (const body::Muscle& muscle : m.muscles) body::compute_path(m, muscle.path, state, workspace, path);
   });
   fmt::print("| {} | {} | {} | {} | {:.1f} µs | {:.1f} µs | {:.1f} µs |\n", name, m.bodies.size() - 1,
              m.coordinates.size(), m.muscles.size(), poses, dynamics, paths - poses);
@@ -266,7 +266,7 @@ int main(int argc, char** argv) {
       "|\n| --- | --- | --- | --- | --- | --- | --- |\n");
   for (const fs::path& folder : cases) {
     if (!fs::exists(folder / "model.osim")) continue;
-    print_floor(folder.filename().string(), model::read_osim(folder / "model.osim", {.compat = model::kOpenSim452}));
+    print_floor(folder.filename().string(), body::read_osim(folder / "model.osim", {.compat = body::kOpenSim452}));
   }
   return 0;
 }

@@ -12,12 +12,12 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/recording/c3d/c3d_reader.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/channel_writer.h"
 #include "myoid/recording/recording.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 namespace {
 
@@ -79,15 +79,15 @@ const fs::path& large_storage() {
     text += '\n';
     unsigned state = 1;
     for (int i = 0; text.size() < 100'000'000; ++i) {
-      text += recording::format_number(i / 2000.0);
+      text += format_number(i / 2000.0);
       for (int c = 0; c < 16; ++c) {
         state = state * 1664525U + 1013904223U;
         text += '\t';
-        text += recording::format_number(1e-9 * static_cast<double>(state));
+        text += format_number(1e-9 * static_cast<double>(state));
       }
       text += '\n';
     }
-    recording::write_file(file, text);
+    write_file(file, text);
     return file;
   }();
   return path;
@@ -129,7 +129,7 @@ const fs::path& large_edf() {
       text += static_cast<char>(count & 0xFF);
       text += static_cast<char>((count >> 8) & 0xFF);
     }
-    recording::write_file(folder() / "large.edf", text);
+    write_file(folder() / "large.edf", text);
     return folder() / "large.edf";
   }();
   return path;
@@ -143,11 +143,11 @@ const fs::path& large_csv() {
     text += '\n';
     Counts counts;
     for (int i = 0; text.size() < 100'000'000; ++i) {
-      text += recording::format_number(i / 2000.0);
+      text += format_number(i / 2000.0);
       for (int c = 0; c < 16; ++c) text += fmt::format(",{:.5f}", 1e-4 * counts.next());
       text += '\n';
     }
-    recording::write_file(folder() / "large.csv", text);
+    write_file(folder() / "large.csv", text);
     return folder() / "large.csv";
   }();
   return path;

@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "myoid/realtime/predictor.h"
+#include "myoid/results/realtime/predictor.h"
 
 namespace {
 
 using namespace myoid;
 
 /// Muscles with 8 unknowns each, whose lengths are polynomials of degree `degree` of all joints.
-Predictor person(int muscles, int joints, int degree) {
-  Predictor p;
-  const auto terms = static_cast<Eigen::Index>(kinematics::term_count(joints, degree));
+results::Predictor person(int muscles, int joints, int degree) {
+  results::Predictor p;
+  const auto terms = static_cast<Eigen::Index>(body::term_count(joints, degree));
   const muscle::HillParameters<double> hill{.max_isometric_force_n = 800.0,
                                             .optimal_fiber_length_m = 0.12,
                                             .force_length_width_m = 0.05,
@@ -27,7 +27,7 @@ Predictor person(int muscles, int joints, int degree) {
                                             .tendon_slack_length_m = 0.18};
   for (int j = 0; j < joints; ++j) p.joints.push_back({"q" + std::to_string(j), j, {}, {}});
   for (int m = 0; m < muscles; ++m) {
-    kinematics::PathSurrogate path;
+    body::PathSurrogate path;
     for (int j = 0; j < joints; ++j) path.coordinates.push_back(j);
     path.lower = Eigen::VectorXd::Constant(joints, -2.0);
     path.upper = Eigen::VectorXd::Constant(joints, 2.0);
@@ -36,8 +36,8 @@ Predictor person(int muscles, int joints, int degree) {
     path.coefficient_m[0] = 0.3;
     p.paths.push_back(path);
     const auto k = static_cast<std::size_t>(m);
-    p.channels.push_back({"e", {0.0, 0.9, 0.0, 0.04, 0.015, 0.05, 1.0}, {{identification::kGain, 8 * m, 1.0}}});
-    p.muscles.push_back({"m", k, identification::muscle_values(hill), {{k, 1.0}}, {}});
+    p.channels.push_back({"e", {0.0, 0.9, 0.0, 0.04, 0.015, 0.05, 1.0}, {{fit::kGain, 8 * m, 1.0}}});
+    p.muscles.push_back({"m", k, fit::muscle_values(hill), {{k, 1.0}}, {}});
     for (int f = 0; f < 7; ++f) p.muscles[k].chains.push_back({f, 8 * m + 1 + f, 1.0});
   }
   p.covariance = 1e-4 * Eigen::MatrixXd::Identity(8 * muscles, 8 * muscles);
@@ -60,12 +60,12 @@ void measure(const char* what, const std::function<void(int)>& evaluate) {
               took_us[kCount / 100 * 99], took_us[kCount / 1000 * 999]);
 }
 
-void measure(const char* what, const Predictor& p, bool with_bands) {
-  PredictorWorkspace w = workspace_for(p);
+void measure(const char* what, const results::Predictor& p, bool with_bands) {
+  results::PredictorWorkspace w = results::workspace_for(p);
   std::vector<double> envelope(p.channels.size(), 0.3), angle(p.joints.size()), speed(p.joints.size(), 1.0);
   measure(what, [&](int i) {
     std::fill(angle.begin(), angle.end(), 1e-5 * i);
-    (void)predict(p, envelope, angle, speed, w, with_bands);
+    (void)results::predict(p, envelope, angle, speed, w, with_bands);
   });
 }
 
@@ -84,7 +84,7 @@ void add_in_a_register(int count) {
 }  // namespace
 
 int main() {
-  const Predictor arm = person(4, 1, 8), leg = person(80, 3, 5);
+  const results::Predictor arm = person(4, 1, 8), leg = person(80, 3, 5);
   measure("arm, 4 muscles", arm, false);
   measure("arm, 4 muscles, with bands", arm, true);
   measure("leg, 80 muscles, 3 joints", leg, false);

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/c3d/c3d_writer.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 
 int main(int argc, char** argv) {
   using namespace myoid::recording;

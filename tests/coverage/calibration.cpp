@@ -17,11 +17,11 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/parallel.h"
-#include "myoid/identification/parameters.h"
-#include "myoid/math/random.h"
-#include "myoid/math/statistics.h"
-#include "myoid/posterior/exploration.h"
+#include "myoid/fit/measurement/parameters.h"
+#include "myoid/fit/posterior/exploration.h"
+#include "myoid/ground/core/parallel.h"
+#include "myoid/ground/math/random.h"
+#include "myoid/ground/math/statistics.h"
 
 #include "tests/coverage/made_person.h"
 
@@ -57,10 +57,10 @@ PersonResult judge(const Settings& settings, int number) {
   MadePersonOptions options = settings.person;
   options.seed = static_cast<std::uint64_t>(settings.first + number + 1);
   const MadePerson person = made_person(options);
-  identification::EstimatorOptions estimator = person.options;
+  fit::EstimatorOptions estimator = person.options;
   estimator.posterior_draws = settings.draws;
-  const identification::Exploration explored = identification::explore(person.data, estimator);
-  const identification::Sample& sample = explored.sample;
+  const fit::Exploration explored = fit::explore(person.data, estimator);
+  const fit::Sample& sample = explored.sample;
   PersonResult result{.places = {},
                       .rhat = sample.rhat,
                       .approximate = sample.approximate,
@@ -178,11 +178,11 @@ void write_ranks(const std::string& path,
 std::vector<std::string> names_of(const Settings& settings) {
   const MadePerson person = made_person(settings.person);
   std::vector<std::string> names;
-  const identification::ParameterMap map(person.data, person.options);
-  for (const identification::Unknown& u : map.free()) names.push_back(u.label);
+  const fit::ParameterMap map(person.data, person.options);
+  for (const fit::Unknown& u : map.free()) names.push_back(u.label);
   for (const char* name : {"noise.torque_sd", "noise.torque_time", "noise.emg", "noise.model"})
     names.emplace_back(name);
-  for (const identification::TrialData& trial : person.data.trials) names.push_back(trial.name + ".torque_share");
+  for (const fit::TrialData& trial : person.data.trials) names.push_back(trial.name + ".torque_share");
   return names;
 }
 

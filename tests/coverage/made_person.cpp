@@ -9,21 +9,21 @@
 
 #include <Eigen/Cholesky>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/arm/planar_elbow.h"
-#include "myoid/beliefs/beliefs.h"
-#include "myoid/identification/envelope.h"
-#include "myoid/identification/muscle_law.h"
-#include "myoid/identification/parameters.h"
-#include "myoid/math/random.h"
-#include "myoid/posterior/density.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/arm/planar_elbow.h"
+#include "myoid/fit/beliefs/beliefs.h"
+#include "myoid/fit/measurement/envelope.h"
+#include "myoid/fit/measurement/muscle_law.h"
+#include "myoid/fit/measurement/parameters.h"
+#include "myoid/fit/posterior/density.h"
+#include "myoid/ground/math/random.h"
 
 #include "tests/coverage/seen_strength.h"
 
 namespace myoid::test {
 namespace {
 
-using namespace identification;
+using namespace fit;
 
 constexpr double kMargin_s = 0.8;  // of the EMG, before and behind the motion
 constexpr double kLeastActivation = 0.02, kLogRange = 2.3, kLag_s = 0.15;
@@ -94,7 +94,7 @@ struct MuscleErrors {
 class Maker {
  public:
   explicit Maker(const MadePersonOptions& options)
-      : o_(options), random_(options.seed, 17), elbow_(model::planar_elbow()) {
+      : o_(options), random_(options.seed, 17), elbow_(body::planar_elbow()) {
     if (o_.two_muscles) of_arm_ = {0, 3};
   }
 
@@ -126,7 +126,7 @@ class Maker {
   [[nodiscard]] Eigen::Index muscles() const { return static_cast<Eigen::Index>(of_arm_.size()); }
 
   void set_up() {
-    const auto start = model::arm4_muscles();
+    const auto start = body::arm4_muscles();
     for (const std::size_t k : of_arm_) {
       MuscleSetup setup;
       setup.name = std::string(elbow_.muscles[k].name);
@@ -180,7 +180,7 @@ class Maker {
       const double q = 1.18 + 0.75 * std::sin(w1 * t + phase) + 0.25 * std::sin(w2 * t);
       const double rate = 0.75 * w1 * std::cos(w1 * t + phase) + 0.25 * w2 * std::cos(w2 * t);
       for (Eigen::Index k = 0; k < muscles(); ++k) {
-        const model::MuscleTravel travel = model::travel(elbow_.muscles[of_arm_[static_cast<std::size_t>(k)]], q);
+        const body::MuscleTravel travel = body::travel(elbow_.muscles[of_arm_[static_cast<std::size_t>(k)]], q);
         trial.length_m(i, k) = travel.length_m;
         trial.moment_arm_m(i, k) = travel.moment_arm_m;
         trial.velocity_mps(i, k) = -travel.moment_arm_m * rate;
@@ -393,7 +393,7 @@ class Maker {
 
   MadePersonOptions o_;
   math::Random random_;
-  model::PlanarElbow elbow_;
+  body::PlanarElbow elbow_;
   std::vector<std::size_t> of_arm_ = {0, 1, 2, 3};  ///< The muscles of the arm that are made.
   MadePerson person_;
   std::vector<Eigen::MatrixXd> drives_;  ///< Per trial, instants x channels.

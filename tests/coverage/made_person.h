@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 
-#include "myoid/identification/options.h"
-#include "myoid/identification/study_data.h"
-#include "myoid/posterior/noise_model.h"
+#include "myoid/fit/measurement/options.h"
+#include "myoid/fit/measurement/study_data.h"
+#include "myoid/fit/posterior/noise_model.h"
 
 namespace myoid::test {
 
@@ -26,10 +26,10 @@ struct MadePersonOptions {
 
 /// A person drawn from every prior of the posterior, and the recording made of this person.
 struct MadePerson {
-  identification::StudyData data;
-  identification::EstimatorOptions options;
-  Eigen::VectorXd z;                  ///< The unknowns, in the solver's scale.
-  identification::NoiseValues noise;  ///< The hyperparameters.
+  fit::StudyData data;
+  fit::EstimatorOptions options;
+  Eigen::VectorXd z;       ///< The unknowns, in the solver's scale.
+  fit::NoiseValues noise;  ///< The hyperparameters.
 };
 
 /// The built-in arm's elbow muscles with one EMG channel each. Drawn are the study's unknowns

@@ -8,16 +8,16 @@
 
 #include <fmt/format.h>
 
-#include "myoid/beliefs/beliefs.h"
-#include "myoid/identification/parameters.h"
-#include "myoid/posterior/exploration.h"
+#include "myoid/fit/beliefs/beliefs.h"
+#include "myoid/fit/measurement/parameters.h"
+#include "myoid/fit/posterior/exploration.h"
 
 #include "tests/coverage/made_person.h"
 
 namespace myoid::test {
 namespace {
 
-using namespace identification;
+using namespace fit;
 
 std::string json(const Eigen::VectorXd& v) {
   std::string text = "[";

@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace myoid::identification {
+namespace myoid::fit {
 
 Eigen::VectorXd log_strength(const ParameterMap& map,
                              const std::vector<TrialRun>& runs,
@@ -30,4 +30,4 @@ Eigen::VectorXd log_strength(const ParameterMap& map,
   return change;
 }
 
-}  // namespace myoid::identification
+}  // namespace myoid::fit

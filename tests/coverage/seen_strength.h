@@ -4,12 +4,12 @@
 
 #include <Eigen/Core>
 
-#include "myoid/identification/parameters.h"
-#include "myoid/posterior/torque_signals.h"
-#include "myoid/posterior/trial_run.h"
-#include "myoid/posterior/unseen.h"
+#include "myoid/fit/measurement/parameters.h"
+#include "myoid/fit/posterior/torque_signals.h"
+#include "myoid/fit/posterior/trial_run.h"
+#include "myoid/fit/posterior/unseen.h"
 
-namespace myoid::identification {
+namespace myoid::fit {
 
 /// The change of each ln F_max that acts as the unseen quantities x do: an estimate without
 /// priors is that much too large, and the estimator takes its columns there. With
@@ -20,4 +20,4 @@ namespace myoid::identification {
                                            const Unseen& unseen,
                                            const Eigen::VectorXd& x);
 
-}  // namespace myoid::identification
+}  // namespace myoid::fit

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/files/atomic_file.h"
 
 #include "tests/pipeline/program.h"
 #include "tests/support/temporary_folder.h"
@@ -54,7 +54,7 @@ CommandRuns run_commands(const std::vector<Variant>& variants) {
       const Variant& variant = variants[i];
       const test::TemporaryFolder folder;
       const std::filesystem::path path = folder / variant.kind->file;
-      recording::write_file(path, variant.file.bytes);
+      write_file(path, variant.file.bytes);
       for (const auto& command : commands_on(path.string(), folder.path())) {
         const test::Finished finished = test::myoid(command, 0.0, "", limits);
         const std::string broken = broken_promise(finished);

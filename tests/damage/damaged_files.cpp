@@ -22,8 +22,8 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
 
 #include "tests/damage/commands.h"
 #include "tests/damage/damages.h"
@@ -144,7 +144,7 @@ bool names_a_file(const std::string& message, const fs::path& path) {
 Judgement judge(const Kind& kind, const Content& good, const Damaged& file, const fs::path& path) {
   Content found;
   try {
-    myoid::recording::write_file(path, file.bytes);
+    myoid::write_file(path, file.bytes);
     found = kind.read(path);
   } catch (const myoid::InvalidInput& error) {
     const std::string message = error.what();
@@ -195,7 +195,7 @@ bool is_told(const std::string& table, const std::map<Verdict, int>& sum, int al
       count(Verdict::stated), count(Verdict::doubtful), count(Verdict::refused), count(Verdict::itself));
   std::string words = myoid::test::read_text(docs / "damaged-files.md");
   std::ranges::replace(words, '\n', ' ');
-  if (std::getenv("MYOID_PRINT_PAGES") != nullptr) myoid::recording::write_file(file, table);
+  if (std::getenv("MYOID_PRINT_PAGES") != nullptr) myoid::write_file(file, table);
   const bool same_table = myoid::test::read_text(file) == table;
   const bool same_sums = words.find(sentence) != std::string::npos;
   if (!same_table) fmt::print("{} differs from this table; MYOID_PRINT_PAGES=1 writes it\n", file.string());
@@ -218,7 +218,7 @@ int main(int argc, char** argv) {
   for (const Kind& kind : good_kinds) {
     kinds.push_back(kind.name);
     const fs::path path = folder / kind.file;
-    myoid::recording::write_file(path, kind.bytes);
+    myoid::write_file(path, kind.bytes);
     const Content good = kind.read(path);
     if (good.numbers.empty()) {
       fmt::print("{}: the good file holds nothing\n", kind.name);

@@ -8,20 +8,20 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/model/kinematic_tree.h"
-#include "myoid/model/muscle_path.h"
-#include "myoid/opensim_tools/run_tool.h"
-#include "myoid/osim/osim_reader.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/model/kinematic_tree.h"
+#include "myoid/body/model/muscle_path.h"
+#include "myoid/body/osim/osim_reader.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/opensim/run_tool.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
+#include "myoid/recording/tables/orientation_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
-#include "myoid/tables/orientation_reader.h"
-#include "myoid/tables/storage_reader.h"
 
 #include "tests/damage/table_kinds.h"
 
@@ -29,7 +29,7 @@ namespace myoid::damage {
 namespace {
 
 namespace fs = std::filesystem;
-using recording::Repair;
+using ground::Repair;
 
 void add_columns(const TimeSeries& series, Content& content) {
   for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
@@ -106,7 +106,7 @@ Content read_orientations(const fs::path& path) {
 
 /// What a model does: masses, muscles, and where markers and paths are in two postures.
 Content read_model(const fs::path& path) {
-  const model::BodyModel m = model::read_osim(path);
+  const body::BodyModel m = body::read_osim(path);
   Content content;
   content.notes = m.notes;
   content.notes.insert(content.notes.end(), m.unsupported.begin(), m.unsupported.end());
@@ -125,18 +125,18 @@ Content read_model(const fs::path& path) {
         p.deactivation_time_s};
     content.texts[muscle.name] = muscle.class_name + (muscle.applies_force ? "" : ", off");
   }
-  model::BodyState state = model::make_state(m);
+  body::BodyState state = body::make_state(m);
   for (int posture = 0; posture < 2; ++posture) {
     Eigen::VectorXd q = m.default_q();
     for (Eigen::Index i = 0; i < q.size(); ++i) q[i] += 0.1 * posture * static_cast<double>(i + 1);
-    model::compute_poses(m, q, state);
+    body::compute_poses(m, q, state);
     for (std::size_t i = 0; i < m.markers.size(); ++i)
       content.numbers[fmt::format("{} in {}", m.markers[i].name, posture)] =
           list(Vec3(state.X_GB[static_cast<std::size_t>(m.markers[i].body)] * m.markers[i].p_BM));
     for (std::size_t i = 0; i < m.muscles.size(); ++i)
       content.numbers[fmt::format("length of {} in {}", m.muscles[i].name, posture)] = {
-          model::compute_path(m, static_cast<int>(i), state).length_m};
-    const Eigen::MatrixXd M = model::mass_matrix(m, q, state);
+          body::compute_path(m, static_cast<int>(i), state).length_m};
+    const Eigen::MatrixXd M = body::mass_matrix(m, q, state);
     content.numbers[fmt::format("inertia in {}", posture)] = {M.data(), M.data() + M.size()};
   }
   return content;
@@ -154,7 +154,7 @@ void flatten(const nlohmann::json& j, const std::string& name, Content& content)
 
 Content read_study(const fs::path& path) {
   Content content;
-  flatten(nlohmann::json::parse(study_json(myoid::read_study(path))), "", content);
+  flatten(nlohmann::json::parse(study::study_json(myoid::study::read_study(path))), "", content);
   return content;
 }
 
@@ -167,7 +167,7 @@ Content run_setup(const fs::path& path) {
     if (fs::weakly_canonical(file).parent_path() != fs::weakly_canonical(path.parent_path()))
       throw ReadError(path, 0, fmt::format("'{}' is outside of this test", file.string()));
   };
-  const ToolResult result = run_tool(path, {.claim = stays});
+  const opensim::ToolResult result = opensim::run_tool(path, {.claim = stays});
   Content content;
   content.notes = result.notes;
   for (const fs::path& file : result.files) {
@@ -342,11 +342,11 @@ std::vector<Kind> good_files(const fs::path& folder) {
   Kind edf{"EDF+", "f.edf", make.edf(), Shape::binary, read_channels, info};
   edf.data_bytes = {1024, edf.bytes.size()};
   list.push_back(edf);
-  list.push_back({"OSIM", "f.osim", model::arm4_osim(), Shape::xml, read_model, info});
+  list.push_back({"OSIM", "f.osim", body::arm4_osim(), Shape::xml, read_model, info});
   list.push_back({"XML set-up", "f.xml", kSetup, Shape::xml, run_setup, {"run-tool"}});
   list.push_back({"TOML", "f.toml", kStudy, Shape::toml, read_study, {"check"}});
-  recording::write_file(folder / "m.osim", kPendulum);
-  recording::write_file(folder / "m.trc", kPendulumMarkers);
+  write_file(folder / "m.osim", kPendulum);
+  write_file(folder / "m.trc", kPendulumMarkers);
   return list;
 }
 

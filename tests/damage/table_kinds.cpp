@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/files/atomic_file.h"
+#include "myoid/ground/files/atomic_file.h"
 
 namespace myoid::damage {
 namespace {
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// Channels of all clocks over the instants of all of them: no number where a clock has no sample.
 void add_channels(const recording::Recording& file, Content& content) {
   std::vector<TimeSeries> clocks{file.analog.series()};
-  for (const recording::AnalogChannels& other : file.other_clocks) clocks.push_back(other.series());
+  for (const AnalogChannels& other : file.other_clocks) clocks.push_back(other.series());
   std::set<double> instants;
   for (const TimeSeries& clock : clocks) instants.insert(clock.time_s().begin(), clock.time_s().end());
   content.time_s.assign(instants.begin(), instants.end());
@@ -155,11 +155,11 @@ void other_markers(TableMaker& make, std::vector<Kind>& list) {
 }
 
 void bids_motion(TableMaker& make, const fs::path& folder, std::vector<Kind>& list) {
-  recording::write_file(folder / "f_channels.tsv",
-                        "name\tcomponent\ttype\ttracked_point\tunits\nA_x\tx\tPOS\tA\tmm\n"
-                        "A_y\ty\tPOS\tA\tmm\nA_z\tz\tPOS\tA\tmm\nB_x\tx\tPOS\tB\tmm\n"
-                        "B_y\ty\tPOS\tB\tmm\nB_z\tz\tPOS\tB\tmm\n");
-  recording::write_file(folder / "f_motion.json", "{\"SamplingFrequency\": 100}");
+  write_file(folder / "f_channels.tsv",
+             "name\tcomponent\ttype\ttracked_point\tunits\nA_x\tx\tPOS\tA\tmm\n"
+             "A_y\ty\tPOS\tA\tmm\nA_z\tz\tPOS\tA\tmm\nB_x\tx\tPOS\tB\tmm\n"
+             "B_y\ty\tPOS\tB\tmm\nB_z\tz\tPOS\tB\tmm\n");
+  write_file(folder / "f_motion.json", "{\"SamplingFrequency\": 100}");
   Kind kind = table("Motion-BIDS", "f_motion.tsv", "", make.rows(6, '\t', [](int) { return std::string(); }),
                     read_table_markers);
   kind.says_its_rows = false;
@@ -256,8 +256,8 @@ void delsys(TableMaker& make, std::vector<Kind>& list) {
 
 }  // namespace
 
-void add_notes(const std::vector<recording::Repair>& repairs, Content& content) {
-  for (const recording::Repair& r : repairs) content.notes.push_back(recording::to_string(r));
+void add_notes(const std::vector<Repair>& repairs, Content& content) {
+  for (const Repair& r : repairs) content.notes.push_back(recording::to_string(r));
 }
 
 Content read_channels(const fs::path& path) {

@@ -13,7 +13,7 @@ namespace myoid::damage {
 inline constexpr int kRows = 40;
 
 /// Adds the sentences of what a reader repaired.
-void add_notes(const std::vector<recording::Repair>& repairs, Content& content);
+void add_notes(const std::vector<Repair>& repairs, Content& content);
 
 /// Channels of all clocks of a file, with its events.
 [[nodiscard]] Content read_channels(const std::filesystem::path& path);

@@ -1,7 +1,7 @@
 // C3D: any bytes are a file or a ReadError; what was read can be used, and written and read again.
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/c3d/c3d_signals.h"
-#include "myoid/c3d/c3d_writer.h"
+#include "myoid/recording/c3d/c3d_reader.h"
+#include "myoid/recording/c3d/c3d_signals.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/force_plate.h"
 
 #include "fuzz.h"
@@ -13,7 +13,7 @@ namespace rec = myoid::recording;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   myoid::fuzz::read([&] {
     const rec::C3dFile file = rec::parse_c3d(myoid::fuzz::bytes(data, size), "fuzz.c3d");
-    std::vector<rec::Repair> repairs;
+    std::vector<myoid::Repair> repairs;
     static_cast<void>(rec::force_plates(file, repairs));
     try {
       static_cast<void>(rec::c3d_markers(file, repairs));

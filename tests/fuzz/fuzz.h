@@ -12,7 +12,7 @@
 
 #include <unistd.h>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 namespace myoid::fuzz {
 

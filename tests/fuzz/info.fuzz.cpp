@@ -1,10 +1,10 @@
 // The description of a file of any kind, as `myoid info` prints it, in text and in JSON. The first
 // byte chooses the ending of the file's name.
-#include "myoid/contents/contents_text.h"
-#include "myoid/contents/model_contents.h"
-#include "myoid/contents/recording_contents.h"
-#include "myoid/core/json_text.h"
-#include "myoid/osim/osim_reader.h"
+#include "myoid/body/osim/osim_reader.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/program/contents/contents_text.h"
+#include "myoid/program/contents/model_contents.h"
+#include "myoid/program/contents/recording_contents.h"
 
 #include "fuzz.h"
 #include "info_kinds.h"
@@ -17,9 +17,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto path = fuzz::folder() / name;
   fuzz::write(name, fuzz::text(data + 1, size - 1));
   try {
-    auto contents = myoid::recording_contents(path);
-    if (!contents) contents = myoid::model_contents(myoid::model::read_osim(path));
-    fuzz::require(!myoid::contents_text(*contents).empty());
+    auto contents = myoid::program::recording_contents(path);
+    if (!contents) contents = myoid::program::model_contents(myoid::body::read_osim(path));
+    fuzz::require(!myoid::program::contents_text(*contents).empty());
     fuzz::require(!myoid::json_text(*contents).empty());
   } catch (const myoid::ReadError&) {
   } catch (const myoid::ModelError&) {

@@ -5,15 +5,16 @@
 
 #include <fmt/format.h>
 
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/files/byte_source.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/byte_source.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 
 #include "info_kinds.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using namespace myoid;
 using namespace myoid::recording;
 
 C3dFile small_c3d() {

@@ -1,6 +1,6 @@
 // Set-up files of OpenSim's tools, run on a pendulum with three frames: results, or an error that is the file's. The
 // second part of the input is a task, marker or measurement set that it may name.
-#include "myoid/opensim_tools/run_tool.h"
+#include "myoid/opensim/run_tool.h"
 
 #include "fuzz.h"
 
@@ -47,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(ready);
   fuzz::write_parts(fuzz::text(data, size), {"setup.xml", "set.xml"});
   try {
-    static_cast<void>(myoid::run_tool(fuzz::folder() / "setup.xml", {.claim = claim}));
+    static_cast<void>(myoid::opensim::run_tool(fuzz::folder() / "setup.xml", {.claim = claim}));
   } catch (const myoid::ReadError&) {
   } catch (const myoid::InvalidInput&) {
   } catch (const myoid::ModelError&) {

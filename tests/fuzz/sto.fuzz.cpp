@@ -1,4 +1,4 @@
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "fuzz.h"
 

@@ -1,4 +1,4 @@
-#include "myoid/tables/trc_reader.h"
+#include "myoid/recording/tables/trc_reader.h"
 
 #include "fuzz.h"
 

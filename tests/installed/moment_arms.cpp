@@ -3,15 +3,15 @@
 #include <cmath>
 #include <cstdio>
 
-#include "myoid/commands/paths.h"
-#include "myoid/core/provenance.h"
+#include "myoid/ground/core/provenance.h"
+#include "myoid/program/commands/paths.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  myoid::commands::PathsOptions options;
+  myoid::program::PathsOptions options;
   options.model = "arm4";
   options.motion = argv[1];
-  const myoid::commands::PathsResult result = myoid::commands::paths(options);
+  const myoid::program::PathsResult result = myoid::program::paths(options);
   const auto& arm = result.muscles.moment_arm.at("elbow_flexion").values();
   const auto& rate = result.muscles.velocity.values();
   const double speed = 0.5;  // [rad/s], of the file

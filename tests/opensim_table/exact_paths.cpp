@@ -22,10 +22,10 @@
 
 #include <fmt/format.h>
 
-#include "myoid/math/random.h"
-#include "myoid/model/muscle_path.h"
-#include "myoid/model/path_survey.h"
-#include "myoid/osim/osim_reader.h"
+#include "myoid/body/model/muscle_path.h"
+#include "myoid/body/model/path_survey.h"
+#include "myoid/body/osim/osim_reader.h"
+#include "myoid/ground/math/random.h"
 
 #include "tests/support/places.h"
 
@@ -90,25 +90,25 @@ void judge(const std::string& muscle, const Line& line, double h, const auto& ag
   worst = std::max(worst, error);
 }
 
-Row survey(const model::BodyModel& m, int postures) {
+Row survey(const body::BodyModel& m, int postures) {
   const double h = 1e-6;
   Row row;
-  model::BodyState state = model::make_state(m);
-  model::PathWorkspace workspace;
-  model::PathResult path;
+  body::BodyState state = body::make_state(m);
+  body::PathWorkspace workspace;
+  body::PathResult path;
   std::vector<Line> lines(m.muscles.size());
   const auto nq = static_cast<Eigen::Index>(m.coordinates.size());
   for (int k = 0; k < postures; ++k) {
-    const Eigen::VectorXd q = model::random_posture(m, 7, static_cast<std::uint64_t>(k));
+    const Eigen::VectorXd q = body::random_posture(m, 7, static_cast<std::uint64_t>(k));
     math::Random random(8, static_cast<std::uint64_t>(k));
     Eigen::VectorXd d(nq);
     for (double& x : d) x = 2.0 * random.uniform() - 1.0;
     d.normalize();
     for (int s = -2; s <= 2; ++s) {
-      model::compute_poses(m, q + s * h * d, state);
-      model::compute_velocities(m, d, state);
+      body::compute_poses(m, q + s * h * d, state);
+      body::compute_velocities(m, d, state);
       for (std::size_t i = 0; i < lines.size(); ++i) {
-        model::compute_path(m, m.muscles[i].path, state, workspace, path);
+        body::compute_path(m, m.muscles[i].path, state, workspace, path);
         lines[i].length_m[s + 2] = path.length_m;
         lines[i].settled = path.settled && (s == -2 || lines[i].settled);
         if (s == 0) {
@@ -121,8 +121,8 @@ Row survey(const model::BodyModel& m, int postures) {
       const auto again = [&](double step) {
         Line line{.arm_m = lines[i].arm_m};
         for (int s = -2; s <= 2; ++s) {
-          model::compute_poses(m, q + s * step * d, state);
-          model::compute_path(m, m.muscles[i].path, state, workspace, path);
+          body::compute_poses(m, q + s * step * d, state);
+          body::compute_path(m, m.muscles[i].path, state, workspace, path);
           line.length_m[s + 2] = path.length_m;
         }
         return line;
@@ -141,16 +141,16 @@ struct OnLine {
 
 /// Straight lines between random postures: does any length step where its moment arms do not say
 /// so? A suspect step is halved, the worse half followed, until it is 1e-9 of the line.
-void follow_lines(const model::BodyModel& m, int count, Row& row) {
+void follow_lines(const body::BodyModel& m, int count, Row& row) {
   constexpr int kSteps = 100;
-  model::BodyState state = model::make_state(m);
-  model::PathWorkspace workspace;
-  model::PathResult path;
+  body::BodyState state = body::make_state(m);
+  body::PathWorkspace workspace;
+  body::PathResult path;
   for (int k = 0; k < count; ++k) {
-    const Eigen::VectorXd from = model::random_posture(m, 9, static_cast<std::uint64_t>(k));
-    const Eigen::VectorXd along = model::random_posture(m, 10, static_cast<std::uint64_t>(k)) - from;
+    const Eigen::VectorXd from = body::random_posture(m, 9, static_cast<std::uint64_t>(k));
+    const Eigen::VectorXd along = body::random_posture(m, 10, static_cast<std::uint64_t>(k)) - from;
     const auto at = [&](std::size_t muscle) {
-      model::compute_path(m, m.muscles[muscle].path, state, workspace, path);
+      body::compute_path(m, m.muscles[muscle].path, state, workspace, path);
       return OnLine{path.length_m, path.moment_arm_m.dot(along), path.settled};
     };
     const auto defect = [](const OnLine& a, const OnLine& b, double step) {
@@ -160,14 +160,14 @@ void follow_lines(const model::BodyModel& m, int count, Row& row) {
     for (int i = 0; i <= kSteps; ++i) {
       for (std::size_t muscle = 0; muscle < m.muscles.size(); ++muscle) {
         double low = (i - 1.0) / kSteps, high = static_cast<double>(i) / kSteps;
-        model::compute_poses(m, from + high * along, state);
+        body::compute_poses(m, from + high * along, state);
         const OnLine now = at(muscle);
         OnLine a = before[muscle], b = now;
         before[muscle] = now;
         if (i == 0 || defect(a, b, high - low) < 1e-5) continue;
         while (high - low > 1e-9) {
           const double middle = 0.5 * (low + high);
-          model::compute_poses(m, from + middle * along, state);
+          body::compute_poses(m, from + middle * along, state);
           const OnLine c = at(muscle);
           if (defect(a, c, middle - low) > defect(c, b, high - middle)) {
             b = c;
@@ -231,7 +231,7 @@ int main(int argc, char** argv) {
   for (const auto& file : files) {
     const std::string name = (file.parent_path().filename() / file.filename()).string();
     try {
-      const model::BodyModel m = model::read_osim(file);
+      const body::BodyModel m = body::read_osim(file);
       Row row = survey(m, postures);
       follow_lines(m, postures / 50, row);
       fmt::print(

@@ -19,15 +19,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/index.h"
-#include "myoid/model/kinematic_tree.h"
-#include "myoid/opensim_tools/opensim_files.h"
-#include "myoid/opensim_tools/run_tool.h"
-#include "myoid/opensim_tools/tool_stages.h"
-#include "myoid/osim/osim_reader.h"
-#include "myoid/osim/osim_writer.h"
+#include "myoid/body/model/kinematic_tree.h"
+#include "myoid/body/osim/osim_reader.h"
+#include "myoid/body/osim/osim_writer.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/opensim/opensim_files.h"
+#include "myoid/opensim/run_tool.h"
+#include "myoid/opensim/tool_stages.h"
 #include "myoid/recording/recording.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "scaled_model.h"
 #include "shared_frames.h"
@@ -42,21 +42,20 @@ namespace fs = std::filesystem;
 
 /// J of inverse kinematics at the postures of a motion, frame by frame.
 Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {
-  const OpensimSetup setup(setup_file);
+  const opensim::OpensimSetup setup(setup_file);
   std::vector<std::string> notes;
-  const model::BodyModel model = setup_model(setup, model::kOpenSim452, {}, notes);
-  const recording::MarkerSeries markers =
-      recording::read_markers(setup.required_file(setup.tool(), "marker_file")).markers;
-  const TimeSeries q = read_coordinates(model, motion, MissingCoordinate::default_value, notes);
-  const kinematics::IkOptions ik = read_ik_tasks(setup, setup.tool(), model, markers, notes);
-  model::BodyState state = model::make_state(model);
+  const body::BodyModel model = opensim::setup_model(setup, body::kOpenSim452, {}, notes);
+  const MarkerSeries markers = recording::read_markers(setup.required_file(setup.tool(), "marker_file")).markers;
+  const TimeSeries q = opensim::read_coordinates(model, motion, opensim::MissingCoordinate::default_value, notes);
+  const body::IkOptions ik = opensim::read_ik_tasks(setup, setup.tool(), model, markers, notes);
+  body::BodyState state = body::make_state(model);
   Eigen::VectorXd result(q.sample_count());
   for (Eigen::Index i = 0; i < q.sample_count(); ++i) {
-    model::compute_poses(model, q.values().row(i).transpose(), state);
+    body::compute_poses(model, q.values().row(i).transpose(), state);
     Eigen::Index frame = 0;
     (markers.time_s.array() - q.time_s()[i]).abs().minCoeff(&frame);
     double sum = 0.0, weights = 0.0;
-    for (const model::Marker& marker : model.markers) {
+    for (const body::Marker& marker : model.markers) {
       const auto it = std::find(markers.names.begin(), markers.names.end(), marker.name);
       const auto weight = ik.marker_weights.find(marker.name);
       if (it == markers.names.end() || (weight == ik.marker_weights.end() && ik.only_named_markers)) continue;
@@ -68,7 +67,7 @@ Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {
       weights += w;
     }
     result[i] = weights > 0.0 ? 0.5 * sum / weights : 0.0;
-    for (const kinematics::CoordinateTask& task : ik.tasks) {
+    for (const body::CoordinateTask& task : ik.tasks) {
       const double off = q.column(task.coordinate)[i] - (task.values.size() > 0 ? task.values[frame] : task.value);
       result[i] += 0.5 * task.weight * off * off;
     }
@@ -143,10 +142,10 @@ void compare_file(const fs::path& file, const fs::path& theirs, bool dynamics, c
   const TimeSeries reference = recording::read_storage(theirs).data;
   const std::string name = file.filename().string();
   if (name.ends_with("_Outputs.sto")) {
-    rows.add(code(theirs) + " lengths", compare(ending(ours, "|length"), reference, 0, last_part), "m");
-    rows.add(code(theirs) + " speeds", compare(ending(ours, "|lengthening_speed"), reference, 0, last_part), "m/s");
+    rows.add(code(theirs) + " lengths", compare(ending(ours, "|length"), reference, 0, in_force_set), "m");
+    rows.add(code(theirs) + " speeds", compare(ending(ours, "|lengthening_speed"), reference, 0, in_force_set), "m/s");
   } else if (name.ends_with("_OutputsVec3.sto")) {
-    rows.add(code(theirs) + " places", compare(ours, reference, 0, last_part), "m");
+    rows.add(code(theirs) + " places", compare(ours, reference, 0, in_force_set), "m");
   } else {
     const Eigen::Index skip = dynamics ? std::min<Eigen::Index>(10, ours.sample_count() / 4) : 0;
     rows.add(code(theirs), compare(ours, reference, skip, same), dynamics ? "N m, N" : "");
@@ -157,8 +156,8 @@ void compare_file(const fs::path& file, const fs::path& theirs, bool dynamics, c
 void compare_scaled(const fs::path& ours, const fs::path& theirs, const Rows& rows) {
   if (!fs::exists(theirs)) return;
   if (ours.extension() == ".osim") {
-    const model::OsimOptions as{.compat = model::kOpenSim452};
-    for (const ModelDifference& d : compare_models(model::read_osim(ours, as), model::read_osim(theirs, as))) {
+    const body::OsimOptions as{.compat = body::kOpenSim452};
+    for (const ModelDifference& d : compare_models(body::read_osim(ours, as), body::read_osim(theirs, as))) {
       rows.add(code(theirs) + " " + d.property, fmt::format("{:.1e} ({})", d.error, d.where),
                fmt::format("{:.1e}", d.relative));
     }
@@ -174,10 +173,10 @@ void compare_scaled(const fs::path& ours, const fs::path& theirs, const Rows& ro
 
 void run_setup(const fs::path& setup, const fs::path& reference, const Options& options) {
   const Rows rows{setup.stem().string(), options.columns};
-  ToolResult result;
+  opensim::ToolResult result;
   SharedFrames shared;
   try {
-    result = run_tool(setup, {.inspect = shared.keep()});
+    result = opensim::run_tool(setup, {.inspect = shared.keep()});
   } catch (const std::exception& error) {
     rows.add(fmt::format("FAILED: {}", error.what()), "", "");
     return;
@@ -223,15 +222,15 @@ void compare_rewritten(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   try {
-    std::vector<model::OsimChange> changes;
-    for (const model::Muscle& muscle : model::parse_osim(text, file).muscles) {
-      const model::MuscleProperties& p = muscle.properties;
+    std::vector<body::OsimChange> changes;
+    for (const body::Muscle& muscle : body::parse_osim(text, file).muscles) {
+      const body::MuscleProperties& p = muscle.properties;
       changes.push_back({"ForceSet", muscle.name, "max_isometric_force", {p.max_isometric_force_n}});
       changes.push_back({"ForceSet", muscle.name, "optimal_fiber_length", {p.optimal_fiber_length_m}});
       changes.push_back({"ForceSet", muscle.name, "tendon_slack_length", {p.tendon_slack_length_m}});
     }
-    const std::string written = model::changed_osim(text, file, changes);
-    const model::BodyModel again = model::parse_osim(written, file);
+    const std::string written = body::changed_osim(text, file, changes);
+    const body::BodyModel again = body::parse_osim(written, file);
     rows.add("read, written, read again", written == text ? "0 bytes differ" : "BYTES DIFFER",
              again.unsupported.empty() ? "" : fmt::format("{}", fmt::join(again.unsupported, "; ")));
   } catch (const std::exception& error) {

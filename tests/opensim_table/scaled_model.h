@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/model/body_model.h"
+#include "myoid/body/model/body_model.h"
 
 /// The greatest difference of one property over all parts of two models.
 struct ModelDifference {
@@ -15,4 +15,4 @@ struct ModelDifference {
 
 /// Two models of the same parts, property by property. Joints are compared by where the bodies are
 /// in 50 postures within the ranges, paths by their points, wrap objects and lengths in these.
-std::vector<ModelDifference> compare_models(const myoid::model::BodyModel& ours, const myoid::model::BodyModel& theirs);
+std::vector<ModelDifference> compare_models(const myoid::body::BodyModel& ours, const myoid::body::BodyModel& theirs);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 namespace myoid::opensim_table {
 

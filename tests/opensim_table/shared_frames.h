@@ -5,8 +5,8 @@
 #include <mutex>
 #include <utility>
 
-#include "myoid/forces/actuator_sharing.h"
-#include "myoid/forces/static_optimization.h"
+#include "myoid/body/forces/actuator_sharing.h"
+#include "myoid/body/forces/static_optimization.h"
 
 #include "table_rows.h"
 
@@ -14,10 +14,10 @@ namespace myoid::opensim_table {
 
 /// Every frame of a static optimization as it was solved here.
 struct SharedFrames {
-  std::map<Eigen::Index, std::pair<forces::ActuatorProblem, forces::ActuatorSolution>> frames;
+  std::map<Eigen::Index, std::pair<body::ActuatorProblem, body::ActuatorSolution>> frames;
   std::mutex mutex;
-  forces::InspectFrame keep() {
-    return [this](Eigen::Index i, const forces::ActuatorProblem& p, const forces::ActuatorSolution& s) {
+  body::InspectFrame keep() {
+    return [this](Eigen::Index i, const body::ActuatorProblem& p, const body::ActuatorSolution& s) {
       const std::lock_guard lock(mutex);
       frames.insert_or_assign(i, std::pair(p, s));
     };

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/time_series.h"
+#include "myoid/ground/core/time_series.h"
 
 namespace myoid::opensim_table {
 
@@ -47,7 +47,7 @@ inline Worst compare(const TimeSeries& ours, const TimeSeries& theirs, Eigen::In
 inline std::string same(const std::string& name) { return name; }
 
 /// "muscle|quantity" of a path in the model's force set.
-inline std::string last_part(std::string name) {
+inline std::string in_force_set(std::string name) {
   if (name.starts_with("/forceset/")) {
     const auto bar = name.rfind('|');
     std::string owner = name.substr(10, name.find('/', 10) - 10);

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/files/quoted_text.h"
+#include "myoid/ground/files/quoted_text.h"
 
 #include "browser.h"
 #include "program.h"
@@ -35,7 +35,7 @@ TEST(Demo, AnswersInAtMost25LinesAndItsIntervalsHoldTheTruth) {
   EXPECT_LE(std::filesystem::file_size(page), 3'000'000U);
   if (myoid::test::there_is("chromium")) {
     myoid::test::Browser browser(1280, 900);
-    browser.open("file://" + myoid::recording::url_path(page.string()));
+    browser.open("file://" + myoid::url_path(page.string()));
     const std::string paper = browser.pdf();
     const std::regex sheet(R"(/Type\s*/Page\b)");
     EXPECT_LE(std::distance(std::sregex_iterator(paper.begin(), paper.end(), sheet), std::sregex_iterator()), 12);

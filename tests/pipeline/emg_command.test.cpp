@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/math/butterworth.h"
-#include "myoid/math/zero_phase.h"
+#include "myoid/ground/math/butterworth.h"
+#include "myoid/ground/math/zero_phase.h"
 
 #include "program.h"
 #include "tests/support/temporary_folder.h"

@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/c3d/c3d_writer.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/c3d/c3d_writer.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "program.h"
 #include "tests/support/plate_recording.h"

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/tables/storage_reader.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "tests/pipeline/program.h"
 #include "tests/support/temporary_folder.h"

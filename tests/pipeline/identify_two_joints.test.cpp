@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/tables/csv_reader.h"
+#include "myoid/recording/tables/csv_reader.h"
 
 #include "program.h"
 #include "tests/support/temporary_folder.h"

@@ -11,16 +11,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/files/quoted_text.h"
-#include "myoid/files/result_names.h"
-#include "myoid/files/utf8.h"
+#include "myoid/ground/files/quoted_text.h"
+#include "myoid/ground/files/result_names.h"
+#include "myoid/ground/files/utf8.h"
 
 #include "program.h"
 
 namespace {
 
-using myoid::recording::csv_quoted;
-using myoid::recording::toml_text;
+using myoid::csv_quoted;
+using myoid::toml_text;
 using myoid::test::Finished;
 using myoid::test::myoid;
 using myoid::test::read_rows;
@@ -108,8 +108,8 @@ bool ran(int code) { return code == 0 || code == 4 || code == 5; }
 void expect_steady_terminal(const Finished& finished) {
   for (const std::string& text : {finished.out, finished.err}) {
     for (std::size_t i = 0; i < text.size();) {
-      const auto point = ::myoid::recording::code_point_at(text, i);
-      ASSERT_TRUE(point.valid && (!::myoid::recording::is_control(point.value) || text[i] == '\n' || text[i] == '\t'));
+      const auto point = ::myoid::code_point_at(text, i);
+      ASSERT_TRUE(point.valid && (!::myoid::is_control(point.value) || text[i] == '\n' || text[i] == '\t'));
       i += point.bytes;
     }
   }
@@ -119,7 +119,7 @@ void expect_steady_terminal(const Finished& finished) {
 void expect_results(const fs::path& results, const std::array<std::string, 4>& names) {
   const json run = json::parse(read_text(results / "run.json"));
   std::set<std::string> known{"model_identified.osim"};
-  for (const std::string_view name : ::myoid::recording::result_names()) known.emplace(name);
+  for (const std::string_view name : ::myoid::result_names()) known.emplace(name);
   std::vector<std::string> found;
   for (const json& trial : run.at("trials")) {
     found.push_back(trial.at("name"));

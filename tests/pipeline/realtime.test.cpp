@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/identification/parameter_fields.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/fit/measurement/parameter_fields.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "program.h"
 #include "tests/support/temporary_folder.h"
@@ -86,7 +86,7 @@ class Realtime : public testing::TestWithParam<std::string> {
     for (auto& method : json.at("methods")) {
       for (auto& row : method.at("estimates")) {
         if (!row.at("ci_low").is_number() || row.at("parameter").get<std::string>().starts_with("voluntary_")) continue;
-        const auto& field = myoid::identification::parameter_field(row.at("parameter").get<std::string>());
+        const auto& field = myoid::fit::parameter_field(row.at("parameter").get<std::string>());
         const double factor = field.name == "max_isometric_force" ? 1.1 : 1.0, value = row.at("estimate");
         const double low = row.at("ci_low"), high = row.at("ci_high");
         const double quarter = 0.25 * (field.logarithmic ? std::log(high / low) : high - low);

@@ -1,4 +1,4 @@
-// The modules of the viewer by their own tests (myoid/report/viewer/*.test.js), in a browser.
+// The modules of the viewer by their own tests (myoid/page/viewer/*.test.js), in a browser.
 #include <algorithm>
 #include <cstdlib>
 
@@ -21,7 +21,7 @@ TEST(ViewerModules, PassTheirOwnTests) {
   const std::string three = MYOID_THREE;
   if (!there_is("chromium") || !there_is("esbuild") || !fs::exists(three))
     GTEST_SKIP() << "needs the packages chromium, esbuild and libjs-three";
-  const fs::path viewer = fs::path(myoid::test::source_dir()) / "myoid/report/viewer";
+  const fs::path viewer = fs::path(myoid::test::source_dir()) / "myoid/page/viewer";
   std::vector<std::string> modules;
   for (const fs::directory_entry& file : fs::directory_iterator(viewer))
     if (file.path().string().ends_with(".test.js")) modules.push_back(file.path());

@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/files/atomic_file.h"
-#include "myoid/identification/muscle_law.h"
-#include "myoid/math/random.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/fit/measurement/muscle_law.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/math/random.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "browser.h"
 #include "program.h"
@@ -35,13 +35,12 @@ class WorkbenchPage : public testing::Test {
     const auto twin =
         myoid({"twin", "--model", "arm4", "--protocol", protocol, "--seed", "3", "--out", *folder_ / "rec"});
     ASSERT_EQ(twin.exit_code, 0) << twin.err;
-    myoid::recording::write_file(*folder_ / "rec/norm.csv",
-                                 "percent,elbow_flexion_mean,elbow_flexion_sd\n"
-                                 "0,20,5\n50,100,10\n100,40,8\n");
+    myoid::write_file(*folder_ / "rec/norm.csv",
+                      "percent,elbow_flexion_mean,elbow_flexion_sd\n"
+                      "0,20,5\n50,100,10\n100,40,8\n");
     const std::string study = ::myoid::test::read_text(*folder_ / "rec/study.toml");
-    myoid::recording::write_file(
-        *folder_ / "rec/study.toml",
-        study + "\n[[norm]]\nname = \"adults, N = 24\"\nfile = \"norm.csv\"\ntrials = [\"ramp\"]\n");
+    myoid::write_file(*folder_ / "rec/study.toml",
+                      study + "\n[[norm]]\nname = \"adults, N = 24\"\nfile = \"norm.csv\"\ntrials = [\"ramp\"]\n");
     const auto run = myoid({"run", *folder_ / "rec/study.toml", "--out", *folder_ / "result"});
     ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
     const std::string text = ::myoid::test::read_text(*folder_ / "result/report.html");
@@ -339,33 +338,33 @@ TEST_F(WorkbenchPage, SavesAFilmOfTheBodyThatPlays) {
 }
 
 TEST_F(WorkbenchPage, TheLawOfThePageIsTheProgramsLaw) {
-  namespace id = myoid::identification;
+  namespace fit = myoid::fit;
   myoid::math::Random random(5);
   json cases = json::array();
   std::vector<double> expected;
   for (int k = 0; k < 400; ++k) {
     const auto uniform = [&](double a, double b) { return a + (b - a) * random.uniform(); };
-    id::MuscleValues p{};
-    p[id::kMaxForce] = uniform(100.0, 2000.0);
-    p[id::kFiberLength] = uniform(0.05, 0.2);
-    p[id::kWidth] = uniform(0.3, 0.7) * p[id::kFiberLength];
-    p[id::kCurvature] = uniform(0.1, 0.5);
-    p[id::kProduct] = uniform(0.02, 0.1);
-    p[id::kPlateau] = uniform(1.1, 1.8);
-    p[id::kSpeed] = 10.0 * p[id::kFiberLength];
-    p[id::kSlack] = uniform(0.05, 0.3);
-    p[id::kPennation] = k % 2 == 0 ? 0.0 : uniform(0.0, 0.5);
-    p[id::kPassiveForce] = k % 3 == 0 ? 0.0 : uniform(0.1, 1.0);
-    p[id::kPassiveStrain] = uniform(0.4, 0.8);
-    p[id::kPassiveShape] = uniform(2.0, 5.0);
-    p[id::kLengthActivation] = k % 5 == 0 ? 0.0 : uniform(0.0, 0.2);
-    p[id::kTendonStrain] = k % 4 == 0 ? 0.0 : uniform(0.02, 0.08);
-    p[id::kShare] = uniform(0.5, 1.0);
+    fit::MuscleValues p{};
+    p[fit::kMaxForce] = uniform(100.0, 2000.0);
+    p[fit::kFiberLength] = uniform(0.05, 0.2);
+    p[fit::kWidth] = uniform(0.3, 0.7) * p[fit::kFiberLength];
+    p[fit::kCurvature] = uniform(0.1, 0.5);
+    p[fit::kProduct] = uniform(0.02, 0.1);
+    p[fit::kPlateau] = uniform(1.1, 1.8);
+    p[fit::kSpeed] = 10.0 * p[fit::kFiberLength];
+    p[fit::kSlack] = uniform(0.05, 0.3);
+    p[fit::kPennation] = k % 2 == 0 ? 0.0 : uniform(0.0, 0.5);
+    p[fit::kPassiveForce] = k % 3 == 0 ? 0.0 : uniform(0.1, 1.0);
+    p[fit::kPassiveStrain] = uniform(0.4, 0.8);
+    p[fit::kPassiveShape] = uniform(2.0, 5.0);
+    p[fit::kLengthActivation] = k % 5 == 0 ? 0.0 : uniform(0.0, 0.2);
+    p[fit::kTendonStrain] = k % 4 == 0 ? 0.0 : uniform(0.02, 0.08);
+    p[fit::kShare] = uniform(0.5, 1.0);
     const double a = uniform(0.0, 1.0);
-    const double length = p[id::kSlack] + uniform(0.4, 1.6) * p[id::kFiberLength];
-    const double velocity = uniform(-1.1, 1.1) * p[id::kSpeed];
+    const double length = p[fit::kSlack] + uniform(0.4, 1.6) * p[fit::kFiberLength];
+    const double velocity = uniform(-1.1, 1.1) * p[fit::kSpeed];
     cases.push_back({a, length, velocity, p});
-    expected.push_back(id::tension(a, length, velocity, p).force_n);
+    expected.push_back(fit::tension(a, length, velocity, p).force_n);
   }
   const json found = js(cases.dump() + ".map(([a, l, v, p]) => myoid.tension(a, l, v, p))");
   // Round-off, relative to F_max: sums of a few terms, and the tendon's root to 1e-16 of its
@@ -419,9 +418,9 @@ std::string share_inside(int path,
 }
 
 TEST_F(WorkbenchPage, ThePosteriorsContoursHoldTheirSharesOfItsDraws) {
-  myoid::recording::write_file(*folder_ / "two.toml",
-                               "level = \"L1\"\n[[trial]]\nname = \"mvc\"\nkind = \"mvc\"\ndirection = \"both\"\n"
-                               "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n");
+  myoid::write_file(*folder_ / "two.toml",
+                    "level = \"L1\"\n[[trial]]\nname = \"mvc\"\nkind = \"mvc\"\ndirection = \"both\"\n"
+                    "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n");
   const auto twin = myoid({"twin", "--protocol", *folder_ / "two.toml", "--out", *folder_ / "two"});
   ASSERT_EQ(twin.exit_code, 0) << twin.err;
   const std::string out = *folder_ / "posterior";
@@ -465,7 +464,7 @@ std::string recorded_film(Browser& browser) {
 
 TEST_F(WorkbenchPage, AFilmFollowsTheTimeOfTheBody) {
   const std::string film = *folder_ / "rec/swing #1.webm";
-  myoid::recording::write_file(film, recorded_film(*browser_));
+  myoid::write_file(film, recorded_film(*browser_));
   const std::filesystem::path out = *folder_ / "filmed";
   std::filesystem::copy(*folder_ / "result", out, std::filesystem::copy_options::recursive);
   const auto report = myoid({"report", out, "--video", "swing_2kg=" + film, "--video-offset", "1.5"});
@@ -505,7 +504,7 @@ TEST_F(WorkbenchPage, AFilmThatIsMissingIsNamed) {
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("lost.webm"), HasSubstr("'swing_2kg'")));
   // The film goes away after the report is made.
-  myoid::recording::write_file(film, "no film");
+  myoid::write_file(film, "no film");
   ASSERT_EQ(myoid({"report", out, "--video", "swing_2kg=" + film}).exit_code, 0);
   std::filesystem::remove(film);
   Browser browser(960, 720);  // its console names the file that it did not find

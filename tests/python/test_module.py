@@ -65,7 +65,7 @@ def test_the_version_is_the_program_s():
 
 
 def test_debian_s_list_of_symbols_has_every_function_of_the_c_interface():
-    header = (SOURCE / "myoid/realtime/c_interface.h").read_text()
+    header = (SOURCE / "myoid/results/realtime/c_interface.h").read_text()
     symbols = (SOURCE / "debian/libmyoid0.symbols").read_text()
     declared = set(re.findall(r"\b(myoid_\w+)\(", header))
     assert len(declared) > 10 and set(re.findall(r"^ (\w+)@Base", symbols, re.MULTILINE)) == declared

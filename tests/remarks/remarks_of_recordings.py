@@ -26,8 +26,8 @@ STUDIES = ("elbow_emg/study.toml", "elbow_emg/study_landmarks.toml", "box_lift/s
 
 
 def codes(source):
-    """The codes of core/remark.cpp, in order."""
-    text = (source / "myoid" / "core" / "remark.cpp").read_text(encoding="utf-8")
+    """The codes of ground/core/remark.cpp, in order."""
+    text = (source / "myoid" / "ground" / "core" / "remark.cpp").read_text(encoding="utf-8")
     return re.findall(r'"([a-z_]+)"', text[text.index("kNames = {") : text.index("static_assert")])
 
 

@@ -7,12 +7,12 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "myoid/model/kinematic_tree.h"
-#include "myoid/osim/osim_reader.h"
+#include "myoid/body/model/kinematic_tree.h"
+#include "myoid/body/osim/osim_reader.h"
 
 #include "tests/support/data_folder.h"
 
-namespace myoid::model {
+namespace myoid::body {
 namespace {
 
 namespace oracle = simbody_oracle;
@@ -207,4 +207,4 @@ TEST(Simbody, AgreesOnAnArmAsItsFileDescribesIt) {
 }
 
 }  // namespace
-}  // namespace myoid::model
+}  // namespace myoid::body

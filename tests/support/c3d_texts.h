@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/c3d/c3d_file.h"
+#include "myoid/recording/c3d/c3d_file.h"
 
 namespace myoid::test {
 

@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "myoid/model/body_model.h"
+#include "myoid/body/model/body_model.h"
 
 namespace myoid::test {
 
@@ -23,8 +23,8 @@ class Uniform {
 /// coordinate that drives a rotation and two translations. With `shared`, joints' rotations share a
 /// coordinate: one and three, two and three, one and two, all three. With `bent`, the second joint
 /// is at the end of a rod that bends by up to 1.5 rad, the third on an ellipsoid.
-inline model::BodyModel crooked_tree(std::uint64_t seed, bool shared = false, bool bent = false) {
-  using namespace model;
+inline body::BodyModel crooked_tree(std::uint64_t seed, bool shared = false, bool bent = false) {
+  using namespace body;
   Uniform u(seed);
   BodyModel m;
   m.bodies.push_back({.name = "ground"});

@@ -1,18 +1,17 @@
 #pragma once
 
-#include "myoid/identification/options.h"
-#include "myoid/posterior/noise_model.h"
+#include "myoid/fit/measurement/options.h"
+#include "myoid/fit/posterior/noise_model.h"
 
 #include "tests/support/elbow_study.h"
 
 namespace myoid::test {
 
 /// Sizes of the errors of two trials, each with its own share of the torque's error.
-inline const identification::NoiseValues kNoise =
-    (identification::NoiseValues(10) << -0.9, -1.4, 0.1, -3.0, -0.3, 0.2, -0.6, 0.1, 0.3, -0.4).finished();
-inline const identification::NoiseValues kNoiseOfLeg =
-    (identification::NoiseValues(10) << 1.5, -1.4, 0.1, -3.0, -0.3, 0.2, -0.6, 0.1, -0.2, 0.5)
-        .finished();  // of some 60 N m
+inline const fit::NoiseValues kNoise =
+    (fit::NoiseValues(10) << -0.9, -1.4, 0.1, -3.0, -0.3, 0.2, -0.6, 0.1, 0.3, -0.4).finished();
+inline const fit::NoiseValues kNoiseOfLeg =
+    (fit::NoiseValues(10) << 1.5, -1.4, 0.1, -3.0, -0.3, 0.2, -0.6, 0.1, -0.2, 0.5).finished();  // of some 60 N m
 
 /// Two muscles on one electrode, exponent, gain, offset and an elastic law of length free.
 inline ElbowStudy crowded_study() {
@@ -26,8 +25,8 @@ inline ElbowStudy crowded_study() {
   return study;
 }
 
-inline identification::EstimatorOptions crowded_options() {
-  identification::EstimatorOptions options;
+inline fit::EstimatorOptions crowded_options() {
+  fit::EstimatorOptions options;
   options.angle_sd_rad = 0.01;
   for (const char* channel : {"BIC", "BRD", "TRI"}) {
     options.state(channel).gain_sd = 0.1;

@@ -9,20 +9,20 @@
 
 #include <Eigen/Core>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/arm/planar_elbow.h"
-#include "myoid/beliefs/beliefs.h"
-#include "myoid/core/units.h"
-#include "myoid/identification/study_data.h"
-#include "myoid/math/butterworth.h"
-#include "myoid/math/zero_phase.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/arm/planar_elbow.h"
+#include "myoid/fit/beliefs/beliefs.h"
+#include "myoid/fit/measurement/study_data.h"
+#include "myoid/ground/core/units.h"
+#include "myoid/ground/math/butterworth.h"
+#include "myoid/ground/math/zero_phase.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::test {
 
 /// A made-up study of the built-in arm, of which everything is known.
 struct ElbowStudy {
-  identification::StudyData data;
+  fit::StudyData data;
   std::vector<muscle::HillParameters<double>> truth;
   double delay_s = 0.0;
 };
@@ -43,9 +43,9 @@ struct ElbowStudyOptions {
 };
 
 /// Length and moment arm of a muscle whose moment arm is `scale` times the path's; the length at 1.18 rad stays.
-inline model::MuscleTravel scaled_travel(const model::PlanarMuscle& path, double q, double scale) {
-  model::MuscleTravel travel = model::travel(path, q);
-  const double middle = model::travel(path, 1.18).length_m;
+inline body::MuscleTravel scaled_travel(const body::PlanarMuscle& path, double q, double scale) {
+  body::MuscleTravel travel = body::travel(path, q);
+  const double middle = body::travel(path, 1.18).length_m;
   travel.length_m = middle + scale * (travel.length_m - middle);
   travel.moment_arm_m *= scale;
   return travel;
@@ -74,7 +74,7 @@ inline ElbowStudyOptions noisy_person(std::uint64_t seed) {
 }
 
 /// Moves the EMG of a trial to later times.
-inline void delay_emg(identification::TrialData& trial, double late_s) {
+inline void delay_emg(fit::TrialData& trial, double late_s) {
   const TimeSeries& emg = trial.activation;
   trial.activation = TimeSeries(emg.time_s().array() + late_s, emg.channels(), emg.values());
 }
@@ -85,18 +85,17 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
   ElbowStudy study;
   study.delay_s = o.delay_s;
   StudyNoise noise(o.seed);
-  const model::PlanarElbow elbow = model::planar_elbow();
-  const auto start = model::arm4_muscles();
+  const body::PlanarElbow elbow = body::planar_elbow();
+  const auto start = body::arm4_muscles();
   for (std::size_t k = 0; k < 4; ++k) {
-    identification::MuscleSetup setup;
+    fit::MuscleSetup setup;
     setup.name = std::string(elbow.muscles[k].name);
     setup.emg_channel = setup.name;
     setup.start = start[k];
     muscle::HillParameters<double> truth = start[k];
     for (std::size_t f = 0; f < 6; ++f) {
       const muscle::HillField& field = muscle::kHillFields[f];
-      const auto prior =
-          identification::literature_prior(field.name, start[k].*field.member, start[k].optimal_fiber_length_m);
+      const auto prior = fit::literature_prior(field.name, start[k].*field.member, start[k].optimal_fiber_length_m);
       if (o.with_priors && prior) setup.priors[std::string(field.name)] = *prior;
       double& value = truth.*field.member;
       if (o.truth_from_prior && prior) {
@@ -117,7 +116,7 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
     study.data.muscles.push_back(setup);
   }
   for (int number = 0; number < o.trials; ++number) {
-    identification::TrialData trial;
+    fit::TrialData trial;
     trial.name = "trial" + std::to_string(number + 1);
     const auto n = static_cast<Eigen::Index>(o.seconds * o.rate_hz) + 1;
     trial.time_s = Eigen::VectorXd::LinSpaced(n, 0.0, o.seconds);
@@ -169,11 +168,11 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
       }
       for (std::size_t k = 0; k < 4; ++k) {
         const auto c = static_cast<Eigen::Index>(k);
-        const model::MuscleTravel travel = model::travel(elbow.muscles[k], q);
+        const body::MuscleTravel travel = body::travel(elbow.muscles[k], q);
         trial.length_m(i, c) = travel.length_m;
         trial.moment_arm_m(i, c) = travel.moment_arm_m;
         trial.velocity_mps(i, c) = -travel.moment_arm_m * qdot;
-        const model::MuscleTravel own = scaled_travel(elbow.muscles[k], q, o.true_arm_scale);
+        const body::MuscleTravel own = scaled_travel(elbow.muscles[k], q, o.true_arm_scale);
         trial.force_n(i, c) =
             muscle::hill_force(envelope[k].at(t - o.delay_s), own.length_m - study.truth[k].tendon_slack_length_m,
                                -own.moment_arm_m * qdot, study.truth[k]);
@@ -187,8 +186,8 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
 }
 
 /// That a parameter is to be found, of these owners or of all.
-inline identification::ParameterRule freed(const char* parameter, std::vector<std::string> owners = {}) {
-  identification::ParameterRule rule;
+inline fit::ParameterRule freed(const char* parameter, std::vector<std::string> owners = {}) {
+  fit::ParameterRule rule;
   rule.parameter = parameter;
   rule.owners = std::move(owners);
   rule.free = true;

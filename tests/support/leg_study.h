@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "myoid/core/units.h"
-#include "myoid/identification/study_data.h"
+#include "myoid/fit/measurement/study_data.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/muscle/hill_muscle.h"
 
 #include "tests/support/elbow_study.h"
@@ -51,7 +51,7 @@ inline void add_leg_muscles(ElbowStudy& study) {
   const std::array<double, 4> deviation{0.2, 0.05, 0.1, 0.2};
   for (std::size_t k = 0; k < kLegMuscles.size(); ++k) {
     const LegMuscle& of = kLegMuscles[k];
-    identification::MuscleSetup setup;
+    fit::MuscleSetup setup;
     setup.name = setup.emg_channel = of.name;
     setup.start = {.max_isometric_force_n = of.max_force_n,
                    .optimal_fiber_length_m = of.fiber_length_m,
@@ -61,7 +61,7 @@ inline void add_leg_muscles(ElbowStudy& study) {
                    .eccentric_plateau = 1.4,
                    .max_shortening_speed_mps = 10.0 * of.fiber_length_m,
                    .tendon_slack_length_m = of.slack_m};
-    setup.priors = identification::literature_priors(setup.start);
+    setup.priors = fit::literature_priors(setup.start);
     setup.priors.erase("eccentric_slope_ratio");
     setup.fixed = {"max_shortening_speed", "tendon_slack_length"};
     study.truth.push_back(setup.start);
@@ -96,7 +96,7 @@ void add_leg_force(const ElbowStudy& study,
                    std::size_t k,
                    bool bent,
                    const Envelope& envelope,
-                   identification::TrialData& trial) {
+                   fit::TrialData& trial) {
   const LegMuscle& of = kLegMuscles[k];
   const auto column = static_cast<Eigen::Index>(k);
   const muscle::HillParameters<double>& truth = study.truth[k];
@@ -116,19 +116,16 @@ void add_leg_force(const ElbowStudy& study,
   }
 }
 
-inline identification::TrialData leg_trial(const ElbowStudy& study,
-                                           const LegStudyOptions& o,
-                                           int number,
-                                           StudyNoise& noise) {
+inline fit::TrialData leg_trial(const ElbowStudy& study, const LegStudyOptions& o, int number, StudyNoise& noise) {
   constexpr double kRate_hz = 100.0;
   constexpr auto kMuscles = static_cast<Eigen::Index>(kLegMuscles.size());
-  identification::TrialData trial;
+  fit::TrialData trial;
   trial.name = "trial" + std::to_string(number + 1);
   const auto n = static_cast<Eigen::Index>(o.seconds * kRate_hz) + 1;
   trial.time_s = Eigen::VectorXd::LinSpaced(n, 0.0, o.seconds);
   trial.joint = "ankle";
   trial.more_joints.push_back({.joint = "knee"});
-  identification::JointData& knee = trial.more_joints.front();
+  fit::JointData& knee = trial.more_joints.front();
   for (Eigen::MatrixXd* of :
        {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n, &knee.moment_arm_m})
     of->setZero(n, kMuscles);

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
 
 namespace myoid::test {
 

@@ -6,10 +6,10 @@
 
 #include <Eigen/Geometry>
 
-#include "myoid/core/geometry.h"
-#include "myoid/files/marker_series.h"
-#include "myoid/math/random.h"
-#include "myoid/signals/rigid_segment.h"
+#include "myoid/ground/core/geometry.h"
+#include "myoid/ground/files/marker_series.h"
+#include "myoid/ground/math/random.h"
+#include "myoid/recording/signals/rigid_segment.h"
 
 namespace myoid::test {
 
@@ -23,12 +23,12 @@ inline Eigen::Matrix3Xd forearm_shape() {
 }
 
 /// They move with the forearm, which swings and is carried along, with this much noise.
-inline recording::MarkerSeries moving_markers(Eigen::Index frames = 400,
-                                              double rate_hz = 100.0,
-                                              double noise_m = 0.0005,
-                                              std::uint64_t seed = 1) {
+inline MarkerSeries moving_markers(Eigen::Index frames = 400,
+                                   double rate_hz = 100.0,
+                                   double noise_m = 0.0005,
+                                   std::uint64_t seed = 1) {
   math::Random random(seed);
-  recording::MarkerSeries markers;
+  MarkerSeries markers;
   markers.time_s = Eigen::VectorXd::LinSpaced(frames, 0.0, static_cast<double>(frames - 1) / rate_hz);
   const Eigen::Matrix3Xd local = forearm_shape();
   for (Eigen::Index m = 0; m < local.cols(); ++m) markers.names.emplace_back(1, static_cast<char>('A' + m));
@@ -47,10 +47,10 @@ inline recording::MarkerSeries moving_markers(Eigen::Index frames = 400,
   return markers;
 }
 
-inline void hide(recording::MarkerSeries& markers, Eigen::Index marker, Eigen::Index begin, Eigen::Index end) {
+inline void hide(MarkerSeries& markers, Eigen::Index marker, Eigen::Index begin, Eigen::Index end) {
   markers.positions_m.block(begin, 3 * marker, end - begin, 3).setConstant(std::nan(""));
 }
 
-inline signals::RigidSegment forearm() { return {"forearm", {0, 1, 2, 3, 4}}; }
+inline recording::RigidSegment forearm() { return {"forearm", {0, 1, 2, 3, 4}}; }
 
 }  // namespace myoid::test

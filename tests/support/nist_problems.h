@@ -15,7 +15,7 @@
 #include <Eigen/Core>
 #include <ceres/jet.h>
 
-#include "myoid/math/least_squares.h"
+#include "myoid/ground/math/least_squares.h"
 
 #include "tests/support/places.h"
 

@@ -7,7 +7,7 @@
 
 namespace myoid::test {
 
-/// Reads codes as report/packing.h describes them.
+/// Reads codes as page/packing.h describes them.
 inline std::vector<int> read_codes(const std::string& text, std::size_t columns = 1) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::size_t at = 0;

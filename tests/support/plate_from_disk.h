@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "myoid/c3d/c3d_writer.h"
+#include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/recording.h"
 
 #include "tests/support/plate_recording.h"
@@ -22,7 +22,7 @@ inline recording::Recording from_disk(const PlateCase& plate) { return from_disk
 /// The notes of the reader, a line each.
 inline std::string notes_of(const recording::Recording& recording) {
   std::string all;
-  for (const recording::Repair& repair : recording.repairs) all += repair.message + "\n";
+  for (const Repair& repair : recording.repairs) all += repair.message + "\n";
   return all;
 }
 

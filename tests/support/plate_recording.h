@@ -8,8 +8,8 @@
 
 #include <Eigen/Dense>
 
-#include "myoid/c3d/c3d_file.h"
-#include "myoid/core/geometry.h"
+#include "myoid/ground/core/geometry.h"
+#include "myoid/recording/c3d/c3d_file.h"
 
 namespace myoid::test {
 

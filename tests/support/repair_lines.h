@@ -8,9 +8,9 @@
 namespace myoid::test {
 
 /// "line: message" of every repair, a line each.
-inline std::string repair_lines(const std::vector<recording::Repair>& repairs) {
+inline std::string repair_lines(const std::vector<Repair>& repairs) {
   std::string text;
-  for (const recording::Repair& r : repairs) text += std::to_string(r.line) + ": " + r.message + "\n";
+  for (const Repair& r : repairs) text += std::to_string(r.line) + ": " + r.message + "\n";
   return text;
 }
 

@@ -2,13 +2,13 @@
 
 #include <limits>
 
-#include "myoid/report/scene.h"
+#include "myoid/page/scene.h"
 
 namespace myoid::test {
 
 /// Two bodies, two muscles (one with a line per frame), a marker and a measured one, in two frames.
-inline report::Scene small_scene() {
-  report::Scene scene;
+inline page::Scene small_scene() {
+  page::Scene scene;
   scene.name = "flex <slow>";
   scene.notes = {"A note."};
   scene.bodies = {{.name = "ground"},

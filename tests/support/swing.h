@@ -2,14 +2,14 @@
 
 #include <numbers>
 
-#include "myoid/identification/study_data.h"
+#include "myoid/fit/measurement/study_data.h"
 
 namespace myoid::test {
 
 /// A swing of 1 Hz with the torque of an inertia and a spring, and one of `effort` beside it.
-inline identification::TrialData swing(double effort_nm) {
+inline fit::TrialData swing(double effort_nm) {
   constexpr Eigen::Index kCount = 400;
-  identification::TrialData trial;
+  fit::TrialData trial;
   trial.name = "swing";
   trial.time_s = Eigen::VectorXd::LinSpaced(kCount, 0.0, 8.0);
   const Eigen::ArrayXd phase = 2.0 * std::numbers::pi * trial.time_s.array();

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/arm/arm4.h"
-#include "myoid/model/kinematic_tree.h"
-#include "myoid/opensim_tools/run_tool.h"
-#include "myoid/osim/osim_reader.h"
-#include "myoid/tables/storage_reader.h"
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/model/kinematic_tree.h"
+#include "myoid/body/osim/osim_reader.h"
+#include "myoid/opensim/run_tool.h"
+#include "myoid/recording/tables/storage_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -22,13 +22,13 @@ namespace myoid::test {
 class ToolFolder : public ::testing::Test {
  protected:
   void SetUp() override {
-    arm_ = model::parse_osim(model::arm4_osim(), "arm4.osim");
-    write("arm.osim", model::arm4_osim());
+    arm_ = body::parse_osim(body::arm4_osim(), "arm4.osim");
+    write("arm.osim", body::arm4_osim());
   }
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-  [[nodiscard]] ToolResult run(const std::string& setup) const {
+  [[nodiscard]] opensim::ToolResult run(const std::string& setup) const {
     write("setup.xml", "<OpenSimDocument Version=\"40000\">" + setup + "</OpenSimDocument>");
-    return run_tool(folder_ / "setup.xml");
+    return opensim::run_tool(folder_ / "setup.xml");
   }
   static double elbow(int frame) { return 1.2 + 0.5 * std::sin(0.1 * frame); }
 
@@ -44,13 +44,13 @@ class ToolFolder : public ::testing::Test {
       axes += fmt::format("\tX{0}\tY{0}\tZ{0}", i + 1);
     }
     text += "\n" + axes + "\n\n";
-    model::BodyState state = model::make_state(arm_);
+    body::BodyState state = body::make_state(arm_);
     Eigen::VectorXd q = arm_.default_q();
     for (int frame = 0; frame < frames; ++frame) {
       q[arm_.coordinate_index("elbow_flexion")] = elbow(frame);
-      model::compute_poses(arm_, q, state);
+      body::compute_poses(arm_, q, state);
       text += fmt::format("{}\t{}", frame + 1, 0.01 * frame);
-      for (const model::Marker& marker : arm_.markers) {
+      for (const body::Marker& marker : arm_.markers) {
         const Vec3 p = state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM;
         text += fmt::format("\t{}\t{}\t{}", p[0], p[1], p[2]);
       }
@@ -61,7 +61,7 @@ class ToolFolder : public ::testing::Test {
   /// An actuator of 1 N m on every coordinate.
   [[nodiscard]] std::string reserves() const {
     std::string text;
-    for (const model::Coordinate& c : arm_.coordinates) {
+    for (const body::Coordinate& c : arm_.coordinates) {
       text += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
               "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
     }
@@ -79,7 +79,7 @@ class ToolFolder : public ::testing::Test {
 
   TemporaryFolder temporary_;
   std::filesystem::path folder_ = temporary_.path();
-  model::BodyModel arm_;
+  body::BodyModel arm_;
 };
 
 }  // namespace myoid::test

@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "myoid/c3d/c3d_reader.h"
-#include "myoid/c3d/c3d_signals.h"
-#include "myoid/core/error.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/recording/c3d/c3d_reader.h"
+#include "myoid/recording/c3d/c3d_signals.h"
 
 /// Whole C3D files in memory: the program itself converts the samples part by part.
 namespace myoid::recording {

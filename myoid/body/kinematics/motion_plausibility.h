@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/body/model/body_model.h"
+#include "myoid/ground/core/remark.h"
+#include "myoid/ground/core/stretch.h"
+#include "myoid/ground/core/time_series.h"
+
+namespace myoid::body {
+
+/// Limits of a recorded motion.
+struct MotionLimits {
+  /// Speed of an angle in more than `share` of the time (3,400 deg/s). A pitcher's shoulder turns twice as fast, for
+  /// some hundredths of a second.
+  double fastest_radps = 60.0;
+  double fastest_mps = 50.0;  ///< So of a length.
+  double share = 0.05;
+  double slowest_hz = 5.0;
+  double fastest_hz = 2e4;  ///< No camera and no goniometer is so fast.
+};
+inline constexpr MotionLimits kMotionLimits;
+
+/// Returns "121 samples from 0 to 1000, about one per 8 s: is the time in ms or in frames? ..." for a clock that is too
+/// slow for a movement (kMotionLimits.slowest_hz), else an empty text.
+[[nodiscard]] std::string slow_clock(const Eigen::Ref<const Eigen::VectorXd>& time_s);
+
+/// Finds what no movement does, in channels of rad and m: a clock that is too slow or too fast and speeds that no joint
+/// has (errors: every speed and torque is wrong), and jumps (recording/signals/motion_jumps.h; warnings). Jumps and
+/// speeds count within the stretch.
+[[nodiscard]] std::vector<Remark> implausible_motion(const TimeSeries& motion, const Stretch& within = {-1e300, 1e300});
+
+/// The same of a motion of a model, and a warning that names the coordinates of the model that the motion lacks, but
+/// for locked ones: they rest at their default.
+[[nodiscard]] std::vector<Remark> implausible_motion(const body::BodyModel& model,
+                                                     const TimeSeries& motion,
+                                                     const Stretch& within = {-1e300, 1e300});
+
+}  // namespace myoid::body

@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/body/osim/osim_parts.h"
+
+namespace myoid::body {
+namespace {
+
+/// A property of an object and the field for its value.
+template <typename Object>
+using Field = std::pair<const char*, double Object::*>;
+
+constexpr Field<MillardCurves> kActiveCurve[] = {
+    {"min_norm_active_fiber_length", &MillardCurves::active_min_length},
+    {"transition_norm_fiber_length", &MillardCurves::active_transition_length},
+    {"max_norm_active_fiber_length", &MillardCurves::active_max_length},
+    {"shallow_ascending_slope", &MillardCurves::active_shallow_slope},
+    {"minimum_value", &MillardCurves::active_minimum}};
+
+constexpr Field<MillardCurves> kVelocityCurve[] = {
+    {"concentric_slope_at_vmax", &MillardCurves::concentric_slope_at_vmax},
+    {"concentric_slope_near_vmax", &MillardCurves::concentric_slope_near_vmax},
+    {"isometric_slope", &MillardCurves::isometric_slope},
+    {"eccentric_slope_at_vmax", &MillardCurves::eccentric_slope_at_vmax},
+    {"eccentric_slope_near_vmax", &MillardCurves::eccentric_slope_near_vmax},
+    {"max_eccentric_velocity_force_multiplier", &MillardCurves::eccentric_force},
+    {"concentric_curviness", &MillardCurves::concentric_curviness},
+    {"eccentric_curviness", &MillardCurves::eccentric_curviness}};
+
+constexpr Field<MillardCurves> kFiberCurve[] = {
+    {"strain_at_zero_force", &MillardCurves::fiber_strain_at_zero_force},
+    {"strain_at_one_norm_force", &MillardCurves::fiber_strain_at_one_force},
+    {"stiffness_at_low_force", &MillardCurves::fiber_stiffness_at_low_force},
+    {"stiffness_at_one_norm_force", &MillardCurves::fiber_stiffness_at_one_force},
+    {"curviness", &MillardCurves::fiber_curviness}};
+
+constexpr Field<MillardCurves> kTendonCurve[] = {
+    {"strain_at_one_norm_force", &MillardCurves::tendon_strain_at_one_force},
+    {"stiffness_at_one_norm_force", &MillardCurves::tendon_stiffness_at_one_force},
+    {"norm_force_at_toe_end", &MillardCurves::tendon_force_at_toe_end},
+    {"curviness", &MillardCurves::tendon_curviness}};
+
+constexpr Field<MuscleProperties> kProperties[] = {
+    {"max_contraction_velocity", &MuscleProperties::max_contraction_velocity},
+    {"KshapeActive", &MuscleProperties::active_shape},
+    {"KshapePassive", &MuscleProperties::passive_shape},
+    {"FmaxTendonStrain", &MuscleProperties::max_tendon_strain},
+    {"FmaxMuscleStrain", &MuscleProperties::max_muscle_strain},
+    {"Af", &MuscleProperties::concentric_shape},
+    {"Flen", &MuscleProperties::eccentric_plateau},
+    {"fv_linear_extrap_threshold", &MuscleProperties::force_velocity_extrapolation},
+    {"maximum_pennation_angle", &MuscleProperties::max_pennation_rad},
+    {"activation_time_constant", &MuscleProperties::activation_time_s},
+    {"deactivation_time_constant", &MuscleProperties::deactivation_time_s},
+    {"minimum_activation", &MuscleProperties::minimum_activation},
+    {"default_activation", &MuscleProperties::default_activation}};
+
+MillardCurves millard_curves(const OsimReading& r, pugi::xml_node node) {
+  MillardCurves c;
+  const auto read = [&](const char* curve_name, const auto& fields) {
+    const auto curve = r.xml.property(node, curve_name);
+    for (const auto& [name, field] : fields) c.*field = r.xml.number(curve, name, c.*field);
+  };
+  read("ActiveForceLengthCurve", kActiveCurve);
+  read("ForceVelocityCurve", kVelocityCurve);
+  read("FiberForceLengthCurve", kFiberCurve);
+  read("TendonForceLengthCurve", kTendonCurve);
+  c.fiber_damping = r.xml.number(node, "fiber_damping", 0.1);
+  c.ignore_tendon_compliance = r.xml.flag(node, "ignore_tendon_compliance", false);
+  c.ignore_activation_dynamics = r.xml.flag(node, "ignore_activation_dynamics", false);
+  return c;
+}
+
+SchutteCurves schutte_curves(OsimReading& r, pugi::xml_node node) {
+  SchutteCurves c;
+  c.time_scale_s = r.xml.number(node, "time_scale", 0.1);
+  c.activation1 = r.xml.number(node, "activation1", 7.667);
+  c.activation2 = r.xml.number(node, "activation2", 1.459854);
+  c.damping = r.xml.number(node, "damping", 0.05);
+  const auto curve = [&](const char* name) { return function_property(r, node, name); };
+  c.active_force_length = curve("active_force_length_curve");
+  c.passive_force_length = curve("passive_force_length_curve");
+  c.tendon_force_length = curve("tendon_force_length_curve");
+  c.force_velocity = curve("force_velocity_curve");
+  return c;
+}
+
+DeGrooteCurves de_groote_curves(const OsimReading& r, pugi::xml_node node) {
+  DeGrooteCurves c;
+  c.active_width_scale = r.xml.number(node, "active_force_width_scale", 1.0);
+  c.fiber_damping = r.xml.number(node, "fiber_damping", 0.0);
+  c.passive_fiber_strain_at_one_force = r.xml.number(node, "passive_fiber_strain_at_one_norm_force", 0.6);
+  c.tendon_strain_at_one_force = r.xml.number(node, "tendon_strain_at_one_norm_force", 0.049);
+  c.ignore_passive_fiber_force = r.xml.flag(node, "ignore_passive_fiber_force", false);
+  c.ignore_tendon_compliance = r.xml.flag(node, "ignore_tendon_compliance", false);
+  c.ignore_activation_dynamics = r.xml.flag(node, "ignore_activation_dynamics", false);
+  c.tendon_dynamics_implicit = r.xml.word(node, "tendon_compliance_dynamics_mode") == "implicit";
+  return c;
+}
+
+}  // namespace
+
+void note_classes(BodyModel& model) {
+  std::map<std::string, std::vector<std::string>> by_class;
+  for (const Muscle& muscle : model.muscles)
+    if (!muscle.class_name.starts_with("Thelen2003Muscle")) by_class[muscle.class_name].push_back(muscle.name);
+  for (const auto& [name, muscles] : by_class) {
+    const bool own = name.starts_with("Millard2012") || name.starts_with("DeGrooteFregly2016");
+    constexpr std::size_t kNamed = 3;
+    const std::vector<std::string> named(
+        muscles.begin(), muscles.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, muscles.size())));
+    model.notes.push_back(fmt::format(
+        "{} {} of class {} ({}{}): identification starts from the numbers that the class shares with Thelen's; {}",
+        muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name, fmt::join(named, ", "),
+        named.size() < muscles.size() ? ", ..." : "",
+        own ? "so, run-tool and simulate use the class's own curves"
+            : "so, run-tool and simulate take Thelen's curves with their numbers"));
+  }
+}
+
+bool is_muscle(pugi::xml_node node) {
+  const std::string_view kind = node.name();
+  return kind.ends_with("Muscle") || kind.ends_with("Muscle_Deprecated");
+}
+
+Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
+  Muscle muscle;
+  muscle.name = OsimXml::name_of(node);
+  muscle.class_name = node.name();
+  if (muscle.name.empty()) r.xml.fail(node, "a muscle has no name");
+  if (r.model.find_muscle(muscle.name)) r.xml.fail(node, "two muscles are named '{}'", muscle.name);
+  muscle.applies_force = is_enabled(r, node, "appliesForce");
+  const bool thelen = muscle.class_name.starts_with("Thelen2003Muscle");
+  const bool de_groote = muscle.class_name.starts_with("DeGrooteFregly2016");
+  const bool millard = muscle.class_name.starts_with("Millard2012");
+  const bool schutte = muscle.class_name.starts_with("Schutte1993") || muscle.class_name.starts_with("Delp1990");
+  MuscleProperties& p = muscle.properties;
+  const auto set = [&](const char* name, double& value) {
+    value = r.xml.number(node, name, value);
+    if (!std::isfinite(value) && std::string_view(name) != "min_control" && std::string_view(name) != "max_control")
+      r.xml.fail(node, "muscle '{}': <{}> is not finite", muscle.name, name);
+  };
+  if (!thelen) {
+    p.activation_time_s = de_groote ? 0.015 : 0.01;
+    p.deactivation_time_s = de_groote ? 0.06 : 0.04;
+  }
+  if (!thelen && !millard) p.min_control = 0.0;
+  const double class_min_control = p.min_control;
+  set("max_isometric_force", p.max_isometric_force_n);
+  p.optimal_fiber_length_m = positive(r, node, "optimal_fiber_length", p.optimal_fiber_length_m);
+  set("tendon_slack_length", p.tendon_slack_length_m);
+  set("pennation_angle_at_optimal", p.pennation_at_optimal_rad);
+  if (!r.xml.property(node, "pennation_angle_at_optimal")) set("pennation_angle", p.pennation_at_optimal_rad);
+  for (const auto& [name, field] : kProperties) set(name, p.*field);
+  // OpenSim starts every muscle at its classes' default of 0.1 m.
+  if (!r.compat.class_fiber_length) p.default_fiber_length_m = p.optimal_fiber_length_m;
+  set("default_fiber_length", p.default_fiber_length_m);
+  set("min_control", p.min_control);
+  set("max_control", p.max_control);
+  if (r.xml.version(node) < 30513 && p.min_control == 0.0) p.min_control = class_min_control;
+  if (millard) {
+    p.curves = millard_curves(r, node);
+  } else if (schutte) {
+    p.curves = schutte_curves(r, node);
+  } else if (de_groote) {
+    p.curves = de_groote_curves(r, node);
+  }
+  muscle.path = read_path(r, node);
+  return muscle;
+}
+
+}  // namespace myoid::body

@@ -1,0 +1,37 @@
+#include "myoid/fit/beliefs/beliefs.h"
+
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "myoid/muscle/hill_parameters.h"
+
+#include "tests/support/printed_page.h"
+
+namespace myoid::fit {
+namespace {
+
+TEST(Beliefs, AreTheOnesThatThePagePrints) {
+  test::expect_printed("docs/theory/priors.md", "beliefs", beliefs_markdown());
+}
+
+TEST(Beliefs, StateTheirUseAndTheirSource) {
+  for (const Belief* belief : all_beliefs()) {
+    EXPECT_FALSE(belief->source.empty()) << belief->name;
+    EXPECT_FALSE(belief->when.empty()) << belief->name;
+  }
+}
+
+TEST(LiteraturePrior, OfAMuscleStandsAboutTheStart) {
+  for (const muscle::HillField& field : muscle::kHillFields) {
+    const std::optional<Prior> prior = literature_prior(field.name, 0.3, 0.1);
+    ASSERT_TRUE(prior.has_value()) << field.name;
+    EXPECT_EQ(prior->mean, 0.3);
+    EXPECT_GT(prior->sd, 0.0);
+  }
+  EXPECT_FALSE(literature_prior("shoe_size", 42.0, 0.1).has_value());
+  EXPECT_DOUBLE_EQ(literature_prior("force_length_width", 0.04, 0.1)->sd, 0.012);
+}
+
+}  // namespace
+}  // namespace myoid::fit

@@ -1,0 +1,146 @@
+#include "myoid/fit/methods/solver_contest.h"
+
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "myoid/fit/methods/paper_case.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/math/direct_search.h"
+#include "myoid/ground/math/nelder_mead.h"
+#include "myoid/ground/math/simulated_annealing.h"
+
+namespace myoid::fit {
+namespace {
+
+using Search = std::function<math::LocalMinimum(const Eigen::VectorXd& start)>;
+
+/// One cost in the forms that the solvers need.
+struct Contestants {
+  Search gauss_newton, levenberg_marquardt;
+  math::DirectSearchProblem cost;  ///< With the bounds of the fit.
+  Eigen::Index samples = 0;        ///< See find_basins.
+};
+
+template <typename Found>
+math::LocalMinimum end_of(const Found& found) {
+  return {found.termination, found.x, found.cost, found.evaluations};
+}
+
+/// Searches; returns an end without a minimum if the cost is not finite at the start.
+math::LocalMinimum searched(const Search& search, const Eigen::VectorXd& start) {
+  try {
+    return search(start);
+  } catch (const InvalidInput&) {
+    return {.termination = math::Termination::not_finite, .x = start};
+  }
+}
+
+using Solver = std::pair<const char*, Search>;
+
+/// Returns the four solvers by name; they refer to the arguments.
+std::vector<Solver> solvers_of(const Contestants& who,
+                               const StartBox& box,
+                               const ContestOptions& options,
+                               const Progress& stop) {
+  const auto simplex = [&](const Eigen::VectorXd& x) {
+    return end_of(math::nelder_mead(who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
+  };
+  const auto annealing = [&, seed = options.seed](const Eigen::VectorXd& x) mutable {
+    // Costs in the starts' box span many powers of ten, and so does the temperature.
+    return end_of(math::simulated_annealing(who.cost, x,
+                                            {.seed = seed++,
+                                             .max_evaluations = options.direct_evaluations,
+                                             .spread_cooling = 0.7,
+                                             .cycles = 10,
+                                             .adjustments = 1,
+                                             .reach = box.upper - box.lower,
+                                             .progress = stop}));
+  };
+  return {{"gauss_newton", who.gauss_newton},
+          {"levenberg_marquardt", who.levenberg_marquardt},
+          {"nelder_mead", simplex},
+          {"simulated_annealing", annealing}};
+}
+
+SolverContest contest(const Contestants& who, const StartBox& box, const ContestOptions& options) {
+  const std::vector<Eigen::VectorXd> starts = starts_in(box, options.starts);
+  const Progress stop{{}, options.progress.stop};
+  const std::vector<Solver> solvers = solvers_of(who, box, options, stop);
+  SolverContest result;
+  std::vector<Eigen::VectorXd> ends;
+  // The searches for the basins count as one start more.
+  const double total = static_cast<double>(solvers.size() * (starts.size() + 1));
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    for (const auto& [name, search] : solvers) {
+      options.progress.check();
+      options.progress.tell(static_cast<double>(ends.size()) / total, name);
+      const auto begin = std::chrono::steady_clock::now();
+      math::LocalMinimum end = searched(search, starts[s]);
+      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+      result.runs.push_back({.solver = name,
+                             .start = static_cast<int>(s),
+                             .termination = end.termination,
+                             .cost = end.cost,
+                             .evaluations = end.evaluations,
+                             .seconds = taken.count()});
+      ends.push_back(std::move(end.x));
+    }
+  }
+  options.progress.tell(static_cast<double>(ends.size()) / total, "searching from many starts");
+  result.basins = find_basins([&](const Eigen::VectorXd& x) { return searched(who.levenberg_marquardt, x); }, box,
+                              options.basin_starts, who.samples, stop);
+
+  Eigen::VectorXd best = box.given;
+  result.best_cost = std::numeric_limits<double>::infinity();
+  const auto take = [&](double cost, const Eigen::VectorXd& x) {
+    if (!(cost < result.best_cost)) return;
+    result.best_cost = cost;
+    best = x;
+  };
+  for (const BasinRow& basin : result.basins.basins) take(basin.cost, basin.x);
+  for (std::size_t i = 0; i < ends.size(); ++i) take(result.runs[i].cost, ends[i]);
+  for (std::size_t i = 0; i < ends.size(); ++i) result.runs[i].distance = distance(ends[i], best, box);
+  return result;
+}
+
+}  // namespace
+
+SolverContest compare_paper_solvers(const StudyData& data,
+                                    std::size_t muscle,
+                                    bool shortening,
+                                    const ContestOptions& options) {
+  const PaperCase samples = paper_case(data, muscle, shortening);
+  const StartBox box = start_box(samples, data.muscles[muscle]);
+  const auto p = box.given.size();
+  if (p == 0 || static_cast<Eigen::Index>(samples.samples.size()) < p) return {};
+  const math::LeastSquaresProblem problem = samples.problem();
+  const Progress stop{{}, options.progress.stop};
+  return contest(
+      {.gauss_newton = [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
+       .levenberg_marquardt =
+           [&](const Eigen::VectorXd& x) { return end_of(math::minimize(problem, x, {.progress = stop})); },
+       .cost = math::direct_search_problem(problem),
+       .samples = problem.residual_count},
+      box, options);
+}
+
+std::vector<NamedContest> solver_contests(const StudyData& data, const ContestOptions& options) {
+  std::vector<NamedContest> contests;
+  const auto total = static_cast<double>(2 * data.muscles.size());
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    for (const bool shortening : {true, false}) {
+      ContestOptions how = options;
+      if (options.progress.report)
+        how.progress.report = [&, done = static_cast<double>(contests.size())](double share, std::string_view what) {
+          options.progress.report((done + share) / total, what);
+        };
+      contests.push_back({data.muscles[k].name + (shortening ? " shortening" : " lengthening"),
+                          compare_paper_solvers(data, k, shortening, how)});
+    }
+  }
+  return contests;
+}
+
+}  // namespace myoid::fit

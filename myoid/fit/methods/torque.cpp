@@ -1,0 +1,83 @@
+#include "myoid/fit/methods/torque.h"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/fit/intervals/verdict_rules.h"
+#include "myoid/fit/measurement/told_by_motion.h"
+#include "myoid/fit/methods/late_emg.h"
+#include "myoid/fit/methods/plain_fit.h"
+#include "myoid/fit/methods/prediction.h"
+#include "myoid/fit/posterior/drive.h"
+#include "myoid/fit/posterior/posterior.h"
+
+namespace myoid::fit {
+namespace {
+
+void add_predictions(const StudyData& data, const EstimatorOptions& options, IdentificationResult& result) {
+  ModelValues literature = result.values;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k)
+    literature.muscles[k] = muscle_values(data.muscles[k].start, data.muscles[k].extras);
+  for (ChannelValues& channel : literature.channels) {
+    channel[kDelay] = options.usual_delay_s();
+    channel[kGain] = 1.0;
+    channel[kShape] = 0.0;
+    channel[kExponent] = 1.0;
+  }
+  const TrialPredictions predictions(data, options, result);
+  for (const TrialData& whole : data.trials) {
+    for (std::size_t j = 0; j < joint_count(whole); ++j) {
+      const TrialData trial = of_joint(whole, j);
+      TrialFit& fit = result.trials.emplace_back(predictions.of(trial));
+      Prediction before = predict(data, trial, literature, options.law);
+      fit.literature_force_n = std::move(before.force_n);
+      fit.literature_torque_nm = std::move(before.torque_nm);
+    }
+  }
+}
+
+}  // namespace
+
+EstimatorOptions remembering_drives(EstimatorOptions options) {
+  if (!options.drives) options.drives = std::make_shared<DriveMemory>();
+  return options;
+}
+
+std::vector<VerdictCap> caps_of_torque(const StudyData& data,
+                                       const EstimatorOptions& options,
+                                       IdentificationResult& result) {
+  std::vector<VerdictCap> caps;
+  const std::optional<double> share = told_by_motion_alone(data);
+  if (share && *share >= kVerdictRules.motion_alone) {
+    result.warnings.push_back(
+        fmt::format("angle, rate and acceleration alone tell {:.1f} % of the torque's variance: no fit can tell the "
+                    "muscles from a spring and an inertia, and intervals may miss the truth. Record efforts against "
+                    "several loads, or at held angles",
+                    100.0 * *share));
+    caps.push_back({.reason = fmt::format("motion alone tells {:.1f} % of the torque", 100.0 * *share)});
+  }
+  if (!options.predictions) return caps;
+  if (const std::optional<LateEmg> late = late_emg_of_no_delay(data, options, result)) {
+    result.warnings.push_back("emg_delay: " + late->sentence());
+    caps.push_back({.reason = late->sentence(), .parameters = {"emg_delay"}, .finding = Finding::late_emg});
+  }
+  return caps;
+}
+
+IdentificationResult identify_torque(const StudyData& data, const EstimatorOptions& options) {
+  const EstimatorOptions remembering = remembering_drives(options);
+  IdentificationResult result = identify_by_posterior(data, remembering);
+  if (options.predictions) add_predictions(data, remembering, result);
+  if (!options.measured_is_force) fit::apply(caps_of_torque(data, options, result), result);
+  return result;
+}
+
+std::optional<IdentificationResult> identify_exactly(const StudyData& data, const EstimatorOptions& options) {
+  std::optional<IdentificationResult> exact = exact_fit(data, options);
+  if (exact && options.predictions) add_predictions(data, options, *exact);
+  return exact;
+}
+
+}  // namespace myoid::fit

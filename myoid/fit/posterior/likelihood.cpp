@@ -1,0 +1,381 @@
+#include "myoid/fit/posterior/likelihood.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "myoid/fit/intervals/verdict_rules.h"
+#include "myoid/fit/measurement/told_by_motion.h"
+#include "myoid/fit/posterior/likelihood_block.h"
+#include "myoid/ground/core/parallel.h"
+
+namespace myoid::fit {
+namespace {
+
+double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
+  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
+/// Returns the gradient by the first column of a symmetric Toeplitz matrix, given b, the gradient by the matrix.
+Eigen::VectorXd diagonal_sums(const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  const Eigen::Index n = b.rows();
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index j = 0; j < n; ++j) sums.head(n - j) += b.col(j).tail(n - j);
+  sums.tail(n - 1) *= 2.0;
+  return sums;
+}
+
+constexpr double kSameReference = 1e-6;  // in the solver's scale, ln or SI
+
+/// Returns the starting values of the unknowns; where a search begins at another fit's answer, that answer.
+Eigen::VectorXd start_of(const ParameterMap& map, const EstimatorOptions& options) {
+  Eigen::VectorXd z = map.start();
+  for (std::size_t j = 0; options.begin_at && j < map.free().size(); ++j) {
+    const std::vector<std::string>& unknowns = options.begin_at->free_parameters;
+    const auto found = std::find(unknowns.begin(), unknowns.end(), map.free()[j].label);
+    if (found != unknowns.end()) z[static_cast<Eigen::Index>(j)] = options.begin_at->solution[found - unknowns.begin()];
+  }
+  return z;
+}
+
+/// Two joints i <= j of a run, by their first rows among the n J samples and among the rows of L y.
+struct JointPair {
+  Eigen::Index i, j, row_i, row_j;
+};
+
+std::vector<JointPair> joint_pairs(const TrialRun& run) {
+  const Eigen::Index m = run.reduction.outputs();
+  std::vector<JointPair> pairs;
+  for (std::size_t j = 0; j < run.joints.size(); ++j) {
+    for (std::size_t i = 0; i <= j; ++i)
+      pairs.push_back(
+          {run.first_row(i), run.first_row(j), static_cast<Eigen::Index>(i) * m, static_cast<Eigen::Index>(j) * m});
+  }
+  return pairs;
+}
+
+/// Adds the covariance that one noise causes in the rows of all joints; `variance`(pair) is the
+/// product of the noise's factors in both joints at each sample, n.
+template <typename Variance>
+void add_noise(const TrialRun& run, const EmgNoise& noise, const Variance& variance, Eigen::MatrixXd& a) {
+  const Eigen::Index m = run.reduction.outputs();
+  for (const JointPair& pair : joint_pairs(run)) {
+    const Eigen::MatrixXd block = noise.covariance(variance(pair));
+    a.block(pair.row_i, pair.row_j, m, m) += block;
+    if (pair.i != pair.j) a.block(pair.row_j, pair.row_i, m, m) += block;
+  }
+}
+
+}  // namespace
+
+Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, Columns columns, const Recorded* session)
+    : data_(data),
+      options_(options),
+      columns_are_(columns),
+      map_(data, options),
+      runs_(trial_runs(data, options, map_)),
+      given_(runs_.size()),
+      columns_(runs_.size()),
+      by_slope_(runs_.size()),
+      recorded_(session != nullptr ? *session : fit::recorded(runs_, map_.held().muscles)) {
+  for (const TrialRun& run : runs_) {
+    rows_ += run.measured_nm.size();
+    if (trial_of_run_.empty() || run.trial != runs_[trial_of_run_.size() - 1].trial) ++trials_;
+    trial_of_run_.push_back(trials_ - 1);
+    auto& of_channels = envelope_noise_.emplace_back();
+    for (const EnvelopeError& error : run.errors)
+      of_channels.emplace_back(run.reduction, error.from_white(run.interval_s));
+  }
+  if (session == nullptr) recorded_.told_by_motion = told_by_motion_alone(data).value_or(0.0);
+  weigh_rows();
+  refer_to(start_of(map_, options_));
+}
+
+void Likelihood::weigh_rows() {
+  std::vector<double> rows(static_cast<std::size_t>(trials_));  // of each trial, per joint
+  const auto of_trial = [&](std::size_t r) -> double& { return rows[static_cast<std::size_t>(trial_of_run_[r])]; };
+  for (std::size_t r = 0; r < runs_.size(); ++r) of_trial(r) += static_cast<double>(runs_[r].reduction.outputs());
+  double most = options_.unseen.independent_rows;
+  if (recorded_.told_by_motion >= kVerdictRules.motion_alone)
+    most = std::min(most, static_cast<double>(kMotionCoefficients));
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    row_weight_.push_back(most > 0.0 ? std::min(1.0, most / of_trial(r)) : 1.0);
+}
+
+double Likelihood::log_share(std::size_t r, const NoiseValues& noise) const {
+  const Eigen::Index at = share_place(r);
+  return at < noise.size() ? noise[at] : 0.0;
+}
+
+void Likelihood::refer_to(const Eigen::VectorXd& z) {
+  if (reference_.size() == z.size() && (z - reference_).cwiseAbs().maxCoeff() <= kSameReference) return;
+  reference_ = z;
+  const ModelValues values = map_.values(z);
+  std::vector<RunEvaluation> at;
+  at.reserve(runs_.size());
+  for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.law, values, nullptr);
+  const std::vector<Stepped> steps =
+      columns_are_ == Columns::follow ? steps_from(z, map_, options_.law, runs_) : std::vector<Stepped>{};
+  unseen_ = unseen_quantities(data_, options_, map_, recorded_, runs_, values, at, steps);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const Reduction& reduction = runs_[r].reduction;
+    columns_[r] = reduction.apply(unseen_.columns[r]);
+    by_slope_[r] = reduction.apply(unseen_.by_slope[r]);
+    const Eigen::Index rows = runs_[r].measured_nm.size(), m = reduction.outputs();
+    given_[r].setZero(rows, rows);
+    for (std::size_t j = 0; j < runs_[r].joints.size(); ++j)
+      given_[r]
+          .diagonal()
+          .segment(static_cast<Eigen::Index>(j) * m, m)
+          .setConstant(std::pow(kLeastTorqueError * recorded_.torque_nm * recorded_.size_share(runs_[r].joints[j]), 2));
+    if (options_.angle_sd_rad <= 0.0 && options_.angle_rate_sd_radps <= 0.0) continue;
+    add_noise(
+        runs_[r], EmgNoise(reduction, Eigen::VectorXd::Ones(1)),
+        [&](const JointPair& pair) { return motion_variance(runs_[r], at[r], pair.i, pair.j); }, given_[r]);
+  }
+}
+
+Eigen::VectorXd Likelihood::motion_variance(const TrialRun& run,
+                                            const RunEvaluation& at,
+                                            Eigen::Index first_row,
+                                            Eigen::Index other_row) const {
+  const Eigen::Index n = run.time_s.size();
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(n);
+  for (std::size_t k = 0; k < data_.muscles.size(); ++k) {
+    const MuscleRows& rows = at.muscle(k);
+    const auto arms = run.arm_m.col(static_cast<Eigen::Index>(k)).array();
+    const auto arm = arms.segment(first_row, n), other = arms.segment(other_row, n);
+    for (std::size_t j = 0; j < run.joints.size(); ++j) {
+      // An angle error dq of any joint changes the muscle's length by -r dq, and each torque by its
+      // arm times the change of force.
+      const auto moved = arms.segment(run.first_row(j), n);
+      const Eigen::ArrayXd here = arm * moved, there = other * moved;
+      variance.array() += (here * rows.by_length.array() * options_.angle_sd_rad) *
+                              (there * rows.by_length.array() * options_.angle_sd_rad) +
+                          (here * rows.by_velocity.array() * options_.angle_rate_sd_radps) *
+                              (there * rows.by_velocity.array() * options_.angle_rate_sd_radps);
+    }
+  }
+  return variance;
+}
+
+void Likelihood::add_torque_error(const TrialRun& run, double variance, double log_time, Eigen::MatrixXd& a) const {
+  const Eigen::VectorXd correlation = torque_error(run.reduction, run.interval_s, log_time).correlation;
+  const Eigen::Index m = run.reduction.outputs();
+  for (std::size_t j = 0; j < run.joints.size(); ++j) {
+    const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
+    a.block(row, row, m, m) += toeplitz(variance * std::pow(recorded_.size_share(run.joints[j]), 2) * correlation);
+  }
+}
+
+Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
+  Eigen::VectorXd w(static_cast<Eigen::Index>(unseen_.quantities.size()));
+  for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
+    const UnseenQuantity& of = unseen_.quantities[i];
+    const bool exact = believed_ == Believed::geometry_and_sensors_exact && of.lasts();
+    w[static_cast<Eigen::Index>(i)] = exact ? 0.0 : of.weight * (of.size ? std::exp(noise[*of.size]) : 1.0);
+  }
+  return w;
+}
+
+Eigen::VectorXd Likelihood::grown(const Eigen::VectorXd& z) const {
+  return (unseen_.growth * (z - reference_)).array().exp();
+}
+
+Eigen::VectorXd Likelihood::envelope_scale(std::size_t r, const NoiseValues& noise) const {
+  Eigen::VectorXd scale = std::exp(2.0 * noise[kEmgFactor]) * runs_[r].envelope_sd.cwiseAbs2();
+  for (Eigen::Index c = 0; c < scale.size(); ++c) scale[c] *= runs_[r].errors[static_cast<std::size_t>(c)].share();
+  return scale;
+}
+
+double Likelihood::torque_variance(std::size_t r, const NoiseValues& noise) const {
+  return std::exp(2.0 * (noise[kTorqueSd] + log_share(r, noise)));
+}
+
+Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
+                                                const TorqueSignals& signals,
+                                                const NoiseValues& noise) const {
+  const Eigen::VectorXd scale = envelope_scale(r, noise);
+  const Eigen::Index rows = runs_[r].measured_nm.size(), n = runs_[r].time_s.size();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, rows);
+  for (Eigen::Index c = 0; c < scale.size(); ++c) {
+    const auto d = signals.by_noise.col(c);
+    add_noise(
+        runs_[r], envelope_noise_[r][static_cast<std::size_t>(c)],
+        [&](const JointPair& pair) {
+          return Eigen::VectorXd(scale[c] * d.segment(pair.i, n).cwiseProduct(d.segment(pair.j, n)));
+        },
+        a);
+  }
+  return a;
+}
+
+Likelihood::AllRuns Likelihood::all_runs(const Eigen::VectorXd& z, const NoiseValues& noise) const {
+  AllRuns all{.weights = weights(noise),
+              .turned = Eigen::VectorXd(static_cast<Eigen::Index>(unseen_.slopes.size())),
+              .shared = {},
+              .variance = {}};
+  for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
+    const auto& [quantity, unknown, reach] = unseen_.slopes[s];
+    all.turned[static_cast<Eigen::Index>(s)] = reach * std::tanh((z[unknown] - reference_[unknown]) / reach);
+  }
+  return all;
+}
+
+Eigen::MatrixXd Likelihood::turned_columns(std::size_t r, const AllRuns& all) const {
+  Eigen::MatrixXd columns = columns_[r];
+  for (Eigen::Index s = 0; s < all.turned.size(); ++s)
+    columns.col(unseen_.slopes[static_cast<std::size_t>(s)].quantity) += all.turned[s] * by_slope_[r].col(s);
+  return columns;
+}
+
+bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& noise, Block& block) const {
+  const TrialRun& run = runs_[r];
+  const TorqueSignals& signals = block.evaluation->signals();
+  Eigen::MatrixXd a = envelope_covariance(r, signals, noise);
+  add_torque_error(run, torque_variance(r, noise), noise[kTorqueTime], a);
+  a += given_[r];
+  block.factor.compute(a);
+  if (block.factor.info() != Eigen::Success) return false;
+  const double weight = row_weight_[r], log_of_a = log_determinant(block.factor);
+  if (weight < 1.0) block.factor.compute(a / weight);
+  const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);
+  block.whitening = block.factor.matrixL().solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
+  const Eigen::VectorXd white = block.whitening * residual;
+  block.solved = block.whitening.transpose() * white;
+  block.unseen = turned_columns(r, all) * all.weights.asDiagonal();
+  block.unseen_half.noalias() = block.whitening * block.unseen;
+  block.projected.noalias() = block.unseen_half.transpose() * white;
+  block.gram.setZero(all.weights.size(), all.weights.size());
+  block.gram.selfadjointView<Eigen::Lower>().rankUpdate(block.unseen_half.transpose());
+  block.own = -0.5 * (white.squaredNorm() + weight * log_of_a);
+  return std::isfinite(block.own);
+}
+
+void Likelihood::pull_back(
+    std::size_t r, const NoiseValues& noise, const AllRuns& all, const Block& block, Gradient& gradient) const {
+  const TrialRun& run = runs_[r];
+  const TorqueSignals& signals = block.evaluation->signals();
+  const Eigen::Index rows = run.measured_nm.size(), m = run.reduction.outputs();
+  const Eigen::Index n = run.time_s.size();
+  // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1), and with A = C C', U = C^-1 L S W and G
+  // of all runs Sigma^-1 is C'^-1 (1 - U G^-1 U') C^-1. A block's A is that of the measurement over
+  // the rows' weight, by which the determinant's A^-1 is multiplied.
+  const Eigen::VectorXd w = block.solved - block.whitening.transpose() * (block.unseen_half * all.shared);
+  const Eigen::MatrixXd half_left = block.unseen_half * all.variance;
+  Eigen::MatrixXd half = row_weight_[r] * Eigen::MatrixXd::Identity(rows, rows);
+  half.noalias() -= half_left * block.unseen_half.transpose();
+  const Eigen::MatrixXd half_right = half * block.whitening;
+  Eigen::MatrixXd by_a = w * w.transpose();
+  by_a.noalias() -= block.whitening.transpose() * half_right;
+  by_a *= 0.5 / row_weight_[r];
+
+  const double variance = torque_variance(r, noise);
+  const TorqueError torque = torque_error(run.reduction, run.interval_s, noise[kTorqueTime]);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(m);
+  for (std::size_t j = 0; j < run.joints.size(); ++j) {
+    const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
+    sums += std::pow(recorded_.size_share(run.joints[j]), 2) * diagonal_sums(by_a.block(row, row, m, m));
+  }
+  gradient.by_noise.setZero(noise.size());
+  gradient.by_noise[kTorqueSd] = 2.0 * variance * sums.dot(torque.correlation);
+  const Eigen::Index share = share_place(r);
+  if (share < noise.size()) gradient.by_noise[share] = gradient.by_noise[kTorqueSd];
+  gradient.by_noise[kTorqueTime] = variance * sums.dot(torque.by_log_time);
+
+  const Eigen::VectorXd scale = envelope_scale(r, noise);
+  TorqueSignals by{run.reduction.transposed(w),
+                   Eigen::MatrixXd::Zero(signals.by_noise.rows(), signals.by_noise.cols())};
+  for (Eigen::Index c = 0; c < scale.size(); ++c) {
+    const auto d = signals.by_noise.col(c);
+    auto by_d = by.by_noise.col(c);
+    for (const JointPair& pair : joint_pairs(run)) {
+      // A_ij and its transpose A_ji share the factor D_i D_j; A_ii occurs once.
+      const auto of_pair = by_a.block(pair.row_i, pair.row_j, m, m);
+      const Eigen::VectorXd by_product = envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(
+          pair.i == pair.j ? Eigen::MatrixXd(of_pair) : Eigen::MatrixXd(0.5 * (of_pair + of_pair.transpose())));
+      by_d.segment(pair.i, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.j, n));
+      if (pair.i != pair.j) by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
+    }
+    gradient.by_noise[kEmgFactor] += by_d.dot(d);
+  }
+
+  gradient.by_z.setZero(map_.size());
+  block.evaluation->pull_back(by, gradient.by_z);
+  add_gradient_of_columns(r, all, w, half_left, block, gradient.by_z);
+}
+
+void Likelihood::add_gradient_of_columns(std::size_t r,
+                                         const AllRuns& all,
+                                         const Eigen::VectorXd& w,
+                                         const Eigen::MatrixXd& half_left,
+                                         const Block& block,
+                                         Eigen::VectorXd& by_z) const {
+  // The derivative by L S W is Sigma^-1 r x' from the quadratic form and -A^-1 L S W G^-1 from
+  // ln |G|.
+  Eigen::MatrixXd by_unseen = w * all.shared.transpose();
+  by_unseen.noalias() -= block.whitening.transpose() * half_left;
+  for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
+    const auto& [quantity, unknown, reach] = unseen_.slopes[s];
+    const auto column = static_cast<Eigen::Index>(s);
+    const double near = 1.0 - std::pow(all.turned[column] / reach, 2);  // of tanh
+    by_z[unknown] += near * all.weights[quantity] * by_slope_[r].col(column).dot(by_unseen.col(quantity));
+  }
+}
+
+double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gradient* gradient) const {
+  std::vector<ParameterMap::Chain> chains;
+  const ModelValues values = map_.values(z, gradient != nullptr ? &chains : nullptr);
+  const ChainsByOwner by_owner(map_, chains);
+  AllRuns all = all_runs(z, noise);
+  std::vector<Block> blocks(runs_.size());
+  parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
+    for (std::size_t r = range.begin(); r < range.end(); ++r) {
+      Block& block = blocks[r];
+      block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, values,
+                                                         gradient != nullptr ? &by_owner : nullptr);
+      block.positive = fill(r, all, noise, block);
+    }
+  });
+  constexpr double kNever = -std::numeric_limits<double>::infinity();
+  const Eigen::Index quantities = all.weights.size();
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(quantities, quantities);
+  Eigen::VectorXd projected = Eigen::VectorXd::Zero(quantities);
+  double result = 0.0;
+  for (const Block& block : blocks) {
+    if (!block.positive) return kNever;
+    gram += block.gram;
+    projected += block.projected;
+    result += block.own;
+  }
+  const Eigen::VectorXd factors = grown(z);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(quantities, quantities);
+  const Eigen::LLT<Eigen::MatrixXd> factor(identity + gram);  // lower halves
+  const Eigen::LLT<Eigen::MatrixXd> factor_grown(identity + factors.asDiagonal() * gram * factors.asDiagonal());
+  if (factor.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
+  const Eigen::VectorXd expected = factor_grown.solve(factors.cwiseProduct(projected));
+  all.shared = factors.cwiseProduct(expected);
+  result += 0.5 * (projected.dot(all.shared) - log_determinant(factor));
+  if (gradient == nullptr || !std::isfinite(result)) return result;
+  all.variance = factor.solve(identity);
+  std::vector<Gradient> parts(runs_.size());
+  parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
+    for (std::size_t r = range.begin(); r < range.end(); ++r) {
+      pull_back(r, noise, all, blocks[r], parts[r]);
+    }
+  });
+  gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
+  gradient->by_noise.setZero(noise.size());
+  for (Eigen::Index i = 0; i < quantities; ++i) {
+    if (const std::optional<NoiseField> size = unseen_.quantities[static_cast<std::size_t>(i)].size)
+      gradient->by_noise[*size] += expected[i] * expected[i] - (1.0 - all.variance(i, i));
+  }
+  for (const Gradient& part : parts) {
+    gradient->by_z += part.by_z;
+    gradient->by_noise += part.by_noise;
+  }
+  return result;
+}
+
+}  // namespace myoid::fit

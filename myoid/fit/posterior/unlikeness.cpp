@@ -1,0 +1,121 @@
+#include "myoid/fit/posterior/unlikeness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "myoid/fit/beliefs/beliefs.h"
+#include "myoid/ground/math/statistics.h"
+
+namespace myoid::fit {
+namespace {
+
+constexpr Eigen::Index kGrid = 46;            // values of lambda
+constexpr double kLeast = -4.0, kMost = 5.0;  // of ln lambda over its spread
+
+/// Returns true for a number of a muscle whose prior spread is the literature's.
+bool is_literature(const Unknown& of) {
+  return of.field->scope == Scope::muscle && of.prior.sd > 0.0 && !of.prior_is_given;
+}
+
+/// Returns ln of the share of a normal distribution within the bounds of a number.
+double log_share_within(const muscle::Range& bounds, double mean, double sd) {
+  return std::log(
+      std::max(math::normal_below((bounds.upper - mean) / sd) - math::normal_below((bounds.lower - mean) / sd), 1e-12));
+}
+
+}  // namespace
+
+bool spread_is_judgment(const Unknown& of) {
+  return is_literature(of) && of.field->field != kMaxForce && of.field->field != kFiberLength;
+}
+
+double prior_spread(const Unknown& of, double strength_sd) {
+  return of.is(Scope::muscle, kMaxForce) && is_literature(of) ? std::hypot(of.prior.sd, strength_sd) : of.prior.sd;
+}
+
+Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double strength_sd, double unlikeness) {
+  const auto p = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(p, p);
+  std::vector<Eigen::Index> strengths;
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const Unknown& of = free[static_cast<std::size_t>(j)];
+    precision(j, j) = of.prior_precision() / (spread_is_judgment(of) ? unlikeness * unlikeness : 1.0);
+    if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) strengths.push_back(j);
+  }
+  const auto n = static_cast<Eigen::Index>(strengths.size());
+  if (n == 0) return precision;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(n, n, strength_sd * strength_sd);
+  for (Eigen::Index i = 0; i < n; ++i)
+    covariance(i, i) += 1.0 / precision(strengths[static_cast<std::size_t>(i)], strengths[static_cast<std::size_t>(i)]);
+  const Eigen::MatrixXd inverse = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  precision(strengths, strengths) = inverse;
+  return precision;
+}
+
+double common_strength(const std::vector<Unknown>& free, const Eigen::VectorXd& z, double strength_sd) {
+  if (!(strength_sd > 0.0)) return 0.0;
+  double precision = 1.0 / (strength_sd * strength_sd), pull = 0.0;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const Unknown& of = free[j];
+    if (!of.is(Scope::muscle, kMaxForce) || !is_literature(of)) continue;
+    precision += of.prior_precision();
+    pull += of.prior_precision() * (z[static_cast<Eigen::Index>(j)] - of.prior.mean);
+  }
+  return pull / precision;
+}
+
+std::vector<Unknown> about_strength(std::vector<Unknown> free, double log_strength) {
+  for (Unknown& of : free) {
+    if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) of.prior.mean += log_strength;
+  }
+  return free;
+}
+
+Unlikeness::Unlikeness(const std::vector<Unknown>& free, double strength_sd) : free_(free), strength_sd_(strength_sd) {
+  const double sd = beliefs::kUnlikeness.sd;
+  log_lambda_.setLinSpaced(kGrid, kLeast * sd, kMost * sd);
+  log_prior_ = -0.5 * (log_lambda_ / sd).square();
+  judged_.setZero(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const Unknown& of = free[j];
+    if (!spread_is_judgment(of)) continue;
+    judged_[static_cast<Eigen::Index>(j)] = of.prior_precision();
+    ++count_;
+    for (Eigen::Index i = 0; i < kGrid; ++i)
+      log_prior_[i] -= log_share_within(of.bounds, of.prior.mean, std::exp(log_lambda_[i]) * of.prior.sd);
+  }
+}
+
+double Unlikeness::expected(const Eigen::MatrixXd& information, const Eigen::VectorXd& b) const {
+  const Eigen::Index p = judged_.size();
+  Eigen::ArrayXd density(kGrid);
+  for (Eigen::Index i = 0; i < kGrid; ++i) {
+    const Eigen::MatrixXd prior = prior_precision(free_, strength_sd_, std::exp(log_lambda_[i]));
+    const Eigen::LDLT<Eigen::MatrixXd> all(information + prior);
+    const Eigen::VectorXd off = all.solve(b);
+    // Of |P| only the judged numbers' part depends on lambda.
+    density[i] = log_prior_[i] - static_cast<double>(count_) * log_lambda_[i] +
+                 0.5 * (b.dot(off) - all.vectorD().array().abs().log().sum());
+    const Eigen::VectorXd variance = all.solve(Eigen::MatrixXd::Identity(p, p)).diagonal();
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const Unknown& of = free_[static_cast<std::size_t>(j)];
+      if (judged_[j] > 0.0)
+        density[i] += log_share_within(of.bounds, of.prior.mean + off[j], std::sqrt(std::max(variance[j], 1e-300)));
+    }
+  }
+  density = (density - density.maxCoeff()).exp();
+  return std::sqrt((density * (2.0 * log_lambda_).exp()).sum() / density.sum());
+}
+
+Unlikeness::Integrated Unlikeness::integrated(double squares) const {
+  const Eigen::ArrayXd precision = (-2.0 * log_lambda_).exp();
+  const Eigen::ArrayXd log_density = log_prior_ - static_cast<double>(count_) * log_lambda_ - 0.5 * squares * precision;
+  const double greatest = log_density.maxCoeff();
+  const Eigen::ArrayXd density = (log_density - greatest).exp();
+  return {greatest + std::log(density.sum() * (log_lambda_[1] - log_lambda_[0])),
+          (density * precision).sum() / density.sum()};
+}
+
+}  // namespace myoid::fit

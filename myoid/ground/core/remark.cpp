@@ -1,0 +1,136 @@
+#include "myoid/ground/core/remark.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace myoid::inline ground {
+namespace {
+
+/// In the order of RemarkCode.
+constexpr std::array kNames = {
+    "marker_unit",
+    "marker_gap",
+    "marker_jump",
+    "marker_swap",
+    "segment_not_rigid",
+    "emg_amplitude",
+    "emg_envelope",
+    "emg_flat",
+    "emg_clipped",
+    "emg_saturated",
+    "emg_hum",
+    "emg_low_signal",
+    "emg_crosstalk",
+    "emg_drift",
+    "emg_artifact",
+    "emg_over_reference",
+    "emg_gain",
+    "clock_uneven",
+    "clock_offset",
+    "clock_drift",
+    "plate_offset",
+    "plate_sign",
+    "plate_pressure_outside",
+    "general",
+    "reading",
+    "refused",
+    "unit_doubtful",
+    "clock_pause",
+    "channel_unusable",
+    "channel_missing",
+    "emg_rate",
+    "emg_processing",
+    "emg_cover",
+    "emg_length",
+    "unanswered",
+    "no_maximal_contraction",
+    "no_body_mass",
+    "flat_activations",
+    "start_outside_bounds",
+    "model_unsupported",
+    "shared_muscle",
+    "shared_channel",
+    "idle_muscle",
+    "same_recording",
+    "angle_outside_range",
+    "angle_jump",
+    "motion_impossible",
+    "coordinate_absent",
+    "joint_undetermined",
+    "torque_impossible",
+    "mass_impossible",
+    "gravity_impossible",
+    "muscle_impossible",
+    "reserves_act",
+    "loads_unstated",
+    "held_mass_impossible",
+    "vertical_across_trunk",
+    "sides_exchanged",
+    "dynamometer_sign",
+    "load_misplaced",
+    "foreign_contact",
+    "unloaded_time",
+    "body_unsupported",
+    "resting_torque",
+};
+static_assert(kNames.size() == static_cast<std::size_t>(RemarkCode::count_of_codes));
+
+bool are_alike(const Remark& a, const Remark& b) {
+  return a.code == b.code && a.severity == b.severity && a.about == b.about;
+}
+
+}  // namespace
+
+std::string_view name(Severity severity) {
+  constexpr std::array kSeverities = {"error", "warning", "note", "detail"};
+  return kSeverities.at(static_cast<std::size_t>(severity));
+}
+
+std::string_view name(RemarkCode code) { return kNames.at(static_cast<std::size_t>(code)); }
+
+std::string sentence(const Remark& remark) {
+  constexpr std::size_t kNamed = 4;
+  std::string text = remark.says;
+  if (!remark.remedy.empty()) text += "; " + remark.remedy;
+  const std::size_t named = std::min(kNamed, remark.likewise.size());
+  if (named == 0) return text;
+  const auto end = remark.likewise.begin() + static_cast<std::ptrdiff_t>(named);
+  text += fmt::format(" (likewise in {}", fmt::join(remark.likewise.begin(), end, ", "));
+  if (named < remark.likewise.size()) text += fmt::format(" and {} more", remark.likewise.size() - named);
+  return text + ")";
+}
+
+std::vector<std::string> sentences(const std::vector<Remark>& remarks, std::optional<Severity> only) {
+  std::vector<std::string> texts;
+  for (const Remark& remark : remarks) {
+    if (!only || remark.severity == *only) texts.push_back(sentence(remark));
+  }
+  return texts;
+}
+
+std::vector<Remark> grouped(const std::vector<Remark>& remarks, Times times) {
+  std::vector<Remark> kept;
+  for (const Remark& remark : remarks) {
+    const bool alone = remark.about.empty() || (remark.when && times == Times::kept);
+    const auto same =
+        alone ? kept.end()
+              : std::find_if(kept.begin(), kept.end(), [&](const Remark& k) { return are_alike(k, remark); });
+    if (same == kept.end()) {
+      kept.push_back(remark);
+    } else if (same->where != remark.where &&
+               std::find(same->likewise.begin(), same->likewise.end(), remark.where) == same->likewise.end()) {
+      same->likewise.push_back(remark.where);
+    }
+  }
+  return kept;
+}
+
+void sort_by_severity(std::vector<Remark>& remarks) {
+  std::stable_sort(remarks.begin(), remarks.end(),
+                   [](const Remark& a, const Remark& b) { return a.severity < b.severity; });
+}
+
+}  // namespace myoid::inline ground

@@ -1,0 +1,23 @@
+#include "myoid/page/light.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace myoid::page {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Light, HasTheColorAndTheShapeOfTheWorstAnswer) {
+  const Gate good{.name = "Markers fit", .status = GateStatus::pass};
+  const Gate doubtful{.name = "EMG is clean", .status = GateStatus::warn, .value = "3 found"};
+  const Gate bad{.name = "Fit converged", .status = GateStatus::fail, .value = "no"};
+  EXPECT_THAT(light_html({good}), HasSubstr("light pass"));
+  EXPECT_THAT(light_html({good, doubtful}), HasSubstr("these ask for caution:</p>"));
+  EXPECT_THAT(light_html({good, doubtful}), HasSubstr("<li>EMG is clean: 3 found</li>"));
+  EXPECT_THAT(light_html({good, doubtful, bad}), HasSubstr("<ul><li>Fit converged: no</li></ul>"));
+  EXPECT_THAT(light_html({good, doubtful, bad}), HasSubstr("1 of 3 questions"));
+}
+
+}  // namespace
+}  // namespace myoid::page

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "myoid/page/report.h"
+
+namespace myoid::page {
+
+/// Returns the table as comma-separated values (RFC 4180: CRLF is not used, quotes where needed); a
+/// row of column names first. Badges are left out.
+[[nodiscard]] std::string table_csv(const Table& table);
+
+/// Returns a table's row of plain texts.
+[[nodiscard]] std::vector<Cell> text_row(std::vector<std::string> texts);
+
+/// Returns the samples of a figure, in full and not decimated: one row per sample, columns
+/// panel,series,role,x,y and, where a series has them, y_lower,y_upper. Gaps are empty cells.
+[[nodiscard]] std::string figure_csv(const Figure& figure);
+
+/// Returns the word for the role in files: "reference", "literature", ...
+[[nodiscard]] std::string_view name(Role role);
+[[nodiscard]] std::string_view name(Badge badge);
+[[nodiscard]] std::string_view name(GateStatus status);
+
+}  // namespace myoid::page

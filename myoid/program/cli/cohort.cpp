@@ -1,0 +1,163 @@
+#include "myoid/program/commands/cohort.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/ground/core/json_text.h"
+#include "myoid/program/cli/context.h"
+#include "myoid/program/cli/option_checks.h"
+#include "myoid/program/cli/say.h"
+
+namespace myoid::program {
+namespace {
+
+using results::OutcomeKind;
+using results::PersonOutcome;
+
+std::string word_of(const PersonOutcome& each) {
+  return each.outcome ? std::string(choice_name(each.outcome->kind)) : "not computed";
+}
+
+void print_outcomes(const std::vector<PersonOutcome>& outcomes) {
+  std::size_t width = 6;
+  for (const PersonOutcome& each : outcomes) width = std::max(width, in_column(each.person).size());
+  for (const PersonOutcome& each : outcomes) {
+    say("{:<{}}  {:<13}  {}{}\n", in_column(each.person), width, word_of(each),
+        each.reused ? "(as before: same input) " : "", each.outcome ? each.outcome->message : "");
+  }
+}
+
+void print_json(const std::vector<PersonOutcome>& outcomes) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const PersonOutcome& each : outcomes) {
+    list.push_back({{"person", each.person},
+                    {"outcome", word_of(each)},
+                    {"message", each.outcome ? each.outcome->message : ""},
+                    {"reused", each.reused}});
+  }
+  say_whole(json_text(list) + "\n");
+}
+
+/// Returns the code of `run` for one person; for several, failures count before gates.
+int code_of(const std::vector<PersonOutcome>& outcomes) {
+  const auto any = [&](OutcomeKind kind) {
+    return std::ranges::any_of(outcomes,
+                               [&](const PersonOutcome& each) { return each.outcome && each.outcome->kind == kind; });
+  };
+  const bool open = std::ranges::any_of(outcomes, [](const PersonOutcome& each) { return !each.outcome; });
+  if (any(OutcomeKind::failed) && outcomes.size() == 1) return kBadInput;
+  if (open || any(OutcomeKind::failed) || any(OutcomeKind::trials_failed)) return kSomeTrialsFailed;
+  return any(OutcomeKind::gate_failed) ? kQualityGateFailed : kDone;
+}
+
+/// The steps of a cohort that a command line asks for.
+struct CohortSteps {
+  bool persons = true, group = true;
+};
+
+/// Computes the persons, the group, or both, prints the outcomes and sets the exit code.
+void run_cohort(Context& context,
+                program::CohortOptions options,
+                const std::filesystem::path& folder,
+                const CohortSteps& steps) {
+  options.call = context.call();
+  options.heard = [&context](const PersonOutcome& each) {
+    if (!each.outcome || each.outcome->kind != OutcomeKind::failed) return;
+    context.end_progress();
+    context.warn(fmt::format("{} failed: {}", each.person, each.outcome->message));
+  };
+  options.overwrite = context.overwrite;
+  program::prepare_cohort_folder(options, folder);
+  std::vector<PersonOutcome> outcomes;
+  if (steps.persons) outcomes = program::write_cohort_persons(options, folder);
+  context.end_progress();
+  if (steps.group) {
+    const results::Group group = program::write_cohort_group(options, folder);
+    for (const PersonOutcome& each : group.outcomes) {
+      if (!each.outcome) context.warn(fmt::format("{} is not computed yet", each.person));
+    }
+    if (!steps.persons) outcomes = group.outcomes;
+    if (options.persons.empty()) context.exit_code = code_of(group.outcomes);
+  }
+  if (context.exit_code == kDone) context.exit_code = code_of(outcomes);
+  context.json ? print_json(outcomes) : print_outcomes(outcomes);
+  if (steps.group && !context.json) say("\nreport: {}/report.html\n", folder.string());
+}
+
+/// Adds --jobs to a command.
+void add_cohort_options(CLI::App& command, program::CohortOptions& options) {
+  command
+      .add_option("--jobs", options.jobs,
+                  "Persons at a time (default: as many as threads; the files are the same for every number)")
+      ->check(between(1, 1024));
+}
+
+}  // namespace
+
+void add_cohort(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand("cohort",
+                                          "Many persons: a run for each, then all results side by side.\n"
+                                          "Example: myoid cohort persons.csv --out cohort --jobs 2");
+  const auto out = std::make_shared<std::string>();
+  const auto group = std::make_shared<bool>(false);
+  const auto engine = std::make_shared<std::optional<results::Engine>>();
+  const auto options = std::make_shared<program::CohortOptions>();
+  command
+      .add_option("manifest", options->manifest,
+                  "Table with the columns name and study, a row a person; or a BIDS data set")
+      ->required();
+  command.add_option("--out", *out, "Folder of the results")->required();
+  command.add_option("--study", options->study, "BIDS: the study of every person (default: code/study.toml)");
+  CLI::Option* const person =
+      command.add_option("--person", options->persons, "Only this person, without the group; may be repeated");
+  CLI::Option* const group_only =
+      command.add_flag("--group", *group, "Only the group: the tables and page of all persons");
+  command
+      .add_option("--workflow", *engine,
+                  "Writes the files for an engine and computes nothing: snakemake, slurm, parallel")
+      ->transform(one_of<results::Engine>())
+      ->excludes(person)
+      ->excludes(group_only);
+  person->excludes(group_only);
+  add_cohort_options(command, *options);
+  add_common_options(command, context, {.seed = false});
+  command.callback([&context, options, out, group, engine] {
+    if (*engine) {
+      options->call = context.call();
+      options->overwrite = context.overwrite;
+      program::prepare_cohort_folder(*options, *out);
+      say("{}\n", program::write_cohort_workflow(*options, **engine, *out));
+      return;
+    }
+    run_cohort(context, *options, *out, {.persons = !*group, .group = *group || options->persons.empty()});
+  });
+}
+
+void add_bids(CLI::App& app, Context& context) {
+  CLI::App& command =
+      *app.add_subcommand("bids",
+                          "A BIDS data set, in the form of a BIDS App: first every participant, then the group.\n"
+                          "Example: myoid bids data out participant --participant-label 01 02");
+  const auto out = std::make_shared<std::string>();
+  const auto level = std::make_shared<std::string>();
+  const auto options = std::make_shared<program::CohortOptions>();
+  command.add_option("bids_dir", options->manifest, "Folder of the data set")->required();
+  command.add_option("output_dir", *out, "Folder of the results, a BIDS derivative")->required();
+  command.add_option("analysis_level", *level, "participant or group")
+      ->required()
+      ->check(one_of({"participant", "group"}));
+  command.add_option("--participant-label,--participant_label", options->persons,
+                     "Labels without sub-, several (default: everybody)");
+  command.add_option("--study", options->study, "The study of every person (default: code/study.toml of the data set)");
+  add_cohort_options(command, *options);
+  add_common_options(command, context, {.seed = false});
+  command.callback([&context, options, out, level] {
+    const bool group = *level == "group";
+    run_cohort(context, *options, *out, {.persons = !group, .group = group});
+  });
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,108 @@
+#include "myoid/program/commands/compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/ground/core/json_text.h"
+#include "myoid/page/plain_unit.h"
+#include "myoid/page/report.h"
+#include "myoid/program/cli/context.h"
+#include "myoid/program/cli/say.h"
+#include "myoid/results/change_sentences.h"
+
+namespace myoid::program {
+namespace {
+
+nlohmann::ordered_json optional_number(const std::optional<double>& x) {
+  return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json to_json(const results::RunComparison& comparison) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const results::ComparedParameter& p : comparison.parameters) {
+    rows.push_back(
+        {{"muscle", p.muscle},
+         {"parameter", p.first.parameter},
+         {"unit", std::string(symbol(p.first.unit))},
+         {"method", std::string(fit::name(p.first.method))},
+         {"case", p.first.fit_case},
+         {"first", p.of_first.value},
+         {"second", p.of_second.value},
+         {"difference", p.difference},
+         {"difference_percent", p.of_first.value == 0.0
+                                    ? nlohmann::ordered_json(nullptr)
+                                    : nlohmann::ordered_json(100.0 * p.difference / std::abs(p.of_first.value))},
+         {"smallest_detectable", optional_number(p.smallest_detectable)},
+         {"p_value", optional_number(p.p_value)},
+         {"change", std::string(results::name(p.change))},
+         {"says", results::change_text(p)}});
+  }
+  return {{"first", comparison.first.string()},
+          {"second", comparison.second.string()},
+          {"first_date", comparison.first_date},
+          {"second_date", comparison.second_date},
+          {"headline", results::changes_sentence(comparison)},
+          {"parameters", rows},
+          {"unlike", comparison.unlike},
+          {"remarks", comparison.remarks}};
+}
+
+/// Prints the sentence and the numbers that both sessions tell; with `all` the others, too.
+void print(const results::RunComparison& comparison, bool all) {
+  std::size_t owner = 6, parameter = 16;
+  const auto labelled = [](const results::ComparedParameter& p) {
+    const std::string_view unit = page::plain_unit(p.first.unit).symbol;
+    return unit.empty() ? p.first.parameter : fmt::format("{} [{}]", p.first.parameter, unit);
+  };
+  for (const results::ComparedParameter& p : comparison.parameters) {
+    owner = std::max(owner, in_column(p.muscle).size());
+    parameter = std::max(parameter, labelled(p).size());
+  }
+  say("{}\n\n", results::changes_sentence(comparison));
+  if (const std::string reading = results::reading_sentence(comparison); !reading.empty()) say("{}\n\n", reading);
+  say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", owner, "parameter [unit]", parameter, "first",
+      "second", "difference", "%", "p", "verdict");
+  for (const results::ComparedParameter& p : comparison.parameters) {
+    if (!results::rests_on_measurement(p.first.method) || (!all && p.change == results::Change::cannot_tell))
+      continue;  // in the report
+    const double per_si = page::plain_unit(p.first.unit).per_si;
+    say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", in_column(p.muscle), owner, labelled(p), parameter,
+        page::format_value(per_si * p.of_first.value), page::format_value(per_si * p.of_second.value),
+        page::format_value(per_si * p.difference),
+        p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value)),
+        p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", results::name(p.change));
+  }
+  for (const std::string& remark : comparison.remarks) say("{}\n", remark);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand("compare",
+                                          "Two finished runs, number by number: which parameters differ by more than "
+                                          "chance, which do not, and which the recordings cannot tell.\n"
+                                          "Example: myoid compare results/before results/after --out compared");
+  const auto out = std::make_shared<std::string>();
+  const auto options = std::make_shared<program::CompareOptions>();
+  command.add_option("first", options->first, "Folder of a run (with parameters.json)")->required();
+  command.add_option("second", options->second, "Folder of the run to compare it with")->required();
+  command.add_option("--out", *out, "Folder for report.html, figures and tables");
+  add_common_options(command, context, {.threads = false, .seed = false, .range = false});
+  command.callback([&context, options, out] {
+    if (!out->empty()) context.prepare_folder(*out);
+    options->call = context.call();
+    const program::CompareResult result = program::compare(*options);
+    if (!out->empty()) program::write_compare(result, *out);
+    if (context.json) {
+      say_whole(json_text(to_json(result.comparison)) + "\n");
+      return;
+    }
+    print(result.comparison, context.verbose);
+    if (!out->empty()) say("{}/report.html\n", *out);
+  });
+}
+
+}  // namespace myoid::program

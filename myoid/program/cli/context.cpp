@@ -1,0 +1,246 @@
+#include "myoid/program/cli/context.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <oneapi/tbb/info.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/folder_lock.h"
+#include "myoid/ground/files/output_file.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/program/cli/option_checks.h"
+#include "myoid/program/cli/say.h"
+#include "myoid/program/cli/wrong_line.h"
+
+namespace myoid::program {
+namespace {
+
+bool color_wanted() { return isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
+
+/// Draws at most ten times a second; shared by the threads that report.
+struct ProgressBar {
+  std::mutex mutex;
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last{};
+
+  void draw(double share, std::string_view what) {
+    const std::scoped_lock lock(mutex);
+    const auto now = std::chrono::steady_clock::now();
+    if (share < 1.0 && now - last < std::chrono::milliseconds(100)) return;
+    last = now;
+    const double elapsed_s = std::chrono::duration<double>(now - begin).count();
+    const std::string left =
+        share > 0.02 && share < 1.0 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share) : "";
+    const int filled = static_cast<int>(share * 24.0);
+    std::fputs("\r\033[K", stderr);
+    say_error("[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share, left, what);
+    std::fflush(stderr);
+  }
+};
+
+}  // namespace
+
+namespace {
+
+/// Counts the threads, at most `wanted`, that the system grants this process at the same time
+/// beside the calling one: the function makes all, lets them wait for each other, and ends them.
+/// Limits on processes (`ulimit -u`, a container's pids) and on memory (`ulimit -v`) bind here.
+int granted_threads(int wanted) {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  // As large as the scheduler's own.
+  pthread_attr_setstacksize(&attributes,
+                            oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::thread_stack_size));
+  std::mutex gate;
+  const auto pass = [](void* held) -> void* {
+    const std::scoped_lock lock(*static_cast<std::mutex*>(held));
+    return nullptr;
+  };
+  std::vector<pthread_t> threads;
+  {
+    const std::scoped_lock all_at_once(gate);
+    pthread_t thread{};
+    while (static_cast<int>(threads.size()) < wanted && pthread_create(&thread, &attributes, pass, &gate) == 0)
+      threads.push_back(thread);
+  }
+  for (const pthread_t thread : threads) pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  return static_cast<int>(threads.size());
+}
+
+/// Limits the threads to --threads or the number of cores, and to the number that the system
+/// grants: the scheduler ends the program where the system refuses a thread.
+void limit_threads(Context& context) {
+  const int wanted = context.threads > 0 ? context.threads : oneapi::tbb::info::default_concurrency();
+  const int granted = wanted > 1 ? std::max(1, granted_threads(wanted)) : wanted;
+  if (granted < wanted) {
+    context.warn(
+        fmt::format("the system grants fewer threads than the {} that are wanted; going on with {}: more needs higher "
+                    "limits on processes and memory (ulimit -u, ulimit -v)",
+                    wanted, granted));
+  }
+  if (context.threads == 0 && granted == wanted) return;
+  context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
+      oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(granted));
+  // A limit that is lifted at the end lets the scheduler ask for a thread once more.
+  static const auto* const kept = new std::shared_ptr<oneapi::tbb::global_control>(context.thread_limit);
+  (void)kept;
+}
+
+}  // namespace
+
+void Context::log(std::string_view line) const {
+  std::fflush(stdout);  // keeps the order of the two streams in one file
+  if (!quiet) say_error("{}\n", line);
+}
+
+void Context::warn(std::string_view line) const {
+  if (quiet) return;
+  std::fputs(color_wanted() ? "\033[33mwarning:\033[0m " : "warning: ", stderr);
+  say_error("{}\n", line);
+}
+
+void Context::tell(const Remark& remark) const {
+  if (remark.severity == Severity::detail && !verbose) return;
+  end_progress();
+  remark.severity <= Severity::warning ? warn(sentence(remark)) : log(sentence(remark));
+}
+
+void Context::print(const nlohmann::ordered_json& object, const std::string& text) const {
+  json ? say_whole(json_text(object) + "\n") : say("{}\n", text);
+}
+
+program::Call Context::call() const {
+  return {.seed = seed,
+          .start_s = start_s,
+          .end_s = end_s,
+          .command = command_line,
+          .progress = progress(),
+          .stage_ended = stage_ended(),
+          .listener = [this](const Remark& remark) { tell(remark); }};
+}
+
+Progress Context::progress() const {
+  Progress progress{.report = {}, .stop = stop.get_token()};
+  if (!quiet && isatty(STDERR_FILENO) != 0) {
+    const auto bar = std::make_shared<ProgressBar>();
+    progress.report = [bar](double share, std::string_view what) { bar->draw(share, what); };
+  }
+  return progress;
+}
+
+std::function<void(std::string_view, double)> Context::stage_ended() const {
+  if (quiet || isatty(STDERR_FILENO) != 0) return {};
+  return [this](std::string_view work, double seconds) { log(fmt::format("{} ... {:.1f} s", work, seconds)); };
+}
+
+void Context::end_progress() const {
+  if (!quiet && isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+}
+
+void Context::prepare_file(const std::filesystem::path& path, const std::vector<std::string>& inputs) const {
+  check_output(path, inputs, overwrite);
+  remember_new_folder(path.parent_path());
+}
+
+void Context::remember_new_folder(const std::filesystem::path& folder) const {
+  std::error_code ignored;
+  if (!folder.empty() && !std::filesystem::exists(folder, ignored) &&
+      std::ranges::find(new_folders, folder) == new_folders.end())
+    new_folders.push_back(folder);
+}
+
+void Context::tell_new_folders() const {
+  std::error_code ignored;
+  for (const std::filesystem::path& folder : new_folders) {
+    if (std::filesystem::exists(folder, ignored))
+      log(fmt::format("the folder {} was not there; it was made", folder.string()));
+  }
+}
+
+void Context::prepare_folder(const std::filesystem::path& folder, std::string_view unless_only) const {
+  held_folders.push_back(std::make_unique<ResultFolder>(folder, command_line, overwrite, unless_only));
+  if (const std::string& note = held_folders.back()->note(); !note.empty()) log(note);
+}
+
+void Context::prepare_run_folder(const std::filesystem::path& folder) const {
+  const std::string author = author_of(folder / "run.json");
+  held_folders.push_back(std::make_unique<ResultFolder>(folder, command_line, author.empty() ? "run" : author, true));
+}
+
+void Context::finish_folders() const {
+  for (const auto& held : held_folders) held->finish();
+}
+
+void Context::release_folders() const {
+  for (const auto& held : held_folders)
+    for (const std::string& note : held->take_notes()) log(note);
+  held_folders.clear();
+}
+
+std::string Context::contents_of_folders() const {
+  std::vector<std::string> clauses;
+  for (const auto& held : held_folders) {
+    const std::string folder = held->path().string();
+    clauses.push_back(holds_content(held->path())
+                          ? fmt::format("every file in {} is whole, and the same command takes it over", folder)
+                          : fmt::format("nothing was written into {}", folder));
+  }
+  return fmt::format("{}", fmt::join(clauses, "; "));
+}
+
+void add_compat_option(CLI::App& command, Context& context) {
+  command
+      .add_option("--compat", context.compat,
+                  "Muscle paths: exact, or opensim to have OpenSim 4.5.2's with its defects")
+      ->check(one_of({"exact", "opensim"}))
+      ->capture_default_str();
+}
+
+void add_common_options(CLI::App& command, Context& context, const CommonOptions& used) {
+  std::vector<CLI::Option*> idle;
+  command.get_help_ptr()->group(kCommonGroup);
+  command.option_defaults()->group(kCommonGroup);
+  const auto unless = [&](bool has_effect, CLI::Option* option) {
+    if (has_effect) return;
+    option->group(kIdleGroup);
+    idle.push_back(option);
+  };
+  unless(used.threads,
+         command
+             .add_option("--threads", context.threads,
+                         "Number of threads (default: all cores; the result is the same for every number)")
+             ->check(between(0, 1024)));
+  unless(used.seed,
+         command.add_option("--seed", context.seed, "Seed of everything random (default 1)")->check(zero_or_more()));
+  unless(used.json, command.add_flag("--json", context.json, "Result for machines on stdout"));
+  command.add_flag("--quiet", context.quiet, "Nothing on stderr but errors");
+  command.add_flag("--verbose", context.verbose, "More: all numbers and gates of a run, repairs, timings");
+  unless(used.range, command.add_option("--start", context.start_s, "First time that is used [s]"));
+  unless(used.range, command.add_option("--end", context.end_s, "Last time that is used [s]"));
+  unless(used.overwrite, command.add_flag("--overwrite", context.overwrite, "Replace existing results"));
+  command.option_defaults()->group("Options");
+  command.parse_complete_callback([&context, idle, uses_threads = used.threads, name = command.get_name()] {
+    if (context.start_s && context.end_s && !(*context.start_s < *context.end_s)) {
+      throw WrongCommandLine(
+          fmt::format("--end: expected a time after --start {}, found {}", *context.start_s, *context.end_s));
+    }
+    for (const CLI::Option* option : idle) {
+      if (option->count() > 0)
+        context.warn(fmt::format("--{} has no effect on {}", option->get_lnames().front(), name));
+    }
+    if (uses_threads) limit_threads(context);
+  });
+}
+
+}  // namespace myoid::program

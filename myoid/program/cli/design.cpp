@@ -1,0 +1,141 @@
+#include "myoid/program/commands/design.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/ground/core/json_text.h"
+#include "myoid/program/cli/context.h"
+#include "myoid/program/cli/option_checks.h"
+#include "myoid/program/cli/say.h"
+
+namespace myoid::program {
+namespace {
+
+using fit::ParameterEstimate;
+
+void print_plan(const run::DesignStudyResult& result) {
+  say("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest", "median 95 %", "identified");
+  say("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
+      fmt::format("of {}", result.beforehand.size()));
+  say("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
+      run::median_half_width(result.beforehand), run::identified_count(result.beforehand));
+  for (std::size_t i = 0; i < result.plan.size(); ++i) {
+    const run::PlannedMovement& m = result.plan[i];
+    say("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1, m.movement.description(), m.movement.duration_s,
+        m.rest_before_s, run::median_half_width(m.expected), run::identified_count(m.expected));
+  }
+  if (result.plan.empty()) return;
+  say("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}", "target", "beforehand");
+  for (std::size_t i = 0; i < result.plan.size(); ++i) say(" {:>7}", i + 1);
+  say("  verdict\n");
+  for (std::size_t t = 0; t < result.beforehand.size(); ++t) {
+    const ParameterEstimate& before = result.beforehand[t];
+    say("{:<38} {:>11.1f}", before.muscle + "." + before.parameter, run::relative_half_width(before));
+    for (const run::PlannedMovement& m : result.plan) say(" {:>7.1f}", run::relative_half_width(m.expected[t]));
+    say("  {}\n", fit::name(result.plan.back().expected[t].verdict));
+  }
+}
+
+nlohmann::ordered_json estimates_json(const std::vector<ParameterEstimate>& estimates) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ParameterEstimate& e : estimates) {
+    list.push_back({{"muscle", e.muscle},
+                    {"parameter", e.parameter},
+                    {"unit", symbol(e.unit)},
+                    {"value", e.estimate},
+                    {"ci_low", *e.ci_low},
+                    {"ci_high", *e.ci_high},
+                    {"verdict", std::string(fit::name(e.verdict))}});
+  }
+  return list;
+}
+
+void print_json(const run::DesignStudyResult& result) {
+  nlohmann::ordered_json json;
+  json["catalogue_size"] = result.catalogue_size;
+  json["beforehand"] = estimates_json(result.beforehand);
+  json["plan"] = nlohmann::ordered_json::array();
+  for (const run::PlannedMovement& m : result.plan) {
+    json["plan"].push_back({{"movement", m.movement.description()},
+                            {"duration_s", m.movement.duration_s},
+                            {"rest_before_s", m.rest_before_s},
+                            {"fatigued_share", m.fatigued_share},
+                            {"expected", estimates_json(m.expected)}});
+  }
+  say_whole(json_text(json) + "\n");
+}
+
+/// Adds the movements to choose from, and their number.
+void add_choice_options(CLI::App& command, program::DesignOptions& options) {
+  run::DesignStudyOptions& design = options.design;
+  command
+      .add_option("--criterion", options.criterion,
+                  "D: volume of the confidence ellipsoid, A: sum of relative variances")
+      ->check(one_of({"D", "A"}))
+      ->capture_default_str();
+  command.add_option("--movements", design.choice.movements, "How many to choose")
+      ->check(between(1, 50))
+      ->capture_default_str();
+  command.add_option("--repeat", design.choice.most_of_each, "The same movement at most so often")
+      ->check(between(1, 50))
+      ->capture_default_str();
+  command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")->check(above_zero());
+  command.add_option("--fatigue", design.fatigued_share, "Share of a muscle that may be fatigued at any time")
+      ->check(between(0.001, 1.0))
+      ->capture_default_str();
+  command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
+      ->check(zero_or_more())
+      ->capture_default_str();
+}
+
+/// Adds the persons and the noise of the expected recording.
+void add_recording_options(CLI::App& command, run::DesignStudyOptions& design) {
+  command.add_option("--persons", design.persons, "Persons drawn from the priors, to average over")
+      ->check(between(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--torque-noise", design.torque_sd_nm,
+                  "Standard deviation of the joint torque's error below 2 Hz [N m]")
+      ->check(above_zero())
+      ->capture_default_str();
+  command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
+      ->check(between(0.0, 1.0))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_design(CLI::App& app, Context& context) {
+  CLI::App& command =
+      *app.add_subcommand("design",
+                          "Which movements to record so that the target parameters become identifiable.\n"
+                          "Example: myoid design --model arm4 --targets max_isometric_force BIC.force_length_width");
+  const auto options = std::make_shared<program::DesignOptions>();
+  const auto no_dynamometer = std::make_shared<bool>(false);
+  run::DesignStudyOptions& design = options->design;
+  command.add_option("study", options->study,
+                     "study.toml: model, muscles and electrodes as they are (or --model arm4)");
+  command.add_option("--model", options->model, "The built-in arm: arm4");
+  command.add_flag("--wire", options->wire, "With arm4: the brachialis has a wire electrode of its own");
+  command.add_option("--targets", design.targets, "all, parameters, muscles or MUSCLE.PARAMETER (default all)")
+      ->capture_default_str();
+  command.add_option("--after", options->after, "Folder of a finished run: its result is known beforehand");
+  add_choice_options(command, *options);
+  command.add_flag("--no-dynamometer", *no_dynamometer,
+                   "No isokinetic movement (isometric torque can be measured still)");
+  add_recording_options(command, design);
+  add_common_options(command, context, {.range = false, .overwrite = false});
+  command.callback([&context, options, no_dynamometer] {
+    options->call = context.call();
+    options->dynamometer = !*no_dynamometer;
+    const program::DesignResult result = program::design(*options);
+    context.end_progress();
+    if (context.json) {
+      print_json(result.design);
+    } else {
+      print_plan(result.design);
+    }
+  });
+}
+
+}  // namespace myoid::program

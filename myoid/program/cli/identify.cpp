@@ -1,0 +1,44 @@
+#include "myoid/program/commands/identify.h"
+
+#include <memory>
+#include <string>
+
+#include "myoid/ground/files/output_file.h"
+#include "myoid/program/cli/context.h"
+#include "myoid/program/cli/options.h"
+#include "myoid/program/cli/run.h"
+
+namespace myoid::program {
+
+void add_identify(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand(
+      "identify",
+      "Muscle parameters straight from files, where the earlier stages are done elsewhere.\n"
+      "Example: myoid identify --muscles muscles.csv --activations a.sto --lengths l.sto --velocities v.sto\n"
+      "                        --moment-arms r.sto --torques id.sto --method torque --out results");
+  program::IdentifyOptions defaults;
+  OptionDeclarer declarer(command);
+  visit(defaults, declarer);
+  for (const char* option : {"--free", "--hold"}) command.get_option(option)->delimiter(',');
+  const auto out = std::make_shared<std::string>();
+  command.add_option("--out", *out, "Folder of the results")->required();
+  const MatOption mat(command);
+  command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
+  add_common_options(command, context);
+  command.callback([&context, &command, out, mat] {
+    program::IdentifyOptions o;
+    OptionReader reader(command);
+    visit(o, reader);
+    mat.prepare(context, {o.muscles.string()});
+    context.prepare_folder(*out);
+    protect_files(*out, program::kIdentifyFiles, {o.muscles.string()});
+    o.call = context.call();
+    program::IdentifyResult result = program::identify(o);
+    program::write_identify(result, *out);
+    context.end_progress();
+    mat.write(*out);
+    say_run(context, result.run, *out);
+  });
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,138 @@
+#include "myoid/program/commands/twin_study.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/math/statistics.h"
+#include "myoid/program/cli/context.h"
+#include "myoid/program/cli/option_checks.h"
+#include "myoid/program/cli/options.h"
+#include "myoid/program/cli/say.h"
+
+namespace myoid::program {
+namespace {
+
+std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.1f}", 100.0 * share) : "-"; }
+
+void print_summary(const std::vector<lab::TwinSummary>& summaries, bool each_muscle) {
+  const auto print = [](auto... cells) {
+    say("{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>7} {:>9} "
+        "{:>9}\n",
+        cells...);
+  };
+  say("given: the reading with exact geometry and sensors\n");
+  print("method", "case", "muscle", "parameter", "n", "bias", "error", "rmse", "<5 %", "<10 %", "<20 %", "prior",
+        "cover", "half w.", "given:", "cover", "half w.", "identif.", "of these");
+  print("", "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "[%]", "error", "[%]", "[%]",
+        "[%]", "<15 % [%]");
+  for (const lab::TwinSummary& s : summaries) {
+    if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
+    const int identified = s.verdicts[0];
+    print(s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias), percent(s.median_error),
+          percent(s.rmse), percent(s.within_5), percent(s.within_10), percent(s.within_20), percent(s.prior_within_10),
+          percent(s.coverage), percent(s.half_width), percent(s.given_median_error), percent(s.given_coverage),
+          percent(s.given_half_width), percent(static_cast<double>(identified) / s.count),
+          identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
+  }
+}
+
+/// Medians over all trials, then trial by trial.
+void print_predictions(const lab::TwinStudyResult& result) {
+  if (result.predictions.empty()) return;
+  say("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
+  say("{:<28} {:>5} {:>10} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2", "below 1.5 Hz: NRMSE", "R2");
+  std::vector<std::string> trials{"all"};
+  for (const lab::TwinPrediction& p : result.predictions) {
+    if (std::ranges::find(trials, p.trial) == trials.end()) trials.push_back(p.trial);
+  }
+  for (const std::string& trial : trials) {
+    std::size_t count = 0;
+    const auto medians = [&](fit::Score lab::TwinPrediction::*score) {
+      std::vector<double> nrmse, r2;
+      for (const lab::TwinPrediction& p : result.predictions) {
+        if (trial != "all" && trial != p.trial) continue;
+        nrmse.push_back(100.0 * (p.*score).nrmse_range());
+        r2.push_back((p.*score).r2());
+      }
+      count = r2.size();
+      return std::pair{math::median(std::move(nrmse)), math::median(std::move(r2))};
+    };
+    const auto law = medians(&lab::TwinPrediction::law), band = medians(&lab::TwinPrediction::band);
+    say("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial, count, law.first, law.second, band.first,
+        band.second);
+  }
+}
+
+void print_verdicts(const lab::TwinStudyResult& result, const std::vector<lab::TwinSummary>& summaries) {
+  for (const char* method : {"torque", "force", "paper"}) {
+    int good = 0;
+    int bad = 0;
+    int other_good = 0;
+    int other_bad = 0;
+    int outside = 0;
+    for (const lab::TwinSummary& s : summaries) {
+      if (s.method != method || (s.muscle != "all" && s.muscle != "subject")) continue;
+      good += s.identified_good;
+      bad += s.identified_bad;
+      other_good += s.other_good;
+      other_bad += s.other_bad;
+      outside += s.outside_physical;
+    }
+    if (good + bad + other_good + other_bad == 0) continue;
+    say("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", method, "", "error < 10 %", "error >= 10 %");
+    say("{:<24} {:>14} {:>14}\n{:<24} {:>14} {:>14}\n", "identified", good, bad, "not identified", other_good,
+        other_bad);
+    say("{} values outside the physical bounds without the verdict non_physical\n", outside);
+  }
+  print_predictions(result);
+}
+
+}  // namespace
+
+void add_twin_study(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand(
+      "twin-study",
+      "How good is the method? Many virtual persons, the whole chain, compared with the truth.\n"
+      "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out study");
+  const auto out = std::make_shared<std::string>();
+  const auto each_muscle = std::make_shared<bool>(false);
+  const auto options = std::make_shared<program::TwinStudyOptions>();
+  command.add_option("--protocol", options->protocol, "Protocol of the recording (.toml), or demo, the program's own")
+      ->required();
+  command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
+      ->check(one_of({"L0", "L1", "L2"}));
+  command.add_option("--offset", options->offset, "Mean of the persons away from the priors', in standard deviations")
+      ->check(between(-3.0, 3.0));
+  add_truth_option(command, options->truth);
+  command.add_option("--subjects", options->study.subjects, "Virtual persons")
+      ->check(between(1, 1000000))
+      ->capture_default_str();
+  command.add_option("--method", options->study.methods, "torque, force, paper; several")
+      ->transform(one_of<fit::Method>())
+      ->default_str("torque");
+  command.add_flag("--each-muscle", *each_muscle, "A line for each muscle too");
+  command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")->required();
+  add_common_options(command, context, {.range = false});
+  command.callback([&context, options, out, each_muscle] {
+    context.prepare_folder(*out);
+    options->call = context.call();
+    const program::TwinStudyResult result = program::twin_study(*options);
+    context.end_progress();
+    program::write_twin_study(result, *out);
+    const lab::TwinStudyResult& study = result.study;
+    const std::string persons = study.interrupted
+                                    ? fmt::format("INTERRUPTED: only {} of {}", study.finished, study.subjects)
+                                    : fmt::format("{}", study.finished);
+    say("protocol {}, level {}, {} persons, {} failures\n\n", study.protocol, study.level, persons,
+        study.failures.size());
+    print_summary(result.summaries, *each_muscle);
+    print_verdicts(study, result.summaries);
+    if (study.interrupted) throw Interrupted();
+    if (!study.failures.empty()) context.exit_code = kSomeTrialsFailed;
+  });
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "myoid/fit/measurement/options.h"
+#include "myoid/program/commands/call.h"
+#include "myoid/results/cohort/group.h"
+#include "myoid/results/cohort/outcome.h"
+#include "myoid/results/cohort/workflow.h"
+
+namespace myoid::program {
+
+/// Many persons, each with a study: `run` for each, then all results side by side.
+struct CohortOptions {
+  Call call;
+  std::string manifest;              ///< Table of the persons, or folder of a BIDS data set.
+  std::string study;                 ///< BIDS: the study of every person; empty: code/study.toml.
+  std::vector<std::string> persons;  ///< Names or labels; empty: all persons.
+  bool overwrite = false;            ///< Also into folders with other content than a cohort's results.
+  std::size_t jobs = 0;              ///< Persons computed at the same time; 0: as many as threads.
+  /// Receives the end of each person at once; may be empty. Called by one thread at a time.
+  std::function<void(const results::PersonOutcome&)> heard;
+};
+
+/// Computes the persons and writes each into a folder of its own, `persons/NAME` in `folder`. A
+/// person with current results is not computed again. A person whose computation fails is recorded,
+/// and the others go on. The files hold no times and are the same to the byte for every number of
+/// jobs and threads. Throws InvalidInput for an unreadable manifest and for an unknown person.
+std::vector<results::PersonOutcome> write_cohort_persons(const CohortOptions& options,
+                                                         const std::filesystem::path& folder);
+
+/// Puts the persons' results in `folder` side by side, and writes tables, page and BIDS derivative.
+results::Group write_cohort_group(const CohortOptions& options, const std::filesystem::path& folder);
+
+/// Writes the files with which a workflow engine computes the cohort into `workflow` in `folder`;
+/// returns the command that starts the engine.
+std::string write_cohort_workflow(const CohortOptions& options,
+                                  results::Engine engine,
+                                  const std::filesystem::path& folder);
+
+/// Makes and signs the folder of a cohort with a readable manifest. Throws InvalidInput for a file, for a folder with
+/// other content than a cohort's unless `overwrite`, for one that is or holds the BIDS data set, for a file that the
+/// group's results would replace, and for the manifest as `write_cohort_persons` does; then no folder is made.
+void prepare_cohort_folder(const CohortOptions& options, const std::filesystem::path& folder);
+
+}  // namespace myoid::program

@@ -1,0 +1,31 @@
+#include "myoid/program/commands/compare.h"
+
+#include <fmt/format.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/page/write_report.h"
+#include "myoid/results/comparison_report.h"
+
+namespace myoid::program {
+
+CompareResult compare(const CompareOptions& o) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(o.first, o.second, ignored)) {
+    throw InvalidInput(fmt::format("{} and {} are one folder; name two runs", o.first, o.second));
+  }
+  Remarks remarks(o.call);
+  CompareResult result;
+  result.comparison = results::compare_runs(o.first, o.second);
+  for (const std::string& folder : {o.first, o.second}) remarks.warn_of_changes(folder, {"parameters.json"});
+  for (const std::string& text : result.comparison.failed) remarks.warn(text);
+  for (const std::string& text : result.comparison.unlike)
+    remarks.warn(fmt::format("{} and {}: {}", o.first, o.second, text));
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_compare(const CompareResult& result, const std::filesystem::path& folder) {
+  page::write_report(results::comparison_report(result.comparison), folder);
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/program/commands/call.h"
+
+namespace myoid::program {
+
+/// A recording in another format.
+struct ConvertOptions {
+  Call call;
+  std::string in;                     ///< A recording or table, or the folder of a finished run.
+  std::string out;                    ///< .c3d, .trc, .sto, .mot, .csv, or a folder for everything.
+  std::string what;                   ///< markers, channels, emg or plates; empty: by the endings of the names.
+  std::string up;                     ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
+  std::vector<std::string> turns;     ///< "AXIS:DEGREES", one after another.
+  std::string unit;                   ///< Unit of EMG if the file does not state it: V, mV, uV.
+  std::vector<std::string> channels;  ///< Only these channels; empty: all.
+  std::string analog;                 ///< Channels that join the markers of a .trc in a .c3d.
+  std::vector<std::string> bodies;    ///< Bodies on plate 1, 2, ...: writes ExternalLoads, too.
+  double least_force_n = 10.0;        ///< Smaller forces count as an unloaded plate.
+  double rate_hz = 0.0;               ///< Rate of an even clock for all data; 0: as recorded.
+  std::string subject = "01";         ///< Label of the person in a BIDS derivative.
+  bool overwrite = false;             ///< Replaces existing files.
+};
+
+struct ConvertResult {
+  std::vector<std::string> files;  ///< Written files.
+  std::vector<Remark> remarks;
+};
+
+/// Reads and writes, each file whole or not at all. (One function does both, so that channels of a
+/// long recording pass from the reader to the writer without all being in memory.) Throws
+/// InvalidInput for a format that cannot be written, and for a file that exists or is an input.
+ConvertResult convert(const ConvertOptions& options);
+
+/// Returns true if the input is the folder of a run, whose results become a BIDS derivative in the
+/// folder `out`. Throws InvalidInput if `out` names a recording.
+[[nodiscard]] bool makes_derivative(const ConvertOptions& options);
+
+}  // namespace myoid::program

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/ground/core/time_series.h"
+#include "myoid/program/commands/call.h"
+#include "myoid/recording/signals/emg_chain.h"
+#include "myoid/recording/signals/emg_envelope.h"
+#include "myoid/recording/signals/emg_levels.h"
+#include "myoid/recording/signals/emg_measures.h"
+
+namespace myoid::program {
+
+/// Options of the conversion of raw EMG to activation.
+struct EmgOptions {
+  Call call;
+  std::vector<std::string> in;        ///< Each is normalized by the largest effort of all files.
+  std::vector<std::string> mvc;       ///< Maximal contractions to normalize by.
+  std::vector<std::string> channels;  ///< Only these channels; empty: all of a file's first clock.
+  std::string unit;                   ///< V, mV or uV if a file does not state it.
+  recording::EnvelopeOptions chain;
+  double window_s = 0.5;          ///< Length of the mean that counts as 1.
+  bool keep_envelopes = false;    ///< Keeps the envelopes in the result, too.
+  double measure_window_s = 0.0;  ///< Length of the windows of the measures; 0: bursts alone.
+};
+
+/// Onsets, root mean square and median frequency of one channel of one file.
+struct EmgMeasures {
+  std::string file, channel;
+  std::vector<recording::EmgWindow> bursts;   ///< From each onset to its end.
+  std::vector<recording::EmgWindow> windows;  ///< Successive windows of `measure_window_s`.
+};
+
+struct EmgResult {
+  std::vector<TimeSeries> activations;  ///< 0..1, one per input.
+  std::vector<TimeSeries> envelopes;    ///< [V], one per input if kept.
+  recording::Whitening whitening;
+  std::vector<recording::ChannelNormalisation> normalisation;
+  std::vector<EmgMeasures> measures;                            ///< Of the filtered EMG, by file and channel.
+  recording::EmgChain chain;                                    ///< From the raw EMG to the activation.
+  std::vector<std::string> activation_header, envelope_header;  ///< The chain, for files.
+  std::vector<Remark> remarks;
+};
+
+/// Converts raw EMG. Throws ReadError for a file without a raw EMG channel, and InvalidInput if the
+/// files have no channel in common.
+[[nodiscard]] EmgResult emg(const EmgOptions& options);
+
+/// Returns the files for results of these inputs: for one input `to` itself, for several a file of
+/// each input's name in the folder `to`, none if `to` is empty. Throws InvalidInput with the
+/// option's name if two results would share a file or `to` is no folder.
+[[nodiscard]] std::vector<std::string> emg_files(const std::vector<std::string>& inputs,
+                                                 const std::string& to,
+                                                 const char* option);
+
+/// Throws InvalidInput, as `check_output`, for files that exist or are inputs, and for an
+/// activation and an envelope of one name.
+void check_emg_files(const EmgOptions& options,
+                     const std::vector<std::string>& activations,
+                     const std::vector<std::string>& envelopes,
+                     bool overwrite);
+
+/// Writes the measures as .csv: `file,channel,kind,begin_s,end_s,rms_v,median_frequency_hz`; kind is burst or window.
+void write_emg_measures(const EmgResult& result, const std::string& path);
+
+/// Writes the activation of each input and the envelopes, if files for them are given (.sto, .mot or .csv).
+void write_emg(const EmgResult& result,
+               const std::vector<std::string>& activations,
+               const std::vector<std::string>& envelopes);
+
+}  // namespace myoid::program

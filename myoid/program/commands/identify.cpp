@@ -1,0 +1,46 @@
+#include "myoid/program/commands/identify.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/text_file.h"
+#include "myoid/program/commands/identify_study.h"
+#include "myoid/study/study_text.h"
+
+namespace myoid::program {
+
+IdentifyResult identify(const IdentifyOptions& o) {
+  check_values(o);
+  Remarks remarks(o.call);
+  const run::MuscleTable table = run::read_muscles_csv(o.muscles, o.method != "paper");
+  refuse_impossible(o, table);
+  for (const std::string& text : without_effect(o)) remarks.warn(text);
+  for (const std::string& note : table.notes) remarks.warn(note);
+  IdentifyResult result{.study = identify_study(o, table, remarks), .run = {}};
+  RunOptions options;
+  options.call = o.call;
+  options.call.start_s = options.call.end_s = std::nullopt;  // they are the trials' now
+  result.run = run(result.study, options);
+  if (o.beliefs && o.method != "paper")
+    result.run.provenance.inputs.push_back({o.beliefs->string(), sha256(read_text_file(*o.beliefs))});
+  for (const std::string& text : result.fit().warnings) remarks.warn(text);
+  std::vector<Remark> all = remarks.list();
+  all.insert(all.end(), result.run.remarks.begin(), result.run.remarks.end());
+  result.run.remarks = std::move(all);
+  return result;
+}
+
+void write_identify(IdentifyResult& result, const std::filesystem::path& folder) {
+  study::Study study = seen_from(folder, result.study);
+  const std::string text = study::study_toml(study);
+  const std::filesystem::path file = folder / study.file;
+  // First, because the run's record names it.
+  result.run.study.source.study.file = file;
+  result.run.provenance.inputs.push_back({file.string(), sha256(text)});
+  write_run(result.run, folder);
+  write_file(file, text);
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/program/commands/call.h"
+#include "myoid/study/draft/study_draft.h"
+
+namespace myoid::program {
+
+/// Options of the draft of a study.toml.
+struct InitOptions {
+  Call call;
+  std::string folder;             ///< Folder of study.toml: paths are relative to it.
+  std::vector<std::string> from;  ///< Recordings, or their folders; empty: the folder itself.
+  std::string model;              ///< .osim; empty: the only one in the folders, else arm4.
+  std::string coordinate;         ///< The joint; empty: guessed.
+};
+
+struct InitResult {
+  study::StudyDraft draft;
+  std::vector<Remark> remarks;
+};
+
+[[nodiscard]] InitResult init(const InitOptions& options);
+
+/// Writes the study file.
+void write_init(const InitResult& result, const std::filesystem::path& path, const Call& call);
+
+}  // namespace myoid::program

@@ -1,0 +1,32 @@
+#include "myoid/program/commands/report.h"
+
+#include "myoid/page/write_report.h"
+#include "myoid/results/study_days.h"
+#include "myoid/results/study_report.h"
+#include "myoid/results/study_workbench.h"
+#include "myoid/run/run_study.h"
+#include "myoid/study/run_record.h"
+#include "myoid/study/study_text.h"
+#include "myoid/study/trial_videos.h"
+
+namespace myoid::program {
+ReportResult report(const ReportOptions& o) {
+  const study::RunRecord run = study::read_run_record(o.folder);
+  ReportResult result;
+  result.study = run::run_study(
+      study::read_filmed_study(run.study, o.video),
+      {.start_s = run.start_s, .end_s = run.end_s, .progress = o.call.progress, .stage_ended = o.call.stage_ended});
+  results::add_days(result.study);
+  study::refuse_changed(result.study.source.files, run);
+  result.provenance.command = run.command.empty() ? o.call.command : run.command;
+  result.provenance.inputs = result.study.source.files;
+  result.provenance.options_json = study::study_json(result.study.source.study);
+  return result;
+}
+
+void write_report(const ReportResult& result, const std::filesystem::path& folder) {
+  const page::Workbench workbench = results::study_workbench(result.study, folder);
+  page::write_report(results::study_report(result.study, result.provenance), folder, &workbench);
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,94 @@
+#include "myoid/program/commands/run.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "myoid/ground/files/result_record.h"
+#include "myoid/page/write_report.h"
+#include "myoid/results/result_files.h"
+#include "myoid/results/study_days.h"
+#include "myoid/results/study_report.h"
+#include "myoid/results/study_workbench.h"
+#include "myoid/run/quality_gates.h"
+#include "myoid/run/run_study.h"
+#include "myoid/study/checks/recording_findings.h"
+#include "myoid/study/study_model.h"
+#include "myoid/study/study_text.h"
+#include "myoid/study/trial_videos.h"
+
+namespace myoid::program {
+namespace {
+
+/// Reports the faults of recordings and trials and the repairs of files; returns the count of repairs.
+std::size_t tell_trials(const run::StudyResult& study, Remarks& remarks) {
+  const auto reused =
+      std::ranges::count_if(study.trials, [](const run::TrialResult& trial) { return trial.motion.ik_reused; });
+  if (reused > 0) remarks.note(fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
+  const auto damaged =
+      std::ranges::count_if(study.trials, [](const run::TrialResult& trial) { return trial.motion.ik_was_damaged; });
+  if (damaged > 0)
+    remarks.warn(fmt::format("kept inverse kinematics of {} trials changed on the disk; computed again", damaged));
+  for (const std::string& line : study::fault_summary(run::all_faults(study))) remarks.warn(line);
+  std::size_t details = 0;
+  for (const run::TrialResult& trial : study.trials) {
+    if (!trial.failure().empty()) remarks.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure()));
+    for (const std::string& warning : sentences(trial.remarks, Severity::warning))
+      remarks.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
+    const std::vector<std::string> notes = sentences(trial.remarks, Severity::note);
+    for (const std::string& note : notes) remarks.detail(fmt::format("{}: {}", trial.spec.name, note));
+    details += notes.size();
+  }
+  return details;
+}
+
+}  // namespace
+
+bool RunResult::failed(bool strict) const {
+  bool failed =
+      std::ranges::any_of(gates, [](const page::Gate& gate) { return gate.status == page::GateStatus::fail; });
+  for (const fit::IdentificationResult& method : study.fit.methods) {
+    if (method.method == fit::Method::paper) continue;
+    failed = failed || method.termination != math::Termination::converged;
+    for (const fit::ParameterEstimate& e : method.estimates)
+      failed = failed || (strict && e.verdict == fit::Verdict::not_identifiable);
+  }
+  return failed;
+}
+
+RunResult run(const RunOptions& o) {
+  study::Study study = study::read_filmed_study(o.study, o.video);
+  if (!o.methods.empty()) study.identify.methods = o.methods;
+  return run(study, o);
+}
+
+RunResult run(const study::Study& study, const RunOptions& o) {
+  Remarks remarks(o.call);
+  RunResult result;
+  for (const std::string& text : study.identify.without_effect) remarks.warn(text);
+  if (const std::string assumed = study::assumed_starts(study); !assumed.empty()) remarks.warn(assumed);
+  result.study = run::run_study(study, {.start_s = o.call.start_s,
+                                        .end_s = o.call.end_s,
+                                        .seed = o.call.seed,
+                                        .progress = o.call.progress,
+                                        .stage_ended = o.call.stage_ended,
+                                        .store = o.store});
+  results::add_days(result.study);
+  result.gates = run::quality_gates(result.study);
+  result.provenance.command = o.call.command;
+  result.provenance.inputs = result.study.source.files;
+  result.provenance.options_json = study::study_json(result.study.source.study);
+  result.reading_remarks = tell_trials(result.study, remarks);
+  if (result.study.fit_input.nuisances_held) remarks.note(std::string(run::kFewRows));
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_run(const RunResult& result, const std::filesystem::path& folder) {
+  remove_earlier_results(folder);
+  results::write_results(result.study, result.provenance, folder);
+  const page::Workbench workbench = results::study_workbench(result.study, folder);
+  page::write_report(results::study_report(result.study, result.provenance), folder, &workbench);
+}
+
+}  // namespace myoid::program

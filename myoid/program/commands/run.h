@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/fit/measurement/options.h"
+#include "myoid/ground/core/provenance.h"
+#include "myoid/page/report.h"
+#include "myoid/program/commands/call.h"
+#include "myoid/run/study_result.h"
+
+namespace myoid::program {
+
+/// Folder in the folder of the results with the stages that a repeated run need not compute again.
+inline constexpr const char* kStageFolder = ".stages";
+
+/// Names of the results beside the folders of trials, figures and tables.
+inline const std::vector<std::string_view> kRunFiles{"report.",          "run.json",   "methods.",     "parameters.",
+                                                     "fold_parameters.", "posterior.", "predictions.", "solvers."};
+
+/// Options of the whole pipeline, from a study's recordings to muscle parameters.
+struct RunOptions {
+  Call call;
+  std::string study;                           ///< study.toml
+  std::vector<fit::Method> methods;            ///< In place of the study's; empty: the study's.
+  study::VideoChoice video;                    ///< In place of the study's films.
+  std::optional<std::filesystem::path> store;  ///< Keeps stages between runs; empty: none.
+};
+
+struct RunResult {
+  run::StudyResult study;
+  std::vector<page::Gate> gates;
+  std::size_t reading_remarks = 0;  ///< Remarks of the kind `detail`.
+  Provenance provenance;
+  std::vector<Remark> remarks;
+
+  /// Returns true if a gate failed, or method torque or force did not converge; with `strict` also if such a method has
+  /// a parameter that is not identifiable.
+  [[nodiscard]] bool failed(bool strict) const;
+};
+
+[[nodiscard]] RunResult run(const RunOptions& options);
+
+/// Runs a study that no file holds yet; `options.study` is not read.
+[[nodiscard]] RunResult run(const study::Study& study, const RunOptions& options);
+
+/// Writes all results and the report, in the place of the files of an earlier run.
+void write_run(const RunResult& result, const std::filesystem::path& folder);
+
+}  // namespace myoid::program

@@ -1,0 +1,32 @@
+#include "myoid/program/commands/twin_study.h"
+
+#include <fmt/format.h>
+
+#include "myoid/lab/virtual_person/demo_protocol.h"
+#include "myoid/program/commands/twin.h"
+
+namespace myoid::program {
+
+TwinStudyResult twin_study(const TwinStudyOptions& o) {
+  Remarks remarks(o.call);
+  lab::Protocol protocol = lab::protocol_named(o.protocol, level_named(o.level));
+  lab::set_truth(protocol, o.truth);
+  if (o.offset) protocol.truth.offset = *o.offset;
+  lab::TwinStudyOptions options = o.study;
+  options.first_seed = o.call.seed;
+  options.progress = o.call.progress;
+  TwinStudyResult result;
+  result.study = lab::twin_study(protocol, options);
+  for (const lab::TwinFailure& f : result.study.failures) remarks.warn(fmt::format("seed {}: {}", f.seed, f.message));
+  result.summaries = lab::summarize(result.study);
+  result.provenance.command = o.call.command;
+  result.provenance.inputs.push_back({o.protocol, sha256(lab::protocol_text(o.protocol))});
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_twin_study(const TwinStudyResult& result, const std::filesystem::path& folder) {
+  lab::write_twin_study(result.study, result.provenance, folder);
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,119 @@
+#include "myoid/recording/c3d/c3d_signals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_words.h"
+
+namespace myoid::recording {
+namespace {
+
+/// Rows turned into columns at once, so that they stay in the cache.
+constexpr Eigen::Index kBlockRows = 64;
+
+/// Returns the index behind a subject's prefix in a name, 0 if there is none.
+std::size_t bare_begin(const std::string& name) {
+  const std::size_t colon = name.rfind(':');
+  return colon != std::string::npos && colon > 0 && colon + 1 < name.size() ? colon + 1 : 0;
+}
+
+}  // namespace
+
+std::vector<Eigen::Index> marker_columns(const C3dFile& file) {
+  std::set<std::string> derived;
+  for (const char* kind : {"ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS"}) {
+    for (std::string& label : all_texts(file, "POINT", kind)) derived.insert(std::move(label));
+  }
+  std::vector<Eigen::Index> columns;
+  for (std::size_t i = 0; i < file.point_labels.size(); ++i) {
+    if (!derived.contains(file.point_labels[i])) columns.push_back(static_cast<Eigen::Index>(i));
+  }
+  return columns;
+}
+
+C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
+    : columns_(marker_columns(file)), points_(file.point_labels.size()), first_frame_(file.first_frame) {
+  if (columns_.empty() || frames == 0) throw InvalidInput("the C3D file holds no markers");
+  const std::optional<ScaledUnit> unit = parse_file_unit(file.point_unit);
+  if (!unit || unit->unit != Unit::meter) {
+    throw InvalidInput("POINT:UNITS: found '{}', expected mm, cm or m; correct the file's parameter", file.point_unit);
+  }
+  to_m_ = unit->to_si;
+  if (columns_.size() < points_) {
+    note(repairs_,
+         "{} points are angles, forces, moments, powers or scalars of another program and no markers; left out",
+         points_ - columns_.size());
+  }
+  markers_.time_s.resize(frames);
+  for (Eigen::Index k = 0; k < frames; ++k)
+    markers_.time_s[k] = static_cast<double>(file.first_frame - 1 + k) / file.point_rate_hz;
+
+  // The subject's prefix is dropped if the names stay unique.
+  std::set<std::string> bare;
+  bool prefixed = false;
+  for (const Eigen::Index c : columns_) {
+    const std::string& name = file.point_labels[static_cast<std::size_t>(c)];
+    prefixed = prefixed || bare_begin(name) > 0;
+    bare.insert(name.substr(bare_begin(name)));
+    markers_.names.push_back(name);
+  }
+  if (prefixed && bare.size() == columns_.size()) {
+    for (std::string& name : markers_.names) name.erase(0, bare_begin(name));
+    note(repairs_, "the subject's prefix ('subject:marker') is left out of the names");
+  } else if (prefixed) {
+    note(repairs_, "names keep their subject's prefix, since without it some would be the same");
+  }
+  markers_.positions_m.resize(frames, static_cast<Eigen::Index>(3 * columns_.size()));
+}
+
+void C3dMarkerBuilder::add(Eigen::Index first, Eigen::Index count, const float* rows) {
+  constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+  const auto width = static_cast<Eigen::Index>(4 * points_);
+  for (Eigen::Index begin = 0; begin < count; begin += kBlockRows) {
+    const Eigen::Index end = std::min(count, begin + kBlockRows);
+    for (std::size_t m = 0; m < columns_.size(); ++m) {
+      const float* p = rows + begin * width + 4 * columns_[m];
+      const auto to = static_cast<Eigen::Index>(3 * m);
+      for (Eigen::Index k = begin; k < end; ++k, p += width) {
+        const bool zero = p[0] == 0.0F && p[1] == 0.0F && p[2] == 0.0F;
+        const bool measured =
+            p[3] >= 0.0F && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) && !zero;
+        if (zero && p[3] >= 0.0F) {
+          if (zeros_ == 0 || first + k < zero_frame_) zero_frame_ = first + k;
+          ++zeros_;
+        }
+        for (Eigen::Index axis = 0; axis < 3; ++axis)
+          markers_.positions_m(first + k, to + axis) = measured ? to_m_ * static_cast<double>(p[axis]) : kGap;
+      }
+    }
+  }
+}
+
+MarkerSeries C3dMarkerBuilder::finish(std::vector<Repair>& repairs) {
+  repairs.insert(repairs.end(), repairs_.begin(), repairs_.end());
+  if (zeros_ > 0) {
+    note(repairs,
+         "{} positions are exactly 0 0 0 though not marked as missing (the first in frame {}); taken as missing",
+         zeros_, first_frame_ + zero_frame_);
+  }
+  return std::move(markers_);
+}
+
+C3dChannelUnits c3d_channel_units(const C3dFile& file) {
+  C3dChannelUnits units;
+  for (const C3dChannel& channel : file.channels) {
+    const auto unit = parse_file_unit(channel.unit_text);
+    units.channels.push_back({channel.name, unit ? unit->unit : Unit::dimensionless});
+    units.scales.push_back({channel.offset, channel.scale, unit ? unit->to_si : 1.0});
+  }
+  return units;
+}
+
+}  // namespace myoid::recording

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/ground/files/marker_series.h"
+#include "myoid/recording/signals/quality_limits.h"
+#include "myoid/recording/signals/rigid_segment.h"
+
+namespace myoid::recording {
+
+struct MendOptions {
+  bool undo_swaps = true;
+  bool fill_gaps = true;
+};
+
+/// Repaired markers, with a sentence for every change.
+struct MendedMarkers {
+  MarkerSeries markers;
+  std::vector<std::string> repairs;
+};
+
+/// Undoes swaps (`find_swaps`), then fills gaps before and after which the marker is seen:
+///
+/// - up to `QualityLimits::gap_s`: a cubic spline through four frames on either side, 0.03 s apart;
+/// - longer: from the segment, if three other markers of it are seen. The segment's mean shape is laid on these markers
+///   and shifted so that both ends of the gap match.
+///
+/// All other gaps stay. A segment whose markers lie on a line fills none.
+[[nodiscard]] MendedMarkers mend_markers(MarkerSeries markers,
+                                         const std::vector<RigidSegment>& segments,
+                                         const MendOptions& options = {});
+
+}  // namespace myoid::recording

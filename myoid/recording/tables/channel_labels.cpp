@@ -1,0 +1,246 @@
+#include "myoid/recording/tables/channel_labels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_words.h"
+
+namespace myoid::recording {
+namespace {
+
+using Kind = TableColumn::Kind;
+
+bool in_seconds(const TableColumn& column) { return column.unit && column.unit->unit == Unit::second; }
+
+/// Returns true for a column that is the clock of the channels behind it, as in tables with a clock for each channel:
+/// "X[s]", and "X[s].1" of programs that make names unique, or "EMG 1 Time Series (s)".
+bool is_time_of_channel(const TableColumn& column) {
+  const std::string name = lower(column.name);
+  if (name.starts_with("x[s]")) return true;
+  return in_seconds(column) && (name == "x" || name.ends_with("time series"));
+}
+
+/// Returns true for the name of a clock in seconds or in a stated unit of time.
+bool is_time(const TableColumn& column) {
+  static const std::set<std::string> kWords{"time",       "t",    "times", "time_s", "time_ms",     "timestamp",
+                                            "time stamp", "zeit", "temps", "tiempo", "time series", "abs time"};
+  return kWords.contains(lower(column.name)) && (!column.unit || in_seconds(column));
+}
+
+/// Returns the unit of time that a column has for a name: "mSec".
+std::optional<ScaledUnit> time_unit_as_name(const TableColumn& column) {
+  static const std::set<std::string> kWords{"ms", "msec", "msecs", "millisec", "s", "sec", "secs", "seconds"};
+  return !column.unit && kWords.contains(lower(column.name)) ? parse_file_unit(column.name) : std::nullopt;
+}
+
+Kind kind_by_name(const TableColumn& column) {
+  if (column.unit) return Kind::channel;  // "marker [mm]", "index [N]"
+  static const std::map<Kind, std::set<std::string>> kWords{
+      {Kind::frame,
+       {"frame", "frames", "frame#", "sample", "samples", "sample #", "sample number", "index", "#", "no", "no.",
+        "nr"}},
+      {Kind::sub_frame, {"sub frame", "subframe", "sub frame#"}},
+      {Kind::remark, {"marker", "markers", "activity", "event", "events", "comment", "comments", "remark", "note"}}};
+  const std::string word = lower(column.name);
+  for (const auto& [kind, words] : kWords)
+    if (words.contains(word)) return kind;
+  return Kind::channel;
+}
+
+/// A whole number in brackets at the end of a label: "C7[1]".
+struct LabelIndex {
+  std::string base;
+  std::string number;
+  bool against_name = false;  ///< No blank stands between name and bracket.
+};
+
+std::optional<LabelIndex> index_in(std::string_view label) {
+  const std::size_t open = label.find_last_of("[(");
+  if (open == std::string_view::npos || open == 0 || (label.back() != ']' && label.back() != ')')) return std::nullopt;
+  const std::string_view number = label.substr(open + 1, label.size() - open - 2);
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  return LabelIndex{std::string(trim(label.substr(0, open))), std::string(number), label[open - 1] != ' '};
+}
+
+/// Returns the letters from `at` on.
+std::string word_at(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size() && text[end] >= 'a' && text[end] <= 'z') ++end;
+  return std::string(text.substr(at, end - at));
+}
+
+}  // namespace
+
+std::optional<ScaledUnit> unit_in_cell(std::string_view cell) {
+  cell = trim(cell);
+  if (cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
+    cell = cell.substr(1, cell.size() - 2);
+  return parse_file_unit(cell);
+}
+
+std::optional<double> rate_in_cell(std::string_view cell) {
+  cell = trim(cell);
+  if (cell.size() < 3 || !equal_ignoring_case(cell.substr(cell.size() - 2), "hz")) return std::nullopt;
+  cell.remove_suffix(2);
+  const bool kilo = cell.back() == 'k' || cell.back() == 'K';
+  if (kilo) cell.remove_suffix(1);
+  auto number = parse_number(trim(cell));
+  if (!number) number = parse_comma_number(trim(cell));
+  if (!number) return std::nullopt;
+  const double rate = kilo ? 1000.0 * *number : *number;
+  return rate > 0.0 && rate <= 1e6 ? std::optional(rate) : std::nullopt;
+}
+
+std::optional<double> period_in_cell(std::string_view cell) {
+  cell = trim(cell);
+  const std::size_t end = std::min(cell.find_first_not_of("0123456789.,eE+-"), cell.size());
+  const auto unit = parse_file_unit(cell.substr(end));
+  auto number = parse_number(trim(cell.substr(0, end)));
+  if (!number) number = parse_comma_number(trim(cell.substr(0, end)));
+  if (!number || !unit || unit->unit != Unit::second) return std::nullopt;
+  const double period_s = *number * unit->to_si;
+  return period_s >= 1e-6 && period_s <= 1e3 ? std::optional(period_s) : std::nullopt;
+}
+
+TableColumn take_label_apart(const std::string& text) {
+  TableColumn column;
+  column.name = text;
+  if (const auto index = index_in(text); index && index->against_name) return column;
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+    const std::size_t begin = column.name.rfind(open);
+    const std::size_t end = column.name.rfind(close);
+    if (begin == std::string::npos || end == std::string::npos || end < begin) continue;
+    const std::string inside = column.name.substr(begin + 1, end - begin - 1);
+    const auto rate = rate_in_cell(inside);
+    const auto unit = rate ? std::nullopt : parse_file_unit(inside);
+    if (!rate && !unit) continue;
+    if (rate) column.rate_hz = packet_rate(*rate);
+    if (unit) column.unit = unit;
+    column.name = std::string(trim(column.name.substr(0, begin)));
+  }
+  if (column.unit || column.rate_hz > 0.0) return column;
+  if (const std::size_t comma = text.rfind(','); comma != std::string::npos && comma > 0) {
+    if (const auto unit = parse_file_unit(std::string_view(text).substr(comma + 1))) {
+      column.name = std::string(trim(text.substr(0, comma)));
+      column.unit = unit;
+    }
+  }
+  return column;
+}
+
+std::optional<StatedRate> rate_in_line(std::string_view line) {
+  const std::string text = lower(line);
+  for (const char* word : {"sampling frequency", "sampling rate", "sample rate", "samplerate", "sample frequency",
+                           "samplingrate", "frequency", "rate", "fs"}) {
+    const std::size_t at = text.find(word);
+    if (at == std::string::npos) continue;
+    std::size_t i = at + std::string_view(word).size();
+    std::string unit;
+    while (i < text.size() && (text[i] < '0' || text[i] > '9')) {
+      const std::string before = word_at(text, i);
+      if (!before.empty() && before != "hz" && before != "khz") break;
+      if (!before.empty()) unit = before;
+      i += std::max<std::size_t>(1, before.size());
+    }
+    std::size_t end = i;
+    while (end < text.size() && ((text[end] >= '0' && text[end] <= '9') || text[end] == '.')) ++end;
+    const auto number = parse_number(std::string_view(text).substr(i, end - i));
+    while (end < text.size() && std::string_view(" \t;[(").find(text[end]) != std::string_view::npos) ++end;
+    if (const std::string behind = word_at(text, end); !behind.empty()) unit = behind;
+    if (!number) continue;
+    if (unit == "mhz" || unit == "ghz" || unit == "ms" || unit == "us" || unit == "ns")
+      return StatedRate{.hz = 0.0, .other_unit = unit};
+    const double rate = unit == "khz" ? 1000.0 * *number : *number;
+    if (rate >= 1.0 && rate <= 1e6) return StatedRate{.hz = rate, .other_unit = {}};
+  }
+  return std::nullopt;
+}
+
+std::vector<TableColumn> take_labels_apart(const std::vector<std::string>& texts) {
+  std::map<std::string, std::set<std::string>> numbers;
+  for (const std::string& text : texts)
+    if (const auto index = index_in(text)) numbers[index->base].insert(index->number);
+  std::vector<TableColumn> columns;
+  for (const std::string& text : texts) {
+    const auto index = index_in(text);
+    const bool counts = index && numbers[index->base].size() > 1;
+    columns.push_back(counts ? TableColumn{Kind::channel, text} : take_label_apart(text));
+  }
+  return columns;
+}
+
+std::optional<std::size_t> plain_clock(const std::vector<TableColumn>& columns) {
+  std::optional<std::size_t> found;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (!is_time(columns[c])) continue;
+    if (lower(columns[c].name) != "t") return c;
+    if (!found) found = c;
+  }
+  return found;
+}
+
+void set_kinds(TableLayout& layout) {
+  std::vector<TableColumn>& columns = layout.columns;
+  const auto plain = plain_clock(columns);
+  const bool of_channels = std::ranges::any_of(columns, is_time_of_channel);
+  std::vector<std::string> others;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    TableColumn& column = columns[c];
+    const bool repeats = plain && c > *plain + 1 && column.name == columns[*plain].name && is_time(column);
+    if ((plain && c == *plain) || is_time_of_channel(column) || repeats) {
+      column.kind = Kind::time;
+    } else {
+      column.kind = kind_by_name(column);
+      if (is_time(column)) others.push_back(column.name);
+    }
+  }
+  if (!plain && !of_channels && !columns.empty() && time_unit_as_name(columns[0])) {
+    columns[0].unit = time_unit_as_name(columns[0]);
+    columns[0].kind = Kind::time;
+  }
+  for (TableColumn& column : columns)
+    if (!column.unit && lower(column.name) == "time_ms") column.unit = parse_unit("ms");
+  if (!others.empty())
+    layout.repairs.push_back(
+        {layout.names_line + 1, fmt::format("a channel here, since the clock is '{}': {}",
+                                            plain ? columns[*plain].name : "X[s]", fmt::join(others, ", "))});
+}
+
+double packet_rate(double rate_hz) {
+  constexpr double kPacket_s = 0.027;
+  if (std::floor(rate_hz) != rate_hz) return rate_hz;
+  const double samples = std::round(rate_hz * kPacket_s);
+  const double exact = samples / kPacket_s;
+  return samples >= 1.0 && std::abs(exact - rate_hz) <= 0.5 ? exact : rate_hz;
+}
+
+void put_devices_before_names(TableLayout& layout, const std::vector<std::string>& devices) {
+  std::vector<TableColumn>& columns = layout.columns;
+  std::map<std::string, int> count;
+  for (const TableColumn& column : columns) {
+    if (column.kind == Kind::channel) ++count[column.name];
+  }
+  std::string device;
+  std::size_t renamed = 0;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (c < devices.size() && !devices[c].empty()) device = devices[c];
+    TableColumn& column = columns[c];
+    if (column.kind != Kind::channel || column.name.empty() || count[column.name] < 2 || device.empty()) continue;
+    column.name = device + " " + column.name;
+    ++renamed;
+  }
+  if (renamed > 0)
+    layout.repairs.push_back(
+        {layout.names_line + 1,
+         fmt::format("{} channels share their names; they have their device's before them here", renamed)});
+}
+
+}  // namespace myoid::recording

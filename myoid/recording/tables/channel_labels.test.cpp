@@ -1,0 +1,99 @@
+#include "myoid/recording/tables/channel_labels.h"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/recording/tables/csv_reader.h"
+#include "myoid/recording/tables/emg_table.h"
+
+#include "tests/support/repair_lines.h"
+
+namespace myoid::recording {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> names_of(const CsvSeries& s) {
+  std::vector<std::string> names;
+  for (const Channel& channel : s.data.channels()) names.push_back(channel.name);
+  return names;
+}
+
+/// A table with these names and three rows; column c holds c + row / 8.
+CsvSeries table(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t c = 0; c < names.size(); ++c) text += (c > 0 ? "," : "") + names[c];
+  for (int row = 0; row < 3; ++row) {
+    text += "\n";
+    for (std::size_t c = 0; c < names.size(); ++c)
+      text += (c > 0 ? "," : "") + std::to_string(static_cast<double>(c) + row / 8.0);
+  }
+  return parse_emg_table(text + "\n", "a.csv");
+}
+
+TEST(ChannelLabels, AnAxisIsNoClock) {
+  for (const char* time : {"time", "Time (s)", "t"}) {
+    const CsvSeries s = table({time, "x", "y", "z"});
+    EXPECT_THAT(names_of(s), ElementsAre("x", "y", "z")) << time;
+    EXPECT_TRUE(s.other_clocks.empty());
+    EXPECT_DOUBLE_EQ(s.data.time_s()[2], 0.25);
+    EXPECT_DOUBLE_EQ(s.data.values()(2, 0), 1.25);
+  }
+  EXPECT_THAT(names_of(table({"time [s]", "Fz [N]", "X", "Y"})), ElementsAre("Fz", "X", "Y"));
+}
+
+TEST(ChannelLabels, ATableHasOneClockAndOtherTimesAreChannels) {
+  for (const char* other : {"timestamp", "temps", "Zeit", "T"}) {
+    const CsvSeries s = table({"time", "EMG [mV]", other, "event [N]"});
+    EXPECT_THAT(names_of(s), ElementsAre("EMG", other, "event")) << other;
+    EXPECT_DOUBLE_EQ(s.data.values()(2, 1), 2.25);
+  }
+  // A torque called T does not take the place of the clock behind it.
+  EXPECT_THAT(names_of(table({"T", "time", "a"})), ElementsAre("T", "a"));
+  const CsvSeries noted = parse_emg_table("a table\nZeit,EMG [mV],timestamp\n0,1,7\n1,2,8\n2,3,9\n", "a.csv");
+  EXPECT_THAT(test::repair_lines(noted.repairs), HasSubstr("since the clock is 'Zeit': timestamp"));
+}
+
+TEST(ChannelLabels, NumbersUnderTheNamesOfEventsAndMarkersAreChannels) {
+  EXPECT_THAT(names_of(table({"time", "marker [mm]", "event"})), ElementsAre("marker", "event"));
+  // "Index" that counts nothing is a finger.
+  EXPECT_THAT(names_of(table({"time", "thumb", "index", "Sample"})), ElementsAre("thumb", "index", "Sample"));
+  const CsvSeries counted = parse_emg_table("Frame;Frame;time;a\n1;7;0;1\n2;7;1;2\n3;7;2;3\n", "a.csv");
+  EXPECT_THAT(names_of(counted), ElementsAre("a"));
+  EXPECT_THAT(test::repair_lines(counted.repairs), HasSubstr("left out: Frame"));
+  const CsvSeries texts = parse_emg_table("time,event,a\n0,,1\n1,go,2\n2,,3\n", "a.csv");
+  EXPECT_THAT(names_of(texts), ElementsAre("a"));
+  ASSERT_EQ(texts.events.size(), 1U);
+}
+
+TEST(ChannelLabels, AnIndexInBracketsIsNoUnit) {
+  EXPECT_THAT(names_of(table({"time", "C7[0]", "C7[1]", "C7[2]"})), ElementsAre("C7[0]", "C7[1]", "C7[2]"));
+  EXPECT_THAT(names_of(table({"time", "EMG[1]"})), ElementsAre("EMG[1]"));
+  EXPECT_THAT(names_of(table({"time", "EMG [1]", "EMG [2]"})), ElementsAre("EMG [1]", "EMG [2]"));
+  EXPECT_THAT(names_of(table({"time", "BIC [1]", "TRI [1]"})), ElementsAre("BIC", "TRI"));  // the unit of a ratio
+}
+
+TEST(ChannelLabels, AUnitMeansTheSameInEveryTable) {
+  // g is the acceleration of gravity, 9.80665 m/s^2, in a plain table, in one with lines above it, and by itself.
+  const std::string rows = "time,ACC X [g],ACC Y (G)\n0,1,2\n0.01,1,2\n0.02,1,2\n";
+  for (const CsvSeries& s : {parse_emg_table(rows, "a.csv"), parse_csv_series(rows, "a.csv"),
+                             parse_emg_table("Sampling rate: 100 Hz\n" + rows, "a.csv")}) {
+    EXPECT_EQ(s.data.channels()[0].unit, Unit::meter_per_second2);
+    EXPECT_DOUBLE_EQ(s.data.values()(0, 0), 9.80665);
+    EXPECT_DOUBLE_EQ(s.data.values()(0, 1), 2 * 9.80665);
+  }
+}
+
+TEST(ChannelLabels, PeriodsAreReadInSeconds) {
+  EXPECT_DOUBLE_EQ(*period_in_cell("0.000794 s"), 0.000794);
+  EXPECT_DOUBLE_EQ(*period_in_cell("0,5 ms"), 0.0005);
+  EXPECT_FALSE(period_in_cell("1259 Hz"));
+  EXPECT_FALSE(period_in_cell("0.5"));
+}
+
+}  // namespace
+}  // namespace myoid::recording

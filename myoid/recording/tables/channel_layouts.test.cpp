@@ -1,0 +1,83 @@
+#include "myoid/recording/tables/channel_layouts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/recording/tables/emg_table.h"
+
+namespace myoid::recording {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Every one of these files holds BIC and TRI at 2000 Hz; the second sample is 0.003 and 0.004 V.
+void expect_the_emg(const std::string& text) {
+  const CsvSeries file = parse_emg_table(text, "a.txt");
+  ASSERT_EQ(file.data.channel_count(), 2) << text;
+  EXPECT_EQ(file.data.channels()[0].name, "BIC");
+  EXPECT_EQ(file.data.channels()[1].name, "TRI");
+  ASSERT_EQ(file.data.sample_count(), 3);
+  EXPECT_NEAR(file.data.mean_rate_hz(), 2000.0, 0.01);
+  EXPECT_NEAR(file.data.values()(1, 0), 0.003, 1e-15);
+  EXPECT_NEAR(file.data.values()(1, 1), 0.004, 1e-15);
+}
+
+TEST(ChannelLayouts, BiopacsNamesAndUnitsInLinesOfTheirOwn) {
+  const std::string head = "c:\\trial.acq\n0.5 msec/sample\n2 channels\nBIC\nmV\nTRI\nmV\n";
+  expect_the_emg(head + "CH1\tCH2\t\n3\t3\t\n1\t2\t\n3\t4\t\n5\t6\t\n");
+  expect_the_emg(head + "msec\tCH1\tCH2\n\t3\t3\n0\t1\t2\n0.5\t3\t4\n1\t5\t6\n");
+  expect_the_emg(head + "min,CH1,CH2,\n,3,3,\n0,1,2,\n0.00000833,3,4,\n0.0000167,5,6,\n");
+}
+
+TEST(ChannelLayouts, QualisysChannelsWithoutAHeaderRow) {
+  expect_the_emg(
+      "NO_OF_SAMPLES\t3\nTOTAL_NO_OF_CHANNELS\t2\nFREQUENCY\t2000\nDESCRIPTION\t--\n"
+      "DATA_INCLUDED\tANALOG\nCHANNEL_NAMES\tBIC\tTRI\nCHANNEL_GAIN\t1\t1\n"
+      "0.001\t0.002\n0.003\t0.004\n0.005\t0.006\n");
+}
+
+TEST(ChannelLayouts, TracksOfBtsWithOneUnitForAll) {
+  expect_the_emg(
+      "BTS ASCII format\n\nType:\tEmg tracks\nMeasure unit:\tmV\n\nTracks:\t2\nFrequency:\t2000 "
+      "Hz\n\nFrame\tTime\tBIC\tTRI\n1\t0.0000\t1\t2\n2\t0.0005\t3\t4\n3\t0.0010\t5\t6\n");
+}
+
+TEST(ChannelLayouts, DevicesOfNexusWithSubFrames) {
+  expect_the_emg(
+      "Devices\n2000\n,,EMG,\nFrame,Sub Frame,BIC,TRI\n,,mV,mV\n1,0,1,2\n1,1,3,4\n1,2,5,6\n\n"
+      "Joints\n100\n");
+}
+
+TEST(ChannelLayouts, ChannelsOfOneNameAreToldApartByTheirDevice) {
+  const CsvSeries file = parse_emg_table(
+      "Devices\n1000\n,,Plate 1,,Plate 2,\nFrame,Sub Frame,Fx,Fz,Fx,Fz\n,,N,N,N,N\n1,0,1,2,3,4\n"
+      "1,1,5,6,7,8\n1,2,5,6,7,8\n",
+      "a.csv");
+  EXPECT_EQ(file.data.channels()[2].name, "Plate 2 Fx");
+  EXPECT_EQ(file.data.values()(1, 3), 8.0);
+}
+
+TEST(EmgTable, ARowOfRatesBetweenNamesAndNumbersIsNoName) {
+  const CsvSeries file = parse_emg_table(
+      "Application:,Trigno Discover\n\nEMG 1 Time Series (s),EMG 1 (mV),ACC X 1 Time Series "
+      "(s),ACC X 1 (G)\n2000.0 Hz,,500 Hz,\n0,1,0,0.5\n0.0005,2,0.002,0.5\n0.001,3,,\n",
+      "a.csv");
+  ASSERT_EQ(file.data.channel_count(), 1);
+  EXPECT_EQ(file.data.channels()[0].name, "EMG 1");
+  EXPECT_NEAR(file.data.values()(2, 0), 0.003, 1e-15);
+  ASSERT_EQ(file.other_clocks.size(), 1U);
+  EXPECT_EQ(file.other_clocks[0].data.sample_count(), 2);
+}
+
+TEST(EmgTable, NumbersWithoutNamesAreRefused) {
+  try {
+    (void)parse_emg_table("1.0,2.0,700.0\n1.0,2.0,701.0\n1.0,2.0,702.0\n", "amti.txt");
+    FAIL() << "nothing thrown";
+  } catch (const ReadError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("expected a row of names"));
+  }
+}
+
+}  // namespace
+}  // namespace myoid::recording

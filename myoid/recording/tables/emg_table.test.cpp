@@ -1,0 +1,179 @@
+#include "myoid/recording/tables/emg_table.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/ground/core/error.h"
+
+namespace myoid::recording {
+namespace {
+
+TEST(EmgTable, APlainTableIsReadAsEver) {
+  const CsvSeries s = parse_emg_table("# remark\ntime,Biceps [mV],knee\n0,1,2\n0.5,3,\n", "a.csv");
+  EXPECT_EQ(s.data.channels()[0], (Channel{"Biceps", Unit::volt}));
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 0), 3e-3);
+  EXPECT_EQ(s.has_unit, (std::vector<bool>{true, false}));
+}
+
+TEST(EmgTable, ATimeColumnForEachChannelGivesAClockForEachRate) {
+  // A table as wireless systems export it: EMG and acceleration in pairs of columns of different length.
+  const CsvSeries s = parse_emg_table(
+      "Label: Biceps: EMG 1 Sampling frequency: 2000 Unit: mV Domain: Time\n"
+      "X [s],\"Biceps: EMG 1 [mV]\",X [s],\"Biceps: ACC.X 1 [g]\",X [s],\"Triceps: EMG 2 [mV]\"\n"
+      "0,1,0,0.5,0,4\n0.0005,2,0.0067,0.6,0.0005,5\n0.001,3,0.0135,0.7,0.001,6\n0.0015,7,,,,\n",
+      "a.csv");
+  ASSERT_EQ(s.data.channel_count(), 2);
+  EXPECT_EQ(s.data.channels()[1], (Channel{"Triceps: EMG 2", Unit::volt}));
+  ASSERT_EQ(s.data.sample_count(), 3);
+  EXPECT_DOUBLE_EQ(s.data.time_s()[2], 0.001);
+  EXPECT_DOUBLE_EQ(s.data.values()(2, 1), 6e-3);
+  ASSERT_EQ(s.other_clocks.size(), 1U);
+  const TimeSeries& acceleration = s.other_clocks[0].data;
+  EXPECT_EQ(acceleration.channels()[0].name, "Biceps: ACC.X 1");
+  EXPECT_EQ(acceleration.time_s(), Eigen::Vector3d(0.0, 0.0067, 0.0135));
+  EXPECT_NEAR(acceleration.values()(2, 0), 0.7 * kStandardGravity, 1e-12);
+  EXPECT_EQ(s.repairs.size(), 2U);  // two clocks, cut to the shortest
+}
+
+TEST(EmgTable, AnUnknownUnitBesideKnownOnesMakesNoNamesOfTheUnits) {
+  const CsvSeries s = parse_emg_table(
+      "BioWare\nRate:\t100\n\nabs time (s)\tFx\tFz\tMx\tQ\n\tN\tN\tN.m\td.u.\n0\t1\t2\t3\t4\n0.01\t1\t2\t3\t4\n",
+      "a.txt");
+  ASSERT_EQ(s.data.channel_count(), 4);
+  EXPECT_EQ(s.data.channels()[2], (Channel{"Mx", Unit::newton_meter}));
+  EXPECT_EQ(s.data.channels()[3], (Channel{"Q", Unit::dimensionless}));
+  EXPECT_EQ(s.has_unit, (std::vector<bool>{true, true, true, false}));
+  EXPECT_EQ(s.repairs.size(), 1U);
+}
+
+TEST(EmgTable, ATimeThatIsMissingBeforeOthersIsNoEndOfItsChannel) {
+  const auto read = [](const std::string& row) {
+    return parse_emg_table("X [s],A [V],X [s],B [V]\n0,1,0,2\n" + row + "0.2,1,0.2,2\n", "a.csv");
+  };
+  EXPECT_EQ(read("0.1,1,0.1,2\n").data.sample_count(), 3);
+  EXPECT_THROW((void)read("0.1,1,,2\n"), ReadError);
+  EXPECT_THROW((void)read("0.1,1,2\n"), ReadError);
+}
+
+TEST(EmgTable, RatesInTheNamesOrInARowBelowThemAreTheClocks) {
+  for (const bool row : {false, true}) {
+    const std::string names =
+        row ? "EMG 1 (mV), ACC X (G), EMG 1 (mV)\n 74.0741 Hz, 37.037037037037038 Hz, 74.0741 Hz\n"
+            : "EMG 1 (74Hz), ACC X (37Hz), EMG 1 (74Hz), \n";
+    const CsvSeries s = parse_emg_table(
+        "Application:, Trigno Discover (1.4.2)\nCollection Length (seconds):, 0.06\n"
+        "EMG 01 (5471), , EMG 02 (5524), \nsensor mode: 55, , sensor mode: 55, \n" +
+            names + "1, 7, 4\n2, 8, 5\n3, , 6\n",
+        "a.csv");
+    ASSERT_EQ(s.data.channel_count(), 2) << row;
+    EXPECT_EQ(s.data.channels()[0].name, "EMG 01 (5471) EMG 1");
+    EXPECT_EQ(s.data.channels()[1].name, "EMG 02 (5524) EMG 1");
+    EXPECT_EQ(s.has_unit[0], row);
+    EXPECT_DOUBLE_EQ(s.data.values()(2, 1), row ? 6e-3 : 6.0);
+    EXPECT_NEAR(s.data.time_s()[2], 2 * 0.0135, 1e-6);  // 74 Hz is 2 samples in 27 ms
+    ASSERT_EQ(s.other_clocks.size(), 1U);
+    EXPECT_EQ(s.other_clocks[0].data.sample_count(), 2);
+    EXPECT_NEAR(s.other_clocks[0].data.time_s()[1], 0.027, 1e-12);
+  }
+}
+
+TEST(EmgTable, ARemarkInAColumnOfTextIsAnEventAndNoName) {
+  const CsvSeries s = parse_emg_table(
+      "\"type\";\"begin_time\";\"frequency\";\"count\"\n\"record\";\"0,00\";\"2000\";\"3\"\n\n"
+      "\"time\";\"Activity\";\"Marker\";\"BIC LT (uV)\"\n0,0000;\"Rest\";;0\n0,0005;;;7,25\n"
+      "0,0010;;\"here\";14,5\n",
+      "a.csv");
+  ASSERT_EQ(s.data.sample_count(), 3);
+  EXPECT_EQ(s.data.channels(), (std::vector<Channel>{{"BIC LT", Unit::volt}}));
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 0), 7.25e-6);
+  ASSERT_EQ(s.events.size(), 2U);
+  EXPECT_EQ(s.events[0].label, "Rest");
+  EXPECT_EQ(s.events[0].context, "Activity");
+  EXPECT_DOUBLE_EQ(s.events[1].time_s, 0.001);
+}
+
+TEST(EmgTable, MetadataAndARowOfUnitsAreUnderstood) {
+  const CsvSeries s = parse_emg_table(
+      "Type;EMG\r\nFrequency;1500\r\nDate;2024-01-02\r\n\r\ntime;LT BICEPS;RT TRICEPS\r\n"
+      "s;uV;uV\r\n0,000;1,5;-2,5\r\n0,001;2,5;3\r\n",
+      "a.csv");
+  EXPECT_EQ(s.data.channels()[0], (Channel{"LT BICEPS", Unit::volt}));
+  EXPECT_DOUBLE_EQ(s.data.values()(0, 1), -2.5e-6);
+  EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.001);
+}
+
+TEST(EmgTable, UnitsBehindACommaAndFrameNumbersAreUnderstood) {
+  const CsvSeries s =
+      parse_emg_table("Frame,\"Time, s\",\"BICEPS, uV\",\"TRICEPS, uV\"\n1,0,10,20\n2,0.001,30,40\n", "a.csv");
+  EXPECT_EQ(s.data.channel_count(), 2);
+  EXPECT_EQ(s.data.channels()[0], (Channel{"BICEPS", Unit::volt}));
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 1), 40e-6);
+}
+
+TEST(EmgTable, WithoutATimeColumnTheStatedRateIsTheClock) {
+  const std::string body = "EMG1\tEMG2\n1\t2\n3\t4\n5\t6\n";
+  const CsvSeries s = parse_emg_table("Export of 2024\nSampling rate: 2000 Hz\n" + body, "a.txt");
+  EXPECT_DOUBLE_EQ(s.data.time_s()[2], 0.001);
+  EXPECT_DOUBLE_EQ(s.data.values()(2, 1), 6.0);
+  EXPECT_EQ(s.has_unit, (std::vector<bool>{false, false}));
+  EXPECT_THROW(static_cast<void>(parse_emg_table("Export\n" + body, "a.txt")), ReadError);
+}
+
+TEST(EmgTable, ARateInAnotherUnitIsRefusedWhereItIsTheOnlyClock) {
+  try {
+    (void)parse_emg_table("Export of 2024\nSampling rate: 5 ms\nVL [uV],BF [uV]\n1,2\n3,4\n", "a.csv");
+    ADD_FAILURE();
+  } catch (const ReadError& error) {
+    EXPECT_STREQ(error.what(), "a.csv:2: found a sampling rate in 'ms', expected Hz or kHz; write it so");
+  }
+  const CsvSeries timed =
+      parse_emg_table("Export of 2024\nSampling rate: 5 ms\ntime,VL [uV],BF [uV]\n0,1,2\n0.005,3,4\n", "a.csv");
+  EXPECT_EQ(timed.data.time_s()[1], 0.005);
+}
+
+TEST(EmgTable, ATriggerCalledTIsNoSecondClock) {
+  const CsvSeries s = parse_emg_table("time,E1 [mV],T\n0,1,0\n0.001,2,5\n0.002,3,0\n", "a.csv");
+  EXPECT_EQ(s.data.channel_count(), 2);
+  EXPECT_DOUBLE_EQ(s.data.column("T")[1], 5.0);
+  EXPECT_TRUE(s.repairs.empty());
+  const CsvSeries pairs = parse_emg_table("t,E1 [mV],t,E2 [mV]\n0,1,0,2\n1,3,1,4\n", "a.csv");
+  EXPECT_EQ(pairs.data.channel_count(), 2);
+  EXPECT_DOUBLE_EQ(pairs.data.column("E2")[1], 4e-3);
+}
+
+TEST(EmgTable, WhatIsWrongIsSaidWithItsLine) {
+  try {
+    static_cast<void>(parse_emg_table("Frequency;1000\ntime;a\ns;mV\n0;1\n0.1;2\n0.2;x\n0.3;4\n", "a.csv"));
+    FAIL();
+  } catch (const ReadError& error) {
+    EXPECT_EQ(error.line(), 6U);
+  }
+  EXPECT_THROW(static_cast<void>(parse_emg_table("no table at all\n", "a.csv")), ReadError);
+  EXPECT_THROW(static_cast<void>(parse_emg_table("X [s],a\n0,1\n0,2\n0,3\n", "a.csv")), ReadError);
+}
+
+TEST(EmgTable, CommasBetweenCellsAndInsideNumbersAreRefused) {
+  const std::string head = "Sampling rate: 2000 Hz\nVL [uV],BF [uV]\n";
+  EXPECT_THROW((void)parse_emg_table(head + "-88,9,15,4\n-87,1,14,2\n", "a.csv"), ReadError);
+  EXPECT_EQ(parse_emg_table(head + "-88,15\n-87,14\n", "a.csv").data.channel_count(), 2);
+}
+
+TEST(EmgTable, AChannelBeforeTheFirstOfTwoTimeColumnsHasItsClock) {
+  // Found by fuzzing: such a channel had neither a clock nor a rate.
+  const CsvSeries s =
+      parse_emg_table("A [mV],X [s],\"EMG 1 [mV]\",X [s],\"EMG 2 [mV]\"\n7,0,1,0,2\n8,0.1,3,0.1,4\n", "a.csv");
+  EXPECT_EQ(s.data.channel_count(), 3);
+  EXPECT_DOUBLE_EQ(s.data.column("A")[1], 8e-3);
+  EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.1);
+}
+
+TEST(EmgTable, NamesStandAboveTheFirstRowsOfNumbersAndUnitsBetween) {
+  const CsvSeries s =
+      parse_emg_table("Some lab\nSampling rate: 1000 Hz\n\nFrame,E1,E2\n,mV,uV\n1,0.5,7\n2,0.25,8\n", "a.csv");
+  ASSERT_EQ(s.data.channel_count(), 2);
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 0), 0.25e-3);
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 1), 8e-6);
+  EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.001);
+}
+
+}  // namespace
+}  // namespace myoid::recording

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/recording/tables/table_layout.h"
+
+namespace myoid::recording {
+
+/// Returns the time [s] of every row of a table. The clock is the first of these that the table has:
+///
+///   - the time column;
+///   - frame f and sub-frame s: (f - first frame) / frame rate + s / rate;
+///   - frame f alone: (f - first frame) / rate;
+///   - the row: row / rate.
+///
+/// A frame rate that is not stated is the rate divided by the number of sub-frames per frame. Two repairs are noted:
+/// rows missing between two frames or sub-frames, and a stated rate that the times contradict. Throws ReadError with
+/// the line where a row is repeated or goes back, where a frame is no whole number, where the rates contradict the
+/// sub-frames, and where there is no clock.
+[[nodiscard]] Eigen::VectorXd row_times(const TableLayout& layout,
+                                        const TableNumbers& numbers,
+                                        const std::filesystem::path& path,
+                                        std::vector<Repair>& repairs);
+
+/// Notes a step that stands out of an otherwise even clock. Its departure from the median step must exceed ten times
+/// the 80th percentile of all departures. Where steps often differ by the last decimal, because times are rounded, it
+/// must exceed that decimal too, and so where that decimal is below a tenth of a step. `lines` are the line numbers of
+/// the times.
+void state_uneven_step(const Eigen::VectorXd& time_s,
+                       const std::vector<std::size_t>& lines,
+                       std::string_view name,
+                       std::vector<Repair>& repairs);
+
+}  // namespace myoid::recording

@@ -1,0 +1,155 @@
+#include "myoid/recording/tables/table_clock.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/recording/tables/channel_labels.h"
+#include "myoid/recording/tables/nexus_section.h"
+#include "myoid/recording/tables/table_layout.h"
+#include "myoid/recording/tables/table_series.h"
+
+#include "tests/support/repair_lines.h"
+
+namespace myoid::recording {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Devices at 2000 Hz with 4 sub-frames a frame, from frame 11 to 13.
+std::string rows(int from, int to) {
+  std::string text;
+  for (int i = from; i < to; ++i)
+    text += std::to_string(11 + i / 4) + "," + std::to_string(i % 4) + "," + std::to_string(i) + "\n";
+  return text;
+}
+
+Eigen::VectorXd times(const std::string& text, double frame_rate_hz, std::vector<Repair>& repairs) {
+  TableLayout layout;
+  layout.columns = {{TableColumn::Kind::frame, "Frame"},
+                    {TableColumn::Kind::sub_frame, "Sub Frame"},
+                    {TableColumn::Kind::channel, "E"}};
+  layout.end_row = 1000;
+  layout.rate_hz = 2000.0;
+  layout.frame_rate_hz = frame_rate_hz;
+  const TableText table(text);
+  return row_times(layout, read_rows(table, rows_of(layout), "f.csv"), "f.csv", repairs);
+}
+
+TEST(RowTimes, FramesAndSubFramesAreTheClockOfACroppedTrial) {
+  // Frame 11 of a camera at 500 Hz is 10 / 500 s behind frame 1; with or without the stated rate.
+  for (const double frame_rate_hz : {0.0, 500.0}) {
+    std::vector<Repair> repairs;
+    const Eigen::VectorXd t = times(rows(0, 12), frame_rate_hz, repairs);
+    ASSERT_EQ(t.size(), 12);
+    for (int i = 0; i < 12; ++i) EXPECT_NEAR(t[i], 0.02 + i / 2000.0, 1e-15);
+    EXPECT_TRUE(repairs.empty());
+  }
+}
+
+TEST(RowTimes, LostSubFramesAreAGapAndDoubledOrReversedOnesAreRefused) {
+  std::vector<Repair> repairs;
+  const Eigen::VectorXd t = times(rows(0, 5) + rows(7, 12), 500.0, repairs);
+  EXPECT_NEAR(t[5] - t[4], 3.0 / 2000.0, 1e-15);
+  EXPECT_THAT(test::repair_lines(repairs), HasSubstr("6: 2 rows are missing"));
+  const auto refusal = [&](const std::string& text, double frame_rate_hz) -> std::string {
+    try {
+      (void)times(text, frame_rate_hz, repairs);
+    } catch (const ReadError& error) {
+      return error.what();
+    }
+    return "(no error)";
+  };
+  EXPECT_THAT(refusal(rows(0, 5) + rows(4, 12), 500.0), HasSubstr("f.csv:6: frame 12, sub-frame 0"));
+  EXPECT_THAT(refusal(rows(5, 12) + rows(0, 5), 500.0), HasSubstr("do not increase"));
+  EXPECT_THAT(refusal(rows(0, 12), 250.0), HasSubstr("correct the rate"));
+  EXPECT_THAT(refusal(rows(0, 4) + "12,9,1\n" + rows(5, 12), 500.0), HasSubstr("frames have 4"));
+  EXPECT_THAT(refusal(rows(0, 3), 0.0), HasSubstr("no frame ends in the table"));
+  EXPECT_THAT(refusal("11,0,1\n11.5,1,2\n", 500.0), HasSubstr("expected the number of a frame"));
+}
+
+TEST(RowTimes, AStepThatIsNotAsTheOthersIsStatedAndRoundingIsNot) {
+  const auto stated = [](Eigen::VectorXd time) {
+    std::vector<Repair> repairs;
+    std::vector<std::size_t> lines;
+    for (Eigen::Index i = 0; i < time.size(); ++i) lines.push_back(static_cast<std::size_t>(i + 1));
+    state_uneven_step(time, lines, "t", repairs);
+    return test::repair_lines(repairs);
+  };
+  Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(400, 0.0, 399 * 0.0005);
+  EXPECT_EQ(stated(even), "");
+  EXPECT_EQ(stated((Eigen::VectorXd::LinSpaced(400, 0.0, 399 / 2000.4) * 1e5).array().round() / 1e5), "");
+  Eigen::VectorXd lost = even;
+  lost.tail(200).array() += 0.0005;
+  EXPECT_THAT(stated(lost), HasSubstr("201: 't' steps by 0.001 s, 0.0005 s elsewhere"));
+  // A clock that ticks in millionths of a second and is off by one tick twice has lost no row.
+  Eigen::VectorXd ticks = (Eigen::VectorXd::LinSpaced(400, 0.0, 399 * 0.00045) * 1e6).array().round() / 1e6;
+  ticks[100] += 1e-6;
+  ticks[300] -= 1e-6;
+  EXPECT_EQ(stated(ticks), "");
+  Eigen::VectorXd wrong = even;
+  wrong[100] += 0.0001;
+  EXPECT_THAT(stated(wrong), HasSubstr("101: 't' steps by 0.0006 s"));
+}
+
+TEST(ChannelLabels, UnitsAndRatesAreTakenOffTheName) {
+  EXPECT_EQ(take_label_apart("BIC [mV]").unit->to_si, 1e-3);
+  EXPECT_EQ(take_label_apart("BIC, uV").name, "BIC");
+  const TableColumn rated = take_label_apart("EMG 1 (1259Hz)");
+  EXPECT_EQ(rated.name, "EMG 1");
+  EXPECT_NEAR(rated.rate_hz, 34.0 / 0.027, 1e-9);
+  EXPECT_EQ(packet_rate(1500.0), 1500.0);  // no packet rate is within half a Hz
+  EXPECT_EQ(rate_in_line("Sampling rate: 2000 Hz")->hz, 2000.0);
+  for (const char* line : {"Sampling rate: 2 kHz", "Sampling rate: 2.0kHz", "sampling rate [kHz]: 2", "rate;2;kHz"})
+    EXPECT_EQ(rate_in_line(line)->hz, 2000.0) << line;
+  EXPECT_EQ(rate_in_line("Sampling rate: 0.002 MHz")->other_unit, "mhz");
+  EXPECT_EQ(rate_in_line("Sampling rate: 5 ms")->other_unit, "ms");
+  EXPECT_EQ(rate_in_cell("2 kHz"), 2000.0);
+  EXPECT_FALSE(take_label_apart("EMG (left)").unit);
+}
+
+TEST(NexusSection, ATableOfDevicesSharesTheFrameNumbersOfItsTrajectories) {
+  const std::string text = "Devices\n2000\n,,EMG,\nFrame,Sub Frame,BIC,TRI\n,,mV,mV\n" +
+                           std::string("200,0,1,2\n200,1,3,4\n\n") +
+                           "Trajectories\n1000\n,,A,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n200,0,1,2,3\n\nJoints\n100\n";
+  const TableText table(text);
+  EXPECT_EQ(nexus_frame_rate(table), 1000.0);
+  const auto section = nexus_section(table, "Devices", "f.csv");
+  ASSERT_TRUE(section);
+  EXPECT_EQ(section->layout.end_row - section->layout.first_row, 2U);
+  EXPECT_THAT(test::repair_lines(section->layout.repairs), HasSubstr("not read: Joints"));
+  EXPECT_FALSE(nexus_section(table, "Model Outputs", "f.csv"));
+}
+
+TEST(TableLayout, ANumberStandsBehindItsWordInItsCellOrBelowIt) {
+  const TableText text("NO_OF_FRAMES\t40\nRate: 100 Hz\ntype\tcount\tsex\nrecord\t7\tmale\n");
+  EXPECT_EQ(stated_number(text, 4, '\t', {"no_of_frames"}), 40.0);
+  EXPECT_EQ(stated_number(text, 4, '\t', {"rate"}), 100.0);
+  EXPECT_EQ(stated_number(text, 4, '\t', {"count"}), 7.0);
+  EXPECT_FALSE(stated_number(text, 3, '\t', {"count"}));
+  EXPECT_EQ(stated_text(text, 4, '\t', "record"), "7");
+}
+
+TEST(TableLayout, ABlankLineEndsABlockUnlessRowsOfNumbersFollow) {
+  EXPECT_EQ(end_of_block(TableText("1,2\n2,3\n\nJoints\n100\n"), 0, ','), 2U);
+  EXPECT_EQ(end_of_block(TableText("1,2\n\n2,3\n"), 0, ','), 3U);
+  EXPECT_EQ(end_of_block(TableText("1,2\n,\n2,3\n,,\n"), 0, ','), 3U);
+}
+
+TEST(ChannelsOfTable, EveryChannelHasANameOfItsOwn) {
+  TableLayout layout;
+  layout.columns = {{TableColumn::Kind::time, "t"},
+                    {TableColumn::Kind::channel, "a"},
+                    {TableColumn::Kind::channel, ""},
+                    {TableColumn::Kind::channel, "a"}};
+  layout.end_row = 9;
+  const CsvSeries s = channels_of_table(TableText("0,1,2,3\n1,1,2,3\n"), layout, "f.csv");
+  EXPECT_EQ(s.data.channels()[1].name, "channel_2");
+  EXPECT_EQ(s.data.channels()[2].name, "a_2");
+  EXPECT_EQ(s.repairs.size(), 2U);
+}
+
+}  // namespace
+}  // namespace myoid::recording

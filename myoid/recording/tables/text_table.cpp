@@ -1,0 +1,395 @@
+#include "myoid/recording/tables/text_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/index.h"
+#include "myoid/ground/core/numbers.h"
+#include "myoid/ground/core/parallel.h"
+#include "myoid/ground/files/file_words.h"
+
+namespace myoid::recording {
+namespace {
+
+/// Copies a row. A matrix without columns is skipped: a row of it would refer to memory behind its data.
+void copy_row(Eigen::Index from, Eigen::Index to, Eigen::MatrixXd& matrix) {
+  for (Eigen::Index c = 0; c < matrix.cols(); ++c) matrix(to, c) = matrix(from, c);
+}
+
+/// Returns the next cell as written and moves `at` to the separator behind it, or to the end.
+std::string_view raw_cell(const char*& at, const char* end, char separator) {
+  const char* const begin = at;
+  bool quoted = false;
+  for (; at != end && (quoted || *at != separator); ++at) quoted = quoted != (*at == '"');
+  return trim({begin, static_cast<std::size_t>(at - begin)});
+}
+
+std::string unquoted(std::string_view cell) {
+  if (cell.find('"') == std::string_view::npos) return to_utf8(cell);
+  std::string text;
+  bool quoted = false;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    if (cell[i] != '"') {
+      text += cell[i];
+    } else if (quoted && i + 1 < cell.size() && cell[i + 1] == '"') {
+      text += cell[++i];
+    } else {
+      quoted = !quoted;
+    }
+  }
+  return to_utf8(trim(text));
+}
+
+enum class CellKind : std::uint8_t { number, comma_number, gap, wrong };
+
+CellKind read_cell(std::string_view cell, char separator, double& value) {
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
+  value = kNan;
+  if (cell.empty() || cell == "-" || equal_ignoring_case(cell, "n/a") || equal_ignoring_case(cell, "nan"))
+    return CellKind::gap;
+  if (const auto number = parse_number(cell)) {
+    value = *number;
+    return CellKind::number;
+  }
+  const auto number = separator == ',' ? std::nullopt : parse_comma_number(cell);
+  if (!number) return CellKind::wrong;
+  value = *number;
+  return CellKind::comma_number;
+}
+
+struct RowScan {
+  std::uint32_t cells = 0;   ///< Number of cells.
+  std::uint32_t filled = 0;  ///< Cells up to the last filled one.
+  bool blank = true;         ///< All cells are empty.
+  bool comma = false, gap = false, wrong = false, remark = false;
+};
+
+struct ColumnUse {
+  enum class Kind : std::uint8_t { none, clock, value, remark } kind = Kind::none;
+  Eigen::Index target = 0;
+
+  [[nodiscard]] bool is_number() const { return kind == Kind::clock || kind == Kind::value; }
+};
+
+class RowReader {
+ public:
+  RowReader(const TableText& text, const TableRows& rows, const std::filesystem::path& path)
+      : text_(text), rows_(rows), path_(path), uses_(rows.names.size()) {
+    const auto use = [&](const std::vector<std::size_t>& columns, ColumnUse::Kind kind) {
+      for (std::size_t k = 0; k < columns.size(); ++k) uses_[columns[k]] = {kind, static_cast<Eigen::Index>(k)};
+    };
+    use(rows.clock, ColumnUse::Kind::clock);
+    use(rows.values, ColumnUse::Kind::value);
+    use(rows.texts, ColumnUse::Kind::remark);
+  }
+
+  TableNumbers read() {
+    end_ = std::min(rows_.end, text_.lines.size());
+    while (end_ > rows_.first && is_left_out(end_ - 1)) --end_;
+    const std::size_t count = end_ - std::min(end_, rows_.first);
+    scans_.resize(count);
+    numbers_.clock.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(rows_.clock.size()));
+    numbers_.values.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(rows_.values.size()));
+    parallel_ranges(count, std::size_t{256}, [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) scan(i);
+    });
+    judge();
+    state_what_was_mended();
+    return std::move(numbers_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t width() const { return rows_.names.size(); }
+  void note(std::size_t line, std::string message) { numbers_.repairs.push_back({line, std::move(message)}); }
+  [[nodiscard]] std::string_view line_of(std::size_t i) const { return text_.lines[rows_.first + i]; }
+
+  /// Returns true for blank lines, remarks and empty rows at the end of a table.
+  [[nodiscard]] bool is_left_out(std::size_t n) const {
+    const std::string_view line = text_.lines[n];
+    if (line.find(rows_.separator) == std::string_view::npos) return trim(line).empty();
+    return !rows_.empty_row_is_gap && has_no_cell(line, rows_.separator);
+  }
+
+  void put(const ColumnUse& use, Eigen::Index row, double value) {
+    if (use.kind == ColumnUse::Kind::clock) numbers_.clock(row, use.target) = value;
+    if (use.kind == ColumnUse::Kind::value) numbers_.values(row, use.target) = value;
+  }
+
+  /// Reads a number that ends at the separator, which is the usual cell, and moves `at` behind it.
+  [[nodiscard]] bool plain_number(const char*& at, const char* end, double& value) const {
+    const char* begin = at;
+    while (begin != end && *begin == ' ') ++begin;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (error != std::errc() || !std::isfinite(value)) return false;
+    const char* behind = stop;
+    while (behind != end && *behind == ' ') ++behind;
+    if (behind != end && *behind != rows_.separator) return false;
+    at = behind;
+    return true;
+  }
+
+  void scan(std::size_t i) {
+    const std::string_view line = line_of(i);
+    RowScan& row = scans_[i];
+    const auto index = static_cast<Eigen::Index>(i);
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    for (std::size_t c = 0;; ++c) {
+      const ColumnUse use = c < uses_.size() ? uses_[c] : ColumnUse{};
+      double value = kNan;
+      bool empty = false;
+      if (!use.is_number() || !plain_number(at, end, value)) {
+        const std::string_view cell = raw_cell(at, end, rows_.separator);
+        empty = cell.empty() || cell == "\"\"";
+        if (use.is_number()) {
+          const CellKind kind = read_cell(cell, rows_.separator, value);
+          row.comma = row.comma || kind == CellKind::comma_number;
+          row.wrong = row.wrong || kind == CellKind::wrong;
+        } else if (use.kind == ColumnUse::Kind::remark) {
+          row.remark = row.remark || !empty;
+        }
+      }
+      if (use.kind == ColumnUse::Kind::value) row.gap = row.gap || !std::isfinite(value);
+      put(use, index, value);
+      ++row.cells;
+      if (!empty) row.filled = row.cells;
+      if (at == end) break;
+      ++at;
+    }
+    row.blank = row.filled == 0;
+    for (std::size_t c = row.cells; c < uses_.size(); ++c) put(uses_[c], index, kNan);
+  }
+
+  /// Decides row by row which rows are kept, and moves these together.
+  void judge() {
+    Eigen::Index kept = 0;
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      const RowScan& row = scans_[i];
+      if (line_of(i).starts_with('#')) continue;
+      if (row.blank && !(rows_.empty_row_is_gap && row.cells > 1)) {
+        if (row.cells > 1) {
+          throw ReadError(path_, rows_.first + i + 1,
+                          "the row is empty and other rows follow; expected a number in each cell of the clock");
+        }
+        if (kept > 0 && blank_line_++ == 0) first_blank_ = rows_.first + i + 1;
+        continue;
+      }
+      if (!keeps(i, kept)) break;
+      if (row.wrong) refuse_cell(i);
+      if (row.comma && comma_line_ == 0) comma_line_ = rows_.first + i + 1;
+      if (row.gap && gap_line_ == 0) gap_line_ = rows_.first + i + 1;
+      if (row.remark) take_remarks(i, static_cast<std::size_t>(kept));
+      if (kept != static_cast<Eigen::Index>(i)) {
+        copy_row(static_cast<Eigen::Index>(i), kept, numbers_.clock);
+        copy_row(static_cast<Eigen::Index>(i), kept, numbers_.values);
+      }
+      numbers_.lines.push_back(rows_.first + i + 1);
+      ++kept;
+    }
+    if (kept == 0) throw ReadError(path_, rows_.first + 1, "there are no rows of numbers");
+    if (kept < numbers_.values.rows()) {
+      numbers_.clock.conservativeResize(kept, Eigen::NoChange);
+      numbers_.values.conservativeResize(kept, Eigen::NoChange);
+    }
+  }
+
+  /// Returns true if the row is kept; false for a last row that is cut off. Throws if its width is wrong.
+  bool keeps(std::size_t i, Eigen::Index kept) {
+    const RowScan& row = scans_[i];
+    const std::size_t line = rows_.first + i + 1;
+    const bool last = i + 1 == scans_.size();
+    const bool without_end = last && line == text_.lines.size() && !text_.ends_with_line;
+    if (without_end) {
+      const bool counted = !rows_.rows_said || *rows_.rows_said == static_cast<double>(kept + 1);
+      LastRow judged = last_row_without_end(text_, counted && row.cells == width(), kept == 0);
+      numbers_.repairs.push_back(std::move(judged.note));
+      if (!judged.kept) return false;
+    }
+    if (row.filled > width())
+      throw ReadError(
+          path_, line,
+          fmt::format("{} cells, expected {} as in the header{}", row.filled, width(),
+                      rows_.separator == ',' ? "; a cell too many, or decimal commas in a table separated by commas"
+                                             : "; a cell is too many"));
+    if (row.cells >= width()) return true;
+    if (last && kept > 0 && rows_.short_row != ShortRow::ended) {
+      note(line, fmt::format("the last row has {} of {} cells and is left out", row.cells, width()));
+      return false;
+    }
+    const bool triples = row.cells >= rows_.first_triple && (row.cells - rows_.first_triple) % 3 == 0;
+    if (rows_.short_row == ShortRow::refused || (rows_.short_row == ShortRow::gaps && (!triples || pads())))
+      throw ReadError(path_, line,
+                      fmt::format("{} cells, expected {} as in the header; a cell is lost", row.cells, width()));
+    if (short_line_ == 0) short_line_ = line;
+    if (rows_.short_row == ShortRow::ended) require_that_none_follows(i);
+    return true;
+  }
+
+  /// Returns true if the file writes separators of empty cells at the end of a row: then no row is
+  /// cut off by missing cells.
+  [[nodiscard]] bool pads() const {
+    return std::ranges::any_of(
+        scans_, [&](const RowScan& row) { return row.cells >= width() && row.filled < width() && !row.blank; });
+  }
+
+  /// A channel that has ended does not begin again: throws if a later row has more cells than this one.
+  void require_that_none_follows(std::size_t i) {
+    if (i < checked_end_) return;
+    for (std::size_t k = scans_.size(); k-- > i + 1;) {
+      if (scans_[k].cells > scans_[i].cells)
+        throw ReadError(
+            path_, rows_.first + i + 1,
+            fmt::format("{} cells, expected {} as in the header: a cell is lost, since line {} below has {}",
+                        scans_[i].cells, width(), rows_.first + k + 1, scans_[k].cells));
+    }
+    // Rows below need a check of their own only where they are narrower still.
+    checked_end_ = i + 1;
+    while (checked_end_ < scans_.size() && scans_[checked_end_].cells >= scans_[i].cells) ++checked_end_;
+  }
+
+  [[noreturn]] void refuse_cell(std::size_t i) const {
+    const auto cells = cells_of(line_of(i), rows_.separator);
+    for (std::size_t c = 0; c < std::min(cells.size(), uses_.size()); ++c) {
+      double ignored = 0.0;
+      if (uses_[c].is_number() && read_cell(cells[c], rows_.separator, ignored) == CellKind::wrong)
+        throw ReadError(
+            path_, rows_.first + i + 1,
+            fmt::format("column {} ('{}'): expected a number, found '{}'", c + 1, rows_.names[c], cells[c]));
+    }
+    throw ReadError(path_, rows_.first + i + 1, "expected a number in each cell");
+  }
+
+  void take_remarks(std::size_t i, std::size_t row) {
+    const auto cells = cells_of(line_of(i), rows_.separator);
+    for (const std::size_t c : rows_.texts) {
+      if (c < cells.size() && !cells[c].empty()) numbers_.remarks.push_back({row, c, cells[c]});
+    }
+  }
+
+  /// Throws for a point beside decimal commas: it may mark thousands or come from another program.
+  void refuse_points() const {
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      if (line_of(i).find('.') == std::string_view::npos) continue;
+      const auto cells = cells_of(line_of(i), rows_.separator);
+      for (std::size_t c = 0; c < std::min(cells.size(), uses_.size()); ++c) {
+        if (uses_[c].is_number() && cells[c].find('.') != std::string::npos && parse_number(cells[c]))
+          throw ReadError(
+              path_, rows_.first + i + 1,
+              fmt::format(
+                  "'{}' has a decimal point, while line {} has decimal commas; expected one of them in the whole table",
+                  cells[c], comma_line_));
+      }
+    }
+  }
+
+  void state_what_was_mended() {
+    if (comma_line_ > 0) {
+      refuse_points();
+      note(comma_line_, "comma decimals read as decimal points");
+    }
+    if (blank_line_ > 0)
+      note(first_blank_, fmt::format("{} between rows of numbers passed over",
+                                     blank_line_ == 1 ? "a blank line" : fmt::format("{} blank lines", blank_line_)));
+    if (short_line_ > 0)
+      note(short_line_, rows_.short_row == ShortRow::gaps
+                            ? "a row ends early; the markers behind its end are taken as missing"
+                            : "a row ends early; the channels behind its end have ended");
+    if (gap_line_ > 0 && rows_.state_gaps) note(gap_line_, "a value is missing or no number; kept as a gap");
+    compare_count(rows_.rows_said, numbers_.lines.size(), "rows", numbers_.repairs);
+  }
+
+  const TableText& text_;
+  const TableRows& rows_;
+  const std::filesystem::path& path_;
+  std::vector<ColumnUse> uses_;
+  std::vector<RowScan> scans_;
+  TableNumbers numbers_;
+  std::size_t end_ = 0, checked_end_ = 0;
+  std::size_t comma_line_ = 0, gap_line_ = 0, short_line_ = 0, first_blank_ = 0;
+  std::size_t blank_line_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> cells_of(std::string_view line, char separator) {
+  std::vector<std::string> cells;
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  for (;; ++at) {
+    cells.push_back(unquoted(raw_cell(at, end, separator)));
+    if (at == end) return cells;
+  }
+}
+
+std::vector<std::string> filled_cells(std::string_view line, char separator) {
+  std::vector<std::string> cells = cells_of(line, separator);
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  return cells;
+}
+
+bool has_no_cell(std::string_view line, char separator) {
+  return std::ranges::all_of(line,
+                             [&](char c) { return c == separator || c == ' ' || c == '\t' || c == '\r' || c == '"'; });
+}
+
+void refuse_other_kinds(const TableText& text, const std::filesystem::path& path) {
+  constexpr std::size_t kHeader = 2000;
+  for (std::size_t n = 0; n < std::min(text.lines.size(), kHeader); ++n) {
+    std::string_view line = text.lines[n];
+    if (line.size() > 2000) continue;
+    while (!line.empty() && std::string_view(",;\t \r\"").find(line.back()) != std::string_view::npos)
+      line.remove_suffix(1);
+    line = trim(line);
+    if (line.starts_with('"')) line.remove_prefix(1);
+    if (equal_ignoring_case(line, "endheader"))
+      throw ReadError(
+          path, n + 1,
+          "this is a storage file (.mot, .sto) under another name: its header, which says whether angles are "
+          "in degrees, ends here; give it a name that ends in .mot or .sto");
+    if (line == "TRAJECTORIES" || line == "ANALOG" || line == "MODEL OUTPUTS")
+      throw ReadError(
+          path, n + 1,
+          "this is an ASCII export of Vicon Workstation or Polygon (section '{}'), which is not read; export "
+          "the trial as .c3d",
+          line);
+  }
+}
+
+bool is_rule(std::string_view line) { return line.find_first_not_of(" \t\r,;-=_\"") == std::string_view::npos; }
+
+LastRow last_row_without_end(const TableText& text, bool whole, bool only_row) {
+  const std::size_t line = text.lines.size();
+  // Where the number of decimals varies from row to row, a row with fewer of them is none that is cut off.
+  constexpr std::size_t kRows = 100;
+  bool shorter = true;
+  for (std::size_t n = line; shorter && n > 1 && n + kRows > line; --n) {
+    const std::string_view above = trim(text.lines[n - 2]);
+    const std::size_t cell = above.find_last_of("\t; ");
+    const std::string_view number = cell == std::string_view::npos ? above : above.substr(cell + 1);
+    if (!parse_number(number.substr(number.find_last_of(',') + 1))) break;
+    shorter = looks_cut(text.lines[line - 1], above);
+  }
+  const bool complete = whole && line > 1 && !shorter;
+  const bool kept = only_row || complete;
+  return {kept, {line, std::string(kept ? kLastRowKept : kLastRowLeftOut)}};
+}
+
+void compare_count(std::optional<double> said,
+                   std::size_t found,
+                   std::string_view kind,
+                   std::vector<Repair>& repairs,
+                   std::size_t line) {
+  if (said && *said != static_cast<double>(found))
+    repairs.push_back({line, fmt::format("the header says {} {}, there are {}", *said, kind, found)});
+}
+
+TableNumbers read_rows(const TableText& text, const TableRows& rows, const std::filesystem::path& path) {
+  return RowReader(text, rows, path).read();
+}
+
+}  // namespace myoid::recording

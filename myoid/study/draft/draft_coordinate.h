@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/body/model/body_model.h"
+
+namespace myoid::study {
+
+/// Finds the muscles whose moment arm about the coordinate exceeds 1 mm somewhere in its range, or
+/// within 1.5 rad (or m) of its default value.
+[[nodiscard]] std::vector<std::string> movers(const body::BodyModel& model, const std::string& coordinate);
+
+/// Returns true for the usual names of the flexion of elbow, knee and ankle.
+[[nodiscard]] bool is_usual(const std::string& coordinate);
+
+/// Puts elbow, knee and ankle first and keeps the order of the other coordinates.
+[[nodiscard]] std::vector<std::string> usual_first(std::vector<std::string> coordinates);
+
+/// Finds the coordinate that the muscles of most channels move (`match_channels`), of equals the
+/// first. Empty if no channel has the name of a muscle that moves a coordinate.
+[[nodiscard]] std::string coordinate_of_channels(const body::BodyModel& model,
+                                                 const std::vector<std::string>& coordinates,
+                                                 const std::vector<std::string>& channels);
+
+}  // namespace myoid::study

@@ -1,0 +1,31 @@
+#include "myoid/study/draft/draft_coordinate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/body/arm/arm4.h"
+#include "myoid/body/osim/osim_reader.h"
+
+namespace myoid::study {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(DraftCoordinate, TheElbowIsMovedByItsFourMusclesAndTheShoulderByNone) {
+  const body::BodyModel arm = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  EXPECT_THAT(movers(arm, "elbow_flexion"), ElementsAre("BIC", "BRA", "BRD", "TRI"));
+  const std::vector<std::string> names{"shoulder_flexion", "elbow_flexion"};
+  EXPECT_EQ(coordinate_of_channels(arm, names, {"Biceps", "ECG"}), "elbow_flexion");
+  EXPECT_EQ(coordinate_of_channels(arm, names, {"ECG"}), "");
+  EXPECT_EQ(coordinate_of_channels(arm, {}, {"Biceps"}), "");
+}
+
+TEST(DraftCoordinate, TheUsualOnesStandFirstTheOthersInTheirOrder) {
+  EXPECT_THAT(usual_first({"pelvis_tilt", "ankle_angle_r", "hip_flexion_r", "knee_angle_r"}),
+              ElementsAre("knee_angle_r", "ankle_angle_r", "pelvis_tilt", "hip_flexion_r"));
+  EXPECT_TRUE(is_usual("r_elbow_flex"));
+  EXPECT_FALSE(is_usual("hip_flexion_r"));
+}
+
+}  // namespace
+}  // namespace myoid::study

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace myoid::study {
+
+struct DraftOptions {
+  std::vector<std::filesystem::path> from;     ///< Recordings, or folders of them.
+  std::optional<std::filesystem::path> model;  ///< .osim; empty: the one in a folder, or arm4.
+  std::string coordinate;                      ///< Empty: guessed.
+};
+
+/// A study.toml to start from.
+struct StudyDraft {
+  std::string toml;
+  std::vector<std::string> todo;   ///< The questions of its TODO lines.
+  std::vector<std::string> notes;  ///< On files, among them unreadable ones.
+};
+
+/// Reads all recordings that are named or in the folders (with their folders, for BIDS), tells
+/// markers, joint angles and EMG apart, pairs them by their names into trials, the channels with
+/// the model's muscles by their names, and finds the vertical of the laboratory by laying
+/// the model's markers on the first complete frame. Open questions stand in lines with TODO.
+/// Paths are written relative to `folder`. Throws ReadError or ModelError if the model cannot be
+/// read, InvalidInput if there is no recording.
+[[nodiscard]] StudyDraft draft_study(const std::filesystem::path& folder, const DraftOptions& options);
+
+}  // namespace myoid::study

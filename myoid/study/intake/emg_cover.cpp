@@ -1,0 +1,205 @@
+#include "myoid/study/intake/emg_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/study/intake/limits.h"
+
+namespace myoid::study {
+namespace {
+
+double length_s(const Eigen::VectorXd& time_s) { return time_s[time_s.size() - 1] - time_s[0]; }
+
+const Eigen::VectorXd* motion_clock(const TrialInput& input) {
+  return input.markers ? &input.markers->time_s : input.motion ? &input.motion->time_s() : nullptr;
+}
+
+std::string lasts(const TrialLengths& t) {
+  return fmt::format("the {} {:.4g} s and the motion {:.4g} s, {:.3g} times as long",
+                     t.of_loads ? "loads last" : "EMG lasts", t.emg_s, t.motion_s, t.emg_s / t.motion_s);
+}
+
+std::string which_rate(const TrialLengths& t) {
+  return fmt::format(
+      "{} at {:.4g} Hz instead of {:.4g} Hz, or a motion at {:.4g} Hz instead of {:.4g} Hz, would end together with "
+      "the other: correct the rate or the times in the file that is wrong",
+      t.of_loads ? "Loads" : "EMG", t.emg_rate_hz * t.emg_s / t.motion_s, t.emg_rate_hz,
+      t.motion_rate_hz * t.motion_s / t.emg_s, t.motion_rate_hz);
+}
+
+/// Finds the only two trials whose EMG and motion differ in length, if the EMG of each is as long as the other's
+/// motion.
+std::optional<Remark> exchanged_emg(const std::vector<TrialLengths>& trials) {
+  const auto unlike = [](double a_s, double b_s) { return std::abs(a_s - b_s) > kLimits.uncovered_s; };
+  std::vector<const TrialLengths*> apart;
+  for (const TrialLengths& t : trials) {
+    if (unlike(t.emg_s, t.motion_s)) apart.push_back(&t);
+  }
+  if (apart.size() != 2) return std::nullopt;
+  const TrialLengths &a = *apart[0], &b = *apart[1];
+  if (unlike(a.emg_s, b.motion_s) || unlike(b.emg_s, a.motion_s)) return std::nullopt;
+  return Remark{
+      .code = RemarkCode::emg_length,
+      .severity = Severity::warning,
+      .where = a.trial,
+      .says = fmt::format("{}; the EMG of '{}' lasts {:.4g} s, and its motion {:.4g} s: each EMG is as long as the "
+                          "other trial's motion",
+                          lasts(a), b.trial, b.emg_s, b.motion_s),
+      .remedy = "exchange emg of the two trials if the files are mixed up"};
+}
+
+}  // namespace
+
+std::optional<double> whole_factor(double ratio, double tolerance) {
+  for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
+    for (const double f : {factor, 1.0 / factor}) {
+      if (std::abs(ratio / f - 1.0) < tolerance) return f;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Cover> check_cover(const std::filesystem::path& file,
+                                 std::string_view recorded,
+                                 const Eigen::VectorXd& time_s,
+                                 const TrialInput& input) {
+  const Eigen::VectorXd* motion_s = motion_clock(input);
+  if (motion_s == nullptr) return std::nullopt;
+  const double begin_s = (*motion_s)[0], end_s = (*motion_s)[motion_s->size() - 1];
+  const double first_s = time_s[0], last_s = time_s[time_s.size() - 1];
+  const Cover both{.begin_s = std::max(first_s, begin_s), .end_s = std::min(last_s, end_s), .lacks = {}};
+  const double overlap = both.end_s - both.begin_s;
+  if (end_s - begin_s < kLimits.shortest_trial_s) {
+    throw ReadError(file, 0,
+                    fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give start_s "
+                                "and end_s that are farther apart",
+                                end_s - begin_s, begin_s, end_s, kLimits.shortest_trial_s));
+  }
+  if (overlap < std::max(kLimits.shortest_trial_s, kLimits.covered * (end_s - begin_s))) {
+    throw ReadError(file, 0,
+                    fmt::format("the {} ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} to {:.5g} s); "
+                                "are both in seconds, at the rate they were recorded with, on one clock? If so, give "
+                                "the trial the start_s and end_s that both have",
+                                recorded, first_s, last_s, begin_s, end_s));
+  }
+  if (!(overlap < end_s - begin_s - kLimits.uncovered_s)) return std::nullopt;
+  return Cover{.begin_s = both.begin_s,
+               .end_s = both.end_s,
+               .lacks = fmt::format("{}: the {} ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} to {:.5g} s)",
+                                    file.filename().string(), recorded, first_s, last_s, end_s - begin_s - overlap,
+                                    begin_s, end_s),
+               .as_long = last_s - first_s > end_s - begin_s - kLimits.uncovered_s};
+}
+
+Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s) {
+  if (motion_s.size() < 2 || emg_s.size() == 0) return {};
+  const double spare_s = 0.5 * length_s(motion_s) / static_cast<double>(motion_s.size() - 1);
+  Rows rows{.first = 0, .last = motion_s.size() - 1};
+  while (rows.first <= rows.last && motion_s[rows.first] < emg_s[0] - spare_s) ++rows.first;
+  while (rows.last >= rows.first && motion_s[rows.last] > emg_s[emg_s.size() - 1] + spare_s) --rows.last;
+  return rows;
+}
+
+std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input) {
+  const Eigen::VectorXd* clock = motion_clock(input);
+  if (!input.lengths.empty()) return input.lengths;
+  if (trial.given.lengths) return {};  // join_given_clocks compares them
+  if (clock == nullptr || trial.start_s || trial.end_s) return {};
+  if (trial.use == Use::mvc || trial.use == Use::static_pose) return {};
+  const double begin_s = (*clock)[0];
+  std::vector<TrialLengths> found;
+  const auto add = [&](double first_s, double last_s, double rate_hz, bool of_loads) {
+    if (std::abs(first_s - begin_s) > kLimits.same_begin_s) return;
+    found.push_back({.trial = trial.name,
+                     .emg_s = last_s - begin_s,
+                     .motion_s = length_s(*clock),
+                     .motion_rate_hz = static_cast<double>(clock->size() - 1) / length_s(*clock),
+                     .emg_rate_hz = rate_hz,
+                     .of_loads = of_loads});
+  };
+  if (input.emg && !input.emg_clock && trial.emg != trial.markers && trial.emg != trial.motion) {
+    const Eigen::VectorXd& emg = input.emg->time_s();
+    add(emg[0], emg[emg.size() - 1], input.emg->mean_rate_hz(), false);
+  }
+  if (input.loads && trial.external_loads && input.loads->offset_s == 0.0 && input.loads->drift_ppm == 0.0)
+    add(input.loads->start_s, input.loads->end_s, input.loads->rate_hz, true);
+  return found;
+}
+
+std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
+  std::vector<Remark> found;
+  double least = 1e300;
+  double most = 0.0;
+  bool all = true;
+  std::vector<TrialLengths> of_emg;
+  std::ranges::copy_if(trials, std::back_inserter(of_emg), [](const TrialLengths& t) { return !t.of_loads; });
+  for (const TrialLengths& t : of_emg) {
+    const double ratio = t.emg_s / t.motion_s;
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+    if (std::abs(t.emg_s - t.motion_s) < kLimits.by_hand_s) {
+      all = false;
+      continue;
+    }
+    const auto factor = whole_factor(ratio, kLimits.same_factor);
+    if (!factor) continue;
+    const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kLimits.ends_together;
+    found.push_back(
+        {.code = RemarkCode::emg_length,
+         .severity = sure ? Severity::error : Severity::warning,
+         .where = t.trial,
+         .about = "EMG and motion",
+         .says = fmt::format("{}: {} the rate of one of them{} wrong{} {}. If both did last so, give the trial the "
+                             "start_s and end_s that both have",
+                             lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?", which_rate(t))});
+  }
+  for (const TrialLengths& t : trials) {
+    if (!t.of_loads || std::abs(t.emg_s - t.motion_s) < kLimits.by_hand_s ||
+        !whole_factor(t.emg_s / t.motion_s, kLimits.same_factor) ||
+        std::ranges::any_of(found, [&](const Remark& of_emg_too) { return of_emg_too.where == t.trial; }))
+      continue;
+    found.push_back(
+        {.code = RemarkCode::emg_length,
+         .severity = Severity::warning,
+         .where = t.trial,
+         .about = "loads and motion",
+         .says = fmt::format("{}: is the rate of one of them wrong? {}. If both did last so, give the trial "
+                             "the start_s and end_s that both have",
+                             lasts(t), which_rate(t))});
+  }
+  if (auto exchanged = exchanged_emg(of_emg); exchanged && found.empty()) found.push_back(std::move(*exchanged));
+  // Recordings stopped by hand differ by some seconds, not by one factor.
+  if (of_emg.empty() || !found.empty() || !all || most > (1.0 + kLimits.same_factor) * least) return found;
+  const TrialLengths& first = of_emg.front();
+  if (of_emg.size() == 1) {
+    // A single trial must be longer by more than a late stop explains.
+    if (most < kLimits.alone_longer) return found;
+    found.push_back(
+        {.code = RemarkCode::emg_length,
+         .severity = Severity::warning,
+         .where = first.trial,
+         .says = fmt::format("{}: is the rate of one of them wrong? {}. If the EMG did go on, end_s leaves it out",
+                             lasts(first), which_rate(first))});
+    return found;
+  }
+  found.push_back({.code = RemarkCode::emg_length,
+                   .severity = Severity::warning,
+                   .where = "study",
+                   .says = fmt::format("in every trial {} (so in '{}'): is a rate wrong? {}", lasts(first), first.trial,
+                                       which_rate(first))});
+  return found;
+}
+
+bool is_rate_wrong(const std::vector<TrialLengths>& of_one_trial) {
+  return std::ranges::any_of(unlike_lengths(of_one_trial), [](const Remark& found) {
+    return found.severity == Severity::error || found.about == "loads and motion";
+  });
+}
+
+}  // namespace myoid::study

@@ -1,0 +1,233 @@
+#include "myoid/study/intake/read_trial.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/ground/core/angle_unit.h"
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/core/names.h"
+#include "myoid/ground/core/provenance.h"
+#include "myoid/ground/files/byte_source.h"
+#include "myoid/recording/recording.h"
+#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/tables/storage_reader.h"
+#include "myoid/study/intake/emg_cover.h"
+#include "myoid/study/intake/read_given.h"
+#include "myoid/study/intake/trial_emg.h"
+#include "myoid/study/intake/trial_loads.h"
+#include "myoid/study/intake/trial_markers.h"
+
+namespace myoid::study {
+namespace {
+
+/// Throws ReadError, naming the key, for a missing file.
+void require_files(const TrialSpec& trial) {
+  using Key = std::pair<const char*, const std::optional<std::filesystem::path>*>;
+  const auto require = [&](const char* key, const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored)) return;
+    throw ReadError(
+        path, 0,
+        fmt::format("there is no such file for {}; a path in a study counts from the folder of the study", key));
+  };
+  for (const auto& [key, path] : {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
+                                  Key{"external_torque", &trial.external_torque},
+                                  Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell},
+                                  Key{"lengths", &trial.given.lengths}, Key{"velocities", &trial.given.velocities},
+                                  Key{"torques", &trial.given.torques}, Key{"forces", &trial.given.forces}}) {
+    if (*path) require(key, **path);
+  }
+  for (const std::filesystem::path& path : trial.given.moment_arms) require("moment_arms", path);
+}
+
+TimeSeries read_motion(const Study& study,
+                       const std::filesystem::path& path,
+                       const body::BodyModel& model,
+                       TrialInput& input) {
+  const recording::Storage file = recording::read_storage(path);
+  add_repairs(path, file.repairs, input.remarks);
+  // Without a body the only column is the angle of the only joint, by any name.
+  const bool only = study.model.is_none() && model.coordinates.size() == 1 && file.data.channel_count() == 1;
+  const auto is_angle = [&](const std::string& name) {
+    const auto index = model.find_coordinate(name);
+    return only ||
+           (index && model.coordinates[static_cast<std::size_t>(*index)].motion == body::MotionType::rotational);
+  };
+  TimeSeries motion = recording::to_si(file, is_angle);
+  if (only) motion = {motion.time_s(), {{model.coordinates[0].name, Unit::radian}}, motion.values()};
+  bool any = false;
+  for (const Channel& channel : motion.channels()) any |= model.find_coordinate(channel.name).has_value();
+  if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
+    warn(input, RemarkCode::unit_doubtful, fmt::format("{}: {}", path.filename().string(), doubt));
+  if (!any)
+    throw ReadError(
+        path, 0,
+        fmt::format(
+            "no column is a coordinate of the model; found {}, expected some of {}; rename the columns{}",
+            channel_names(motion), name_list(model.coordinates, &body::Coordinate::name),
+            study.model.is_none() ? ", or name the study's coordinate as they are (identify: --coordinate)" : ""));
+  return motion;
+}
+
+TimeSeries read_trial_motion(const Study& study,
+                             const TrialSpec& trial,
+                             const body::BodyModel& model,
+                             TrialInput& input) {
+  TimeSeries motion = read_motion(study, *trial.motion, model, input);
+  // Derivatives at given times follow from the whole motion, and `join_given_clocks` looks at its clock.
+  if (!trial.given.lengths) motion = motion.slice(trial.start_s.value_or(-1e300), trial.end_s.value_or(1e300));
+  require_finite(motion, trial.motion->string());
+  const int least = trial.given.lengths ? 2 : kLeastOfATrial;
+  if (motion.sample_count() < least) throw ReadError(*trial.motion, 0, few_samples(trial, motion, least));
+  if (std::string pauses = trial.given.lengths ? "" : check_clock(*trial.motion, motion.time_s()); !pauses.empty())
+    warn(input, RemarkCode::clock_pause, std::move(pauses));
+  check_cutoff(study, *trial.motion, motion.time_s());
+  return motion;
+}
+
+TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std::vector<Remark>& remarks) {
+  recording::SeriesFile file = recording::read_series(*trial.external_torque);
+  add_repairs(*trial.external_torque, file.repairs, remarks);
+  std::vector<Channel> columns;
+  std::vector<std::string> there;
+  for (const std::string& name : study_coordinates(study.model)) {
+    columns.push_back({name + "_moment", Unit::newton_meter});
+    if (file.data.find(columns.back().name)) there.push_back(columns.back().name);
+  }
+  if (there.empty()) {
+    throw ReadError(*trial.external_torque, 0,
+                    fmt::format("no column '{}' [N m]; found {}", columns[0].name, channel_names(file.data)));
+  }
+  // A dynamometer acts on one joint only.
+  const TimeSeries found = file.data.select(there);
+  for (const Channel& channel : found.channels()) {
+    if (channel.unit != Unit::newton_meter && channel.unit != Unit::dimensionless)
+      throw ReadError(*trial.external_torque, 0,
+                      fmt::format("column '{}' is in {}, expected N m; correct the unit in the header", channel.name,
+                                  symbol(channel.unit)));
+  }
+  Eigen::MatrixXd torque = Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (const auto column = found.find(columns[i].name))
+      torque.col(static_cast<Eigen::Index>(i)) = found.values().col(*column);
+  }
+  TimeSeries result(found.time_s(), std::move(columns), std::move(torque));
+  if (const auto clock = loads_clock(study, trial, *trial.external_torque))
+    result = recording::on_study_clock(std::move(result), *clock);
+  require_finite(result, trial.external_torque->string());
+  return result;
+}
+
+/// Returns the part of the motion with measured loads, if more than 0.1 s of it has none: neither the last value nor a
+/// line through the last two is a load of the time after it. Load cells and force plates refuse such a motion where
+/// they are read.
+std::optional<Cover> cover_by_files(const TrialSpec& trial, const TrialInput& input) {
+  if (trial.external_loads) {
+    const Eigen::Vector2d clock(input.loads->start_s, input.loads->end_s);
+    if (auto cover = check_cover(*trial.external_loads, "force", clock, input)) return cover;
+  }
+  if (!trial.external_torque) return std::nullopt;
+  return check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), input);
+}
+
+/// Warns if the study's start_s or end_s lies outside of the recording: a file that was cut off ends early.
+void warn_of_window(const TrialSpec& trial, TrialInput& input) {
+  if (!input.markers && !input.motion) return;
+  const Eigen::VectorXd& time_s = input.markers ? input.markers->time_s : input.motion->time_s();
+  const double begin_s = time_s[0], end_s = time_s[time_s.size() - 1];
+  const double asked_from_s = trial.start_s.value_or(begin_s), asked_to_s = trial.end_s.value_or(end_s);
+  if (begin_s - asked_from_s <= kLimits.uncovered_s && asked_to_s - end_s <= kLimits.uncovered_s) return;
+  warn(input, RemarkCode::general,
+       fmt::format(
+           "start_s and end_s ask for {:.4g} to {:.4g} s, and the files of the trial cover {:.4g} to {:.4g} s of "
+           "them. Was a file cut off?",
+           asked_from_s, asked_to_s, begin_s, end_s));
+}
+
+}  // namespace
+
+TrialInput read_trial_input(const Study& study, const TrialSpec& trial, const body::BodyModel& model) {
+  TrialInput input;
+  require_files(trial);
+  const auto remember = [&](const std::filesystem::path& path) {
+    input.files.push_back({path.string(), sha256(read_bytes(path))});
+  };
+  if (trial.markers) {
+    remember(*trial.markers);
+    input.markers = read_trial_markers(study, trial, model, input);
+  }
+  if (trial.motion) {
+    remember(*trial.motion);
+    input.motion = read_trial_motion(study, trial, model, input);
+  }
+  read_given_stages(study, trial, model, remember, input);
+  if (trial.emg) {
+    remember(*trial.emg);
+    input.emg = read_trial_emg(study, trial, remember, input);
+  }
+  if (trial.external_torque) {
+    remember(*trial.external_torque);
+    input.external_torque = read_external_torque(study, trial, input.remarks);
+  }
+  input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.remarks);
+  return input;
+}
+
+namespace {
+
+/// As read_trial_parts; `of_study`: start_s and end_s of the trial are the study's.
+std::vector<TrialPart> parts_of(const Study& study,
+                                const TrialSpec& trial,
+                                const body::BodyModel& model,
+                                bool of_study) {
+  std::vector<TrialPart> parts;
+  try {
+    TrialPart whole{trial, read_trial_input(study, trial, model)};
+    join_given_clocks(whole.spec, whole.input);
+    const auto cover = cover_by_files(trial, whole.input);
+    if (!cover) {
+      if (of_study) warn_of_window(trial, whole.input);
+      parts.push_back(std::move(whole));
+      return parts;
+    }
+    TrialSpec within = trial;
+    within.start_s = cover->begin_s;
+    within.end_s = cover->end_s;
+    parts = parts_of(study, within, model, false);
+    for (TrialPart& part : parts) {
+      part.input.lengths = lengths_of(trial, whole.input);
+      warn(part.input, RemarkCode::general,
+           cover->lacks + ": those seconds are left out. A file that was cut off ends early, too");
+    }
+    return parts;
+  } catch (const ClockPause& pause) {
+    if (study.ik.calibrate) throw;
+    int number = 0;
+    for (const Stretch& stretch : pause.stretches()) {
+      TrialSpec spec = trial;
+      spec.name = fmt::format("{}.{}", trial.name, ++number);
+      spec.start_s = std::max(trial.start_s.value_or(stretch.begin_s), stretch.begin_s);
+      spec.end_s = std::min(trial.end_s.value_or(stretch.end_s), stretch.end_s);
+      if (*spec.end_s - *spec.start_s < kShortestPart_s) continue;
+      // The other recording may have pauses elsewhere.
+      for (TrialPart& part : parts_of(study, spec, model, false)) parts.push_back(std::move(part));
+    }
+    if (parts.empty()) throw;
+    for (TrialPart& part : parts) {
+      warn(part.input, RemarkCode::clock_pause,
+           fmt::format("part of trial '{}', which is cut at the pauses of its clock ({})", trial.name,
+                       pause.path().filename().string()));
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& trial, const body::BodyModel& model) {
+  return parts_of(study, trial, model, true);
+}
+
+}  // namespace myoid::study

@@ -1,0 +1,92 @@
+#include "myoid/study/intake/trial_markers.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/recording/recording.h"
+#include "myoid/recording/tables/trc_writer.h"
+
+#include "tests/support/temporary_folder.h"
+#include "tests/support/written_trial.h"
+
+namespace myoid::study {
+namespace {
+
+using namespace test_trials;
+
+/// Every marker of the arm, at 100 Hz, where the model has it in its own body: a pose that no arm
+/// takes, but that its reader does not judge.
+struct MarkerTrial {
+  test::TemporaryFolder folder;
+  TrialSpec spec;
+
+  MarkerTrial(const std::string& first_name, int frames) {
+    MarkerSeries markers;
+    for (const body::Marker& marker : arm().markers) markers.names.push_back(marker.name);
+    markers.names[0] = first_name;
+    markers.time_s = Eigen::VectorXd::LinSpaced(frames, 0.0, 0.01 * (frames - 1));
+    markers.positions_m.resize(frames, 3 * markers.marker_count());
+    for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+      markers.positions_m.middleCols(3 * m, 3) =
+          Eigen::RowVector3d(0.1, 0.2, 0.3 + 0.05 * static_cast<double>(m)).replicate(frames, 1);
+    }
+    recording::write_trc(folder / "m.trc", markers);
+    spec.name = "t";
+    spec.markers = folder / "m.trc";
+  }
+};
+
+std::string first_name() { return arm().markers[0].name; }
+
+TEST(ReadTrialMarkers, ALabelThatDiffersInItsWritingBecomesTheModelsWithANote) {
+  std::string upper = first_name();
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  ASSERT_NE(upper, first_name());
+  const MarkerTrial trial(upper, 50);
+  TrialInput input;
+  EXPECT_EQ(read_trial_markers(arm_study(), trial.spec, arm(), input).names[0], first_name());
+  EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& note) {
+    return note.says.find("is taken for the model's") != std::string::npos;
+  }));
+}
+
+TEST(ReadTrialMarkers, ALaboratoryWithZUpIsTurned) {
+  const MarkerTrial trial(first_name(), 50);
+  TrialInput input;
+  const MarkerSeries markers = read_trial_markers(arm_study("[markers]\nup = \"z\"\n"), trial.spec, arm(), input);
+  // Height 0.3 m was the third coordinate.
+  EXPECT_NEAR(markers.positions_m(0, 1), 0.3, 1e-6);
+  EXPECT_NEAR(
+      markers.positions_m(0, 0) * markers.positions_m(0, 0) + markers.positions_m(0, 2) * markers.positions_m(0, 2),
+      0.1 * 0.1 + 0.2 * 0.2, 1e-6);
+}
+
+TEST(ReadTrialMarkers, FewerThanTenFramesAreRefused) {
+  MarkerTrial trial(first_name(), 50);
+  trial.spec.start_s = 0.1;
+  trial.spec.end_s = 0.155;
+  TrialInput input;
+  const std::string message = message_of([&] { (void)read_trial_markers(arm_study(), trial.spec, arm(), input); });
+  EXPECT_NE(message.find("only 6 frames"), std::string::npos) << message;
+}
+
+TEST(ReadTrialMarkers, AnotherUnitIsRefusedWithTheFileAndTheUnit) {
+  MarkerTrial trial(first_name(), 50);
+  recording::MarkerFile file = recording::read_markers(*trial.spec.markers);
+  for (std::size_t m = 0; m < arm().markers.size(); ++m)
+    file.markers.positions_m.middleCols(3 * static_cast<Eigen::Index>(m), 3) =
+        1000.0 * arm().markers[m].p_BM.transpose().replicate(50, 1);
+  recording::write_trc(*trial.spec.markers, file.markers);
+  TrialInput input;
+  const std::string message = message_of([&] { (void)read_trial_markers(arm_study(), trial.spec, arm(), input); });
+  EXPECT_NE(message.find("m.trc: the markers lie 1e+03 times as far apart as the model's"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("millimeters that are declared as meters"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace myoid::study
