@@ -119,7 +119,7 @@ inline constexpr Belief kEmgDelayBesideLags =
 inline constexpr Belief kEmgGain =
     belief("emg_gain", Expected("1, or `mvc_effort`", 1.0), 0.1, logarithm, "")
         .used("always; in place of this spread that of the EMG's normalization in the recording, with `mvc_effort_sd`")
-        .from("signals/emg_envelope.h");
+        .from("recording/signals/emg_envelope.h");
 inline constexpr Belief kEmgShape = belief("emg_shape", 0.0, 0.8, value, "").judged(kWhenFree);
 inline constexpr Belief kEmgExponent = belief("emg_exponent", 1.0, 0.2, logarithm, "")
                                            .used("EMG with a maximal contraction, of channels that reach half of it")
