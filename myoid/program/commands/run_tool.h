@@ -13,10 +13,10 @@ namespace myoid::program {
 /// Options for a set-up file of one of OpenSim's tools. The tools take their times from that file.
 struct RunToolOptions {
   Call call;
-  std::string setup;               ///< .xml
-  opensim::SetupFiles files;       ///< Instead of the set-up's own.
-  bool anywhere = false;           ///< Writes outside the folder of the set-up too, where the set-up says so.
-  std::string compat = "opensim";  ///< Paths of muscles: as OpenSim 4.5.2 has them, or "exact".
+  std::string setup;                        ///< .xml
+  opensim::SetupFiles files;                ///< Instead of the set-up's own.
+  bool anywhere = false;                    ///< Writes outside the folder of the set-up too, where the set-up says so.
+  std::string compat = "opensim";           ///< Paths of muscles: as OpenSim 4.5.2 has them, or "exact".
   opensim::ToolFolders* folders = nullptr;  ///< As in ToolOptions, for several set-ups (run_tools.h).
 };
 
