@@ -89,8 +89,8 @@ TEST(PaperSection, IsFoldedAndHasTheSolversThatTheStudyCompares) {
   const page::Section section = paper_section(fit, true);
   EXPECT_TRUE(section.folded);
   EXPECT_EQ(section.tables.size(), 3U);
-  fit.contests = {{"BIC shortening", {.runs = {{.solver = "gauss_newton", .cost = 0.1234567890123}}}},
-                  {"BIC lengthening", {}}};
+  fit.contests = {{.fit = "BIC shortening", .runs = {{.solver = "gauss_newton", .cost = 0.1234567890123}}},
+                  {.fit = "BIC lengthening"}};
   const page::Table solvers = paper_section(fit, false).tables.at(3);
   ASSERT_EQ(solvers.rows.size(), 1U);
   EXPECT_EQ(solvers.rows[0][0].text, "BIC shortening");

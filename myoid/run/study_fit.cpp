@@ -48,10 +48,10 @@ void compare_solvers(
   fit::ContestOptions options{.seed = seed, .progress = progress};
   options.starts = starts.value_or(options.starts);
   found.contests = fit::solver_contests(input.data, options);
-  for (const fit::NamedContest& named : found.contests) {
-    if (named.contest.runs.empty()) continue;
-    found.methods.back().basins.push_back(named.contest.basins);
-    found.methods.back().basins.back().fit = named.fit + ", Levenberg-Marquardt";
+  for (const fit::SolverContest& contest : found.contests) {
+    if (contest.runs.empty()) continue;
+    found.methods.back().basins.push_back(contest.basins);
+    found.methods.back().basins.back().fit = contest.fit + ", Levenberg-Marquardt";
   }
 }
 

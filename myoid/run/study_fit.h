@@ -20,8 +20,8 @@ struct StudyFit {
   std::vector<fit::IdentificationResult> methods;
   /// Two channels that fit better with exchanged names.
   std::optional<fit::ExchangedElectrodes> exchanged;
-  std::optional<fit::ShiftedEmg> shifted;   ///< EMG on another clock than the torque.
-  std::vector<fit::NamedContest> contests;  ///< Solvers of method `paper`, if the study compares them.
+  std::optional<fit::ShiftedEmg> shifted;    ///< EMG on another clock than the torque.
+  std::vector<fit::SolverContest> contests;  ///< Solvers of method `paper`, if the study compares them.
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
   std::vector<InformedForces> informed;

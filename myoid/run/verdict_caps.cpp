@@ -100,7 +100,7 @@ std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vecto
   std::vector<VerdictCap> caps;
   if (motion_is_unreliable(result.source.study, result.trials))
     caps.push_back(of_all("The motion it rests on failed its quality gate: mend that first."));
-  if (result.fit.exchanged) caps.push_back(of_all(std::string(fit::kExchangedCap)));
+  if (result.fit.exchanged) caps.push_back(of_all("Two electrodes seem to be exchanged: mend that first."));
   if (result.fit.shifted) caps.push_back(of_all("EMG and torque seem to be on different clocks: mend that first."));
   add_contacts(result, caps);
   add_emg(result, caps);

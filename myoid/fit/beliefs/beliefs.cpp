@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-
 namespace myoid::fit {
 
 namespace beliefs {
@@ -30,25 +28,6 @@ constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvatu
 
 }  // namespace beliefs
 
-namespace {
-
-std::string spread_text(const Belief& belief) {
-  if (belief.sd == 0.0) return "–";
-  switch (belief.spread) {
-    case SpreadOf::logarithm:
-      return fmt::format("ln {:g}", belief.sd);
-    case SpreadOf::fiber_length:
-      return fmt::format("{:g} l_m⁰", belief.sd);
-    case SpreadOf::joint_strength:
-      return fmt::format("{:g} % of the joint's strength", 100.0 * belief.sd);
-    case SpreadOf::value:
-      break;
-  }
-  return fmt::format("{:g}", belief.sd);
-}
-
-}  // namespace
-
 std::span<const Belief* const> all_beliefs() { return beliefs::kAll; }
 
 std::optional<Prior> literature_prior(std::string_view parameter, double start, double optimal_fiber_length_m) {
@@ -58,17 +37,6 @@ std::optional<Prior> literature_prior(std::string_view parameter, double start, 
   const Belief& belief = **found;
   const double unit = belief.spread == SpreadOf::fiber_length ? optimal_fiber_length_m : 1.0;
   return Prior{.mean = start, .sd = belief.sd * unit, .logarithmic = belief.spread == SpreadOf::logarithm};
-}
-
-std::string beliefs_markdown() {
-  std::string text = "| quantity | expected | spread | unit | used | source |\n| --- | --- | --- | --- | --- | --- |\n";
-  for (const Belief* belief : beliefs::kAll) {
-    const bool parameter = belief->name.find(' ') == std::string_view::npos;
-    text += fmt::format("| {}{}{} | {} | {} | {} | {} | {} |\n", parameter ? "`" : "", belief->name,
-                        parameter ? "`" : "", belief->mean.empty() ? fmt::format("{:g}", belief->value) : belief->mean,
-                        spread_text(*belief), belief->unit.empty() ? "–" : belief->unit, belief->when, belief->source);
-  }
-  return text;
 }
 
 }  // namespace myoid::fit

@@ -269,7 +269,4 @@ struct UnseenSpreads {
                                                     double start,
                                                     double optimal_fiber_length_m);
 
-/// Returns the beliefs as a table in Markdown.
-[[nodiscard]] std::string beliefs_markdown();
-
 }  // namespace myoid::fit

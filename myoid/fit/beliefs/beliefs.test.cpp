@@ -1,7 +1,9 @@
 #include "myoid/fit/beliefs/beliefs.h"
 
 #include <optional>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "myoid/muscle/hill_parameters.h"
@@ -10,6 +12,33 @@
 
 namespace myoid::fit {
 namespace {
+
+std::string spread_text(const Belief& belief) {
+  if (belief.sd == 0.0) return "–";
+  switch (belief.spread) {
+    case SpreadOf::logarithm:
+      return fmt::format("ln {:g}", belief.sd);
+    case SpreadOf::fiber_length:
+      return fmt::format("{:g} l_m⁰", belief.sd);
+    case SpreadOf::joint_strength:
+      return fmt::format("{:g} % of the joint's strength", 100.0 * belief.sd);
+    case SpreadOf::value:
+      break;
+  }
+  return fmt::format("{:g}", belief.sd);
+}
+
+/// Returns the beliefs as a table in Markdown.
+std::string beliefs_markdown() {
+  std::string text = "| quantity | expected | spread | unit | used | source |\n| --- | --- | --- | --- | --- | --- |\n";
+  for (const Belief* belief : all_beliefs()) {
+    const bool parameter = belief->name.find(' ') == std::string_view::npos;
+    text += fmt::format("| {}{}{} | {} | {} | {} | {} | {} |\n", parameter ? "`" : "", belief->name,
+                        parameter ? "`" : "", belief->mean.empty() ? fmt::format("{:g}", belief->value) : belief->mean,
+                        spread_text(*belief), belief->unit.empty() ? "–" : belief->unit, belief->when, belief->source);
+  }
+  return text;
+}
 
 TEST(Beliefs, AreTheOnesThatThePagePrints) {
   test::expect_printed("docs/theory/priors.md", "beliefs", beliefs_markdown());

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "myoid/ground/core/units.h"
 #include "myoid/muscle/literature.h"
 
@@ -32,18 +30,11 @@ struct VerdictRules {
   [[nodiscard]] bool possible(double width) const {
     return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
   }
-  double least_r2 = 0.50;    ///< A fit that explains less of the torque identifies nothing.
-  double on_bound = 0.001;   ///< Share of the possible range: an interval that ends nearer to a bound is cut off.
-  double no_delay_s = 1e-6;  ///< Limit up to which a delay on its bound counts as 0.
+  double least_r2 = 0.50;   ///< A fit that explains less of the torque identifies nothing.
+  double on_bound = 0.001;  ///< Share of the possible range: an interval that ends nearer to a bound is cut off.
   double active = 0.02, least_s = 0.1;  ///< A muscle acts above this activation, and has done so only after this time.
 };
 
 inline constexpr VerdictRules kVerdictRules;
-
-/// Explains why active lengths that span `span` of l0 leave a muscle's l0 and l_sh open.
-[[nodiscard]] std::string one_length_text(double span);
-
-/// Returns the thresholds as a table in Markdown for docs/theory/identification.md.
-[[nodiscard]] std::string verdict_rules_markdown();
 
 }  // namespace myoid::fit

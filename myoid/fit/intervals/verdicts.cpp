@@ -77,7 +77,10 @@ std::string without_width(Finding finding, const NumberFacts& facts) {
     case Finding::not_converged:
       return failed;
     case Finding::one_length:
-      return one_length_text(*facts.length_span);
+      return fmt::format(
+          "while active the muscle's length changed by {:.1f} % of the optimal one: at one length F_max and the "
+          "force-length curve are one number; record other joint angles",
+          100.0 * *facts.length_span);
     case Finding::bad_company:
       return fmt::format("the same fit puts {} where no muscle can be: none of its numbers describes the muscle",
                          facts.bad_company);
@@ -269,12 +272,6 @@ void apply(const std::vector<VerdictCap>& caps, IdentificationResult& result) {
     e.verdict = verdict_of(cap->finding);
     e.reason = cap->reason;
   }
-}
-
-std::string beside_the_maximum(std::string_view parameter, bool from_mvc) {
-  if (from_mvc || parameter != "max_isometric_force") return "";
-  return "; no maximal contraction was recorded, so this is the force at the study's largest EMG, not the muscle's "
-         "maximum";
 }
 
 }  // namespace myoid::fit

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "myoid/fit/intervals/result.h"
@@ -116,14 +115,8 @@ struct VerdictCap {
   Finding finding = Finding::fault;
 };
 
-/// Reason of the cap of all numbers by exchanged electrodes (fit/methods/exchanged_electrodes.h).
-inline constexpr std::string_view kExchangedCap = "Two electrodes seem to be exchanged: mend that first.";
-
 /// Gives the estimates that the caps name the verdict of their first cap and its reason, if their own is better. The
 /// same for every method.
 void apply(const std::vector<VerdictCap>& caps, IdentificationResult& result);
-
-/// Returns the end of the reason of F_max where no maximal contraction was recorded, else nothing.
-[[nodiscard]] std::string beside_the_maximum(std::string_view parameter, bool from_mvc);
 
 }  // namespace myoid::fit

@@ -53,8 +53,6 @@ Unknown unknown_of(const ParameterSlot& slot, const std::string& owner, bool pri
     throw InvalidInput(
         fmt::format("{}: lower bound {} above upper bound {}", p.label, slot.bounds.lower, slot.bounds.upper));
   }
-  p.lower_is_given = slot.bounds.lower > slot.usual.lower;
-  p.upper_is_given = slot.bounds.upper < slot.usual.upper;
   p.prior_is_given = slot.prior_is_given;
   const bool with_prior = priors && slot.prior;
   if (with_prior) p.prior = scaled_prior(field, *slot.prior);

@@ -27,8 +27,6 @@ struct Unknown {
   muscle::Range bounds;
   Prior prior;                  ///< Standard deviation 0: no prior.
   bool prior_is_given = false;  ///< The study gives the prior, in place of the literature's.
-  bool lower_is_given = false;  ///< The study's bound is tighter than the usual one.
-  bool upper_is_given = false;
 
   [[nodiscard]] double to_value(double z) const;
   [[nodiscard]] bool is(Scope scope, int number) const { return field->scope == scope && field->field == number; }

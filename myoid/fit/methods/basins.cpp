@@ -13,26 +13,21 @@ namespace {
 constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
 constexpr double kSpreads = 2.0;
 
-StartBox box_about(const Eigen::VectorXd& given) { return {given, Eigen::VectorXd(given.size()), given, given}; }
-
-void bound(StartBox& box, Eigen::Index j, double lower, double upper) {
-  const double reach = kSpreads * box.spread[j];
-  box.lower[j] = std::max(std::min(lower, box.given[j]), box.given[j] - reach);
-  box.upper[j] = std::min(std::max(upper, box.given[j]), box.given[j] + reach);
-}
-
 }  // namespace
 
 StartBox start_box(const PaperCase& samples, const MuscleSetup& setup) {
-  StartBox box = box_about(samples.start_vector());
-  for (Eigen::Index j = 0; j < box.given.size(); ++j) {
+  const Eigen::VectorXd given = samples.start_vector();
+  StartBox box{given, given, given, given};
+  for (Eigen::Index j = 0; j < given.size(); ++j) {
     const muscle::HillField& field = *samples.unknowns[static_cast<std::size_t>(j)];
-    const double size = std::abs(box.given[j]);
+    const double size = std::abs(given[j]);
     const auto prior = setup.priors.find(std::string(field.name));
     box.spread[j] = prior == setup.priors.end() ? 0.1 * size
                     : prior->second.logarithmic ? prior->second.sd * size
                                                 : prior->second.sd;
-    bound(box, j, field.bounds.lower, field.bounds.upper);
+    const double x = given[j], reach = kSpreads * box.spread[j];
+    box.lower[j] = std::max(std::min(field.bounds.lower, x), x - reach);
+    box.upper[j] = std::min(std::max(field.bounds.upper, x), x + reach);
   }
   return box;
 }
@@ -100,7 +95,7 @@ BasinTable find_paper_basins(const StudyData& data, std::size_t muscle, bool sho
     };
     table = find_basins(search, box, starts, static_cast<Eigen::Index>(samples.samples.size()));
   }
-  table.fit = data.muscles[muscle].name + (shortening ? " shortening" : " lengthening");
+  table.fit = samples.name();
   return table;
 }
 

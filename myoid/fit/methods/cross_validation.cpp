@@ -13,6 +13,7 @@
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/posterior/drive.h"
 #include "myoid/ground/math/decompositions.h"
+#include "myoid/ground/math/statistics.h"
 
 namespace myoid::fit {
 namespace {
@@ -302,6 +303,23 @@ std::vector<Split> splits(const StudyData& data, const CrossValidationOptions& h
       how.kind == FoldKind::block ? block_splits(data, trials, how, reason) : named_splits(data, trials, how, reason);
   if (why_not != nullptr) *why_not = std::move(reason);
   return result;
+}
+
+UnseenEffort unseen_effort(const StudyData& data) {
+  constexpr double kWindow_s = 0.5;
+  UnseenEffort found;
+  for (const MuscleSetup& muscle : data.muscles) {
+    double seen = 0.0, unseen = 0.0;
+    for (const TrialData& trial : data.trials) {
+      if (trial.time_s.size() == 0 || !trial.activation.find(muscle.emg_channel)) continue;
+      const TimeSeries within = trial.activation.slice(trial.time_s[0], trial.time_s[trial.time_s.size() - 1]);
+      if (within.sample_count() < 2) continue;
+      double& most = trial.calibration ? seen : unseen;
+      most = std::max(most, math::greatest_mean(within.column(muscle.emg_channel), within.mean_rate_hz(), kWindow_s));
+    }
+    if (seen > 0.0 && unseen > found.ratio * seen) found = {muscle.emg_channel, unseen / seen};
+  }
+  return found;
 }
 
 std::string generalises_badly(const std::vector<Fold>& folds) {

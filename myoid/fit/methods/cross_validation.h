@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "myoid/fit/methods/torque.h"
-#include "myoid/fit/methods/unseen_effort.h"
 
 namespace myoid::fit {
 
@@ -27,6 +26,17 @@ struct Split {
 [[nodiscard]] std::vector<Split> splits(const StudyData& data,
                                         const CrossValidationOptions& options = {},
                                         std::string* why_not = nullptr);
+
+/// The EMG channel whose effort exceeds the fitted effort most.
+struct UnseenEffort {
+  std::string channel;  ///< Empty: no channel exceeds its effort in the fitted trials.
+  double ratio = 1.0;   ///< Greatest effort in held-back trials divided by that in fitted trials.
+};
+
+/// Compares the greatest efforts (mean of the activation over half a second, within the trial) of
+/// held-back and fitted trials, and returns the channel with the greatest ratio. A prediction
+/// beyond the fitted efforts depends on the law alone: force is proportional to activation.
+[[nodiscard]] UnseenEffort unseen_effort(const StudyData& data);
 
 /// The predictions of one part that was left out.
 struct Fold {

@@ -52,6 +52,10 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
   return one;
 }
 
+namespace {
+
+/// Returns the options of one muscle's fit. A force has no moment arm that could be wrong, and the electrode is the
+/// muscle's own: both are exact. All muscles of one person follow their EMG by the same law, which is not chosen.
 EstimatorOptions of_one_force(EstimatorOptions options) {
   options.muscles.clear();
   options.measured_is_force = true;
@@ -60,8 +64,6 @@ EstimatorOptions of_one_force(EstimatorOptions options) {
   options.progress.report = nullptr;
   return options;
 }
-
-namespace {
 
 /// Holds the nuisances where the trials do not tell them.
 void hold_untold(StudyData& one, const EstimatorOptions& once) {

@@ -16,13 +16,9 @@ struct ForceOptions {
 };
 
 /// Fits every muscle alone, shortening and lengthening together, to its own force (measured, or from force sharing).
-/// The density is that of method `torque` with one muscle and a moment arm of 1, by the options of `of_one_force`.
-/// Throws InvalidInput if the data have no forces.
+/// The density is that of method `torque` with one muscle and a moment arm of 1. Throws InvalidInput if the data have
+/// no forces.
 [[nodiscard]] IdentificationResult identify_force(const StudyData& data, const ForceOptions& options = {});
-
-/// Returns the options of one muscle's fit. A force has no moment arm that could be wrong, and the electrode is the
-/// muscle's own: both are exact. All muscles of one person follow their EMG by the same law, which is not chosen.
-[[nodiscard]] EstimatorOptions of_one_force(EstimatorOptions options);
 
 /// Predicts parts of the trials by the fits to the others, muscle by muscle: the fits of `identify_force` to measured
 /// forces with noise. A fold names its muscle as its joint, and its scores are of forces [N].

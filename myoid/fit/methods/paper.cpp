@@ -15,14 +15,12 @@
 #include "myoid/fit/intervals/signatures.h"
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/intervals/verdicts.h"
-#include "myoid/fit/measurement/muscle_activation.h"
 #include "myoid/fit/methods/basins.h"
 #include "myoid/fit/methods/paper_case.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/math/covariance.h"
 #include "myoid/ground/math/statistics.h"
-#include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::fit {
 namespace {
@@ -49,9 +47,8 @@ std::optional<Eigen::VectorXd> settled_end(const MinimumSearch& search) {
 /// One muscle in one branch: samples, searches and covariance.
 struct CaseFit {
   PaperCase samples;
-  math::LeastSquaresResult search;  ///< For the minimum. Without a search, x is the start.
-  std::string failure;              ///< Empty: converged.
-  PublishedSearch told;
+  math::LeastSquaresResult search;         ///< For the minimum. Without a search, x is the start.
+  PublishedSearch told;                    ///< Its message is empty where the search converged.
   std::optional<Eigen::VectorXd> minimum;  ///< The minimum, or where the criterion falls no further.
   bool computed = false;                   ///< Residuals and covariance are known.
   math::CovarianceResult covariance;
@@ -100,10 +97,10 @@ CaseFit search_case(PaperCase samples) {
   fit.samples = std::move(samples);
   const Eigen::VectorXd start = fit.samples.start_vector();
   fit.search.x = start;
-  fit.failure = fit.samples.obstacle();
+  fit.told.message = fit.samples.obstacle();
   fit.told.muscle = fit.samples.muscle;
   fit.told.fit_case = fit.samples.shortening ? "shortening" : "lengthening";
-  if (fit.failure.empty()) {
+  if (fit.told.message.empty()) {
     const MinimumSearch minimum = search_for_minimum(fit.samples, start);
     fit.search = minimum.found;
     fit.told.damped = minimum.damped;
@@ -117,10 +114,9 @@ CaseFit search_case(PaperCase samples) {
     const double apart = std::abs(plain.cost - fit.search.cost);
     fit.told.plain_elsewhere = plain.termination == math::Termination::converged &&
                                apart > kSame * fit.search.cost + kExact * kExact * fit.told.start_cost;
-    if (fit.search.termination != math::Termination::converged) fit.failure = fit.search.message;
-    fit.minimum = fit.failure.empty() ? std::optional(fit.search.x) : settled_end(minimum);
+    if (fit.search.termination != math::Termination::converged) fit.told.message = fit.search.message;
+    fit.minimum = fit.told.message.empty() ? std::optional(fit.search.x) : settled_end(minimum);
   }
-  fit.told.message = fit.failure;
   add_statistics(fit);
   return fit;
 }
@@ -188,8 +184,8 @@ ParameterEstimate estimate_of(const CaseFit& fit, Eigen::Index j, bool shared_fo
   e.fit_case = fit.told.fit_case;
   e.initial = start[j];
   e.estimate = std::abs(x[j]) <= 1e3 * std::abs(start[j]) ? x[j] : std::numeric_limits<double>::quiet_NaN();
-  NumberFacts facts{.fit = {.converged = fit.failure.empty(),
-                            .failure = fit.failure,
+  NumberFacts facts{.fit = {.converged = fit.told.message.empty(),
+                            .failure = fit.told.message,
                             .of_force = true,
                             .shared_force = shared_forces,
                             .given_strength = !shared_forces && !fit.exact,
@@ -225,9 +221,11 @@ ParameterEstimate estimate_of(const CaseFit& fit, Eigen::Index j, bool shared_fo
   return e;
 }
 
-/// Returns l0 and l_sh of a case; empty if the fit does not determine all its unknowns.
-std::optional<CaseShape> shape_of(const CaseFit& fit) {
-  if (!fit.failure.empty() || !fit.computed || fit.covariance.rank < fit.size()) return std::nullopt;
+/// Returns l0 and l_sh of a case; empty if the fit does not determine all its unknowns, or there is none.
+std::optional<CaseShape> shape_of(const std::optional<CaseFit>& of_case) {
+  if (!of_case) return std::nullopt;
+  const CaseFit& fit = *of_case;
+  if (!fit.told.message.empty() || !fit.computed || fit.covariance.rank < fit.size()) return std::nullopt;
   CaseShape shape;
   shape.value = {fit.samples.start.optimal_fiber_length_m, fit.samples.start.force_length_width_m};
   for (Eigen::Index a = 0; a < 2; ++a) {
@@ -242,12 +240,6 @@ std::optional<CaseShape> shape_of(const CaseFit& fit) {
   return shape;
 }
 
-/// Result of both branches of one or more muscles, and the minima that show signatures of errors.
-struct PaperFit {
-  IdentificationResult result;
-  std::vector<ParameterEstimate> minima;
-};
-
 /// Fits a muscle in one branch and counts the fit in `result`; empty if all numbers are held.
 std::optional<CaseFit> fit_case(const StudyData& data,
                                 std::size_t muscle,
@@ -261,20 +253,25 @@ std::optional<CaseFit> fit_case(const StudyData& data,
   CaseFit fit = search_case(std::move(samples));
   result.published.push_back(fit.told);
   result.iterations += fit.search.iterations;
-  if (!fit.failure.empty())
-    result.message += fmt::format("{}, {}: {}. ", fit.told.muscle, fit.told.fit_case, fit.failure);
+  if (!fit.told.message.empty())
+    result.message += fmt::format("{}, {}: {}. ", fit.told.muscle, fit.told.fit_case, fit.told.message);
   result.effective_samples += fit.effective_samples;
   result.r2 = std::min(result.r2, fit.r2);
   return fit;
 }
 
-void add_estimates(const CaseFit& fit, bool shared_forces, const std::string& refuted, PaperFit& all) {
+/// Adds the numbers of a case, and to `minima` the minimum in which signatures of errors show.
+void add_estimates(const CaseFit& fit,
+                   bool shared_forces,
+                   const std::string& refuted,
+                   IdentificationResult& result,
+                   std::vector<ParameterEstimate>& minima) {
   for (Eigen::Index j = 0; j < fit.size(); ++j) {
-    const ParameterEstimate& e = all.result.estimates.emplace_back(estimate_of(fit, j, shared_forces, refuted));
+    const ParameterEstimate& e = result.estimates.emplace_back(estimate_of(fit, j, shared_forces, refuted));
     if (!fit.minimum) continue;
     const double x = (*fit.minimum)[j];
-    all.minima.push_back(e);
-    all.minima.back().estimate = e.parameter == kShared[1] ? std::abs(x) : x;
+    minima.push_back(e);
+    minima.back().estimate = e.parameter == kShared[1] ? std::abs(x) : x;
   }
 }
 
@@ -327,36 +324,29 @@ void add_basins(const StudyData& data,
   result.basins.push_back(std::move(table));
 }
 
-/// Returns the numbers of a muscle in shortening and in lengthening.
-std::array<muscle::HillParameters<double>, 2> by_branch(const IdentificationResult& result,
-                                                        const std::string& muscle,
-                                                        const muscle::HillParameters<double>& start) {
-  std::array<muscle::HillParameters<double>, 2> branches{start, start};
+/// Returns the numbers of all muscles in one branch.
+std::vector<muscle::HillParameters<double>> in_branch(const StudyData& data,
+                                                      const IdentificationResult& result,
+                                                      std::string_view branch) {
+  std::vector<muscle::HillParameters<double>> muscles = result.muscles;
   for (const ParameterEstimate& e : result.estimates) {
-    if (e.muscle != muscle || !std::isfinite(e.estimate)) continue;
-    branches[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member = e.estimate;
+    if (e.fit_case != branch || !std::isfinite(e.estimate)) continue;
+    for (std::size_t k = 0; k < muscles.size(); ++k)
+      if (data.muscles[k].name == e.muscle) muscles[k].*muscle::hill_field(e.parameter).member = e.estimate;
   }
-  return branches;
+  return muscles;
 }
 
 /// Predicts forces and torques of a trial by the starting and the identified numbers.
 TrialFit predicted(const StudyData& data, const TrialData& trial, const IdentificationResult& result) {
   TrialFit fit = unfitted_trial(trial);
-  const Eigen::MatrixXd activation = muscle_activation(data, trial, 0.0);
-  fit.literature_force_n.resize(trial.time_s.size(), trial.length_m.cols());
-  fit.force_fit_n = fit.literature_force_n;
-  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    const MuscleSetup& setup = data.muscles[k];
-    const auto branches = by_branch(result, setup.name, result.muscles[k]);
-    for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
-      const double l = trial.length_m(i, column) - setup.start.tendon_slack_length_m;
-      const double v = trial.velocity_mps(i, column);
-      const double a = activation(i, column);
-      fit.literature_force_n(i, column) = muscle::hill_force(a, l, v, setup.start);
-      fit.force_fit_n(i, column) = muscle::hill_force(a, l, v, branches[v <= 0.0 ? 0 : 1]);
-    }
-  }
+  std::vector<muscle::HillParameters<double>> literature;
+  for (const MuscleSetup& setup : data.muscles) literature.push_back(setup.start);
+  const auto force_n = [&](const auto& muscles) { return predict(data, trial, muscles, 0.0).force_n; };
+  fit.literature_force_n = force_n(literature);
+  fit.force_fit_n =
+      (trial.velocity_mps.array() <= 0.0)
+          .select(force_n(in_branch(data, result, "shortening")), force_n(in_branch(data, result, "lengthening")));
   add_torques_of_forces(trial, fit);
   return fit;
 }
@@ -366,8 +356,8 @@ TrialFit predicted(const StudyData& data, const TrialData& trial, const Identifi
 IdentificationResult identify_paper(const StudyData& data, const PaperOptions& options) {
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
-  PaperFit fit;
-  IdentificationResult& result = fit.result;
+  IdentificationResult result;
+  std::vector<ParameterEstimate> minima;
   result.method = Method::paper;
   result.termination = math::Termination::converged;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
@@ -377,20 +367,18 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
     for (const bool branch : {true, false}) {
       if (options.multistart > 1) add_basins(data, k, branch, options, result);
     }
-    std::optional<CaseShape> shortening, lengthening;
-    if (cases[0]) shortening = shape_of(*cases[0]);
-    if (cases[1]) lengthening = shape_of(*cases[1]);
+    const std::optional<CaseShape> shortening = shape_of(cases[0]), lengthening = shape_of(cases[1]);
     const std::string refuted =
         shortening && lengthening ? compare_branches(data.muscles[k].name, *shortening, *lengthening, result) : "";
     for (const std::optional<CaseFit>& of : cases) {
-      if (of) add_estimates(*of, options.shared_forces, refuted, fit);
+      if (of) add_estimates(*of, options.shared_forces, refuted, result, minima);
     }
   }
   if (!result.message.empty()) result.termination = math::Termination::no_descent;
-  result.diagnoses = signatures(fit.minima);
+  result.diagnoses = signatures(minima);
   for (const TrialData& trial : data.trials) result.trials.push_back(predicted(data, trial, result));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return std::move(result);
+  return result;
 }
 
 }  // namespace myoid::fit

@@ -109,22 +109,19 @@ PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening)
   return result;
 }
 
+std::string PaperCase::name() const { return muscle + (shortening ? " shortening" : " lengthening"); }
+
 Eigen::VectorXd PaperCase::start_vector() const {
   Eigen::VectorXd x(static_cast<Eigen::Index>(unknowns.size()));
   for (std::size_t j = 0; j < unknowns.size(); ++j) x[static_cast<Eigen::Index>(j)] = start.*unknowns[j]->member;
   return x;
 }
 
-double PaperCase::largest_force_n() const {
-  double largest = 0.0;
-  for (const MuscleSample& s : samples) largest = std::max(largest, std::abs(s.force_n));
-  return largest;
-}
-
 std::string PaperCase::obstacle() const {
   if (samples.size() < 10 * unknowns.size())
     return fmt::format("only {} samples in {}", samples.size(), shortening ? "shortening" : "lengthening");
-  if (!(largest_force_n() > 0.0)) return "force sharing assigned no force to this muscle here";
+  if (std::ranges::none_of(samples, [](const MuscleSample& s) { return std::abs(s.force_n) > 0.0; }))
+    return "force sharing assigned no force to this muscle here";
   return {};
 }
 

@@ -31,8 +31,9 @@ struct PaperCase {
   std::vector<Eigen::Index> pieces;  ///< Lengths of the stretches of consecutive samples.
   int dropped = 0;                   ///< Samples with a = 0 or v <= -v_max.
 
+  /// Returns muscle and branch: "BIC shortening".
+  [[nodiscard]] std::string name() const;
   [[nodiscard]] Eigen::VectorXd start_vector() const;
-  [[nodiscard]] double largest_force_n() const;
   /// Returns the reason why the case is not fitted: fewer than ten samples per unknown, or no
   /// force. Empty if it is fitted.
   [[nodiscard]] std::string obstacle() const;

@@ -91,11 +91,8 @@ Eigen::VectorXd variance_by(const Eigen::MatrixXd& jacobian, const Eigen::Matrix
 
 /// The posterior at the fit's values, given the torque of the fitted trials.
 struct TrialPredictions::ByPosterior {
-  ByPosterior(const StudyData& of_data, const EstimatorOptions& of_options, const IdentificationResult& of)
-      : data(of_data),
-        options(of_predictions(of_options, of)),
-        fit(of),
-        likelihood(data, options, Columns::at_reference) {
+  ByPosterior(const StudyData& data, const EstimatorOptions& of_fit, const IdentificationResult& fit)
+      : options(of_predictions(of_fit, fit)), likelihood(data, options, Columns::at_reference) {
     if (likelihood.parameters().size() != fit.solution.size())
       throw std::logic_error("a fit predicts by other unknowns than its own");
     if (fit.noise.size() < kNoiseFieldCount)
@@ -105,9 +102,7 @@ struct TrialPredictions::ByPosterior {
     unseen = likelihood.unseen_given(fit.solution, fit.noise);
   }
 
-  const StudyData& data;
   EstimatorOptions options;
-  const IdentificationResult& fit;
   Likelihood likelihood;
   Likelihood::UnseenGiven unseen;
 };
@@ -119,15 +114,14 @@ TrialPredictions::TrialPredictions(const StudyData& data,
   if (fit.noise.size() > 0) by_posterior_ = std::make_unique<ByPosterior>(data, options, fit);
 }
 TrialPredictions::~TrialPredictions() = default;
-TrialPredictions::TrialPredictions(TrialPredictions&&) noexcept = default;
 
 TrialFit TrialPredictions::of(const TrialData& trial) const {
   TrialFit found = unfitted_trial(trial);
   if (by_posterior_) {
     const ByPosterior& by = *by_posterior_;
-    const TrialRun run = whole_run(trial, by.data, by.options, by.likelihood.parameters());
-    const Likelihood::RunForecast forecast = by.likelihood.forecast(run, by.fit.solution, by.fit.noise, by.unseen);
-    const Eigen::MatrixXd& covariance = by.fit.covariance;
+    const TrialRun run = whole_run(trial, data_, by.options, by.likelihood.parameters());
+    const Likelihood::RunForecast forecast = by.likelihood.forecast(run, fit_.solution, fit_.noise, by.unseen);
+    const Eigen::MatrixXd& covariance = fit_.covariance;
     found.torque_fit_nm = forecast.mean_nm;
     found.torque_sd_nm = (forecast.variance_nm2 + variance_by(forecast.by_z, covariance)).cwiseSqrt();
     found.force_fit_n = forecast.force_n;

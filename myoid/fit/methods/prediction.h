@@ -40,7 +40,6 @@ class TrialPredictions {
   /// The members of `fit` in use: `values`, `lag`, `solution`, `covariance` and `noise`. References must outlive it.
   TrialPredictions(const StudyData& data, const EstimatorOptions& options, const IdentificationResult& fit);
   ~TrialPredictions();
-  TrialPredictions(TrialPredictions&&) noexcept;
 
   /// Predicts one joint's view of a trial (`of_joint`). Literature's torque and forces stay empty.
   [[nodiscard]] TrialFit of(const TrialData& trial) const;

@@ -114,20 +114,22 @@ SolverContest compare_paper_solvers(const StudyData& data,
   const PaperCase samples = paper_case(data, muscle, shortening);
   const StartBox box = start_box(samples, data.muscles[muscle]);
   const auto p = box.given.size();
-  if (p == 0 || static_cast<Eigen::Index>(samples.samples.size()) < p) return {};
+  if (p == 0 || static_cast<Eigen::Index>(samples.samples.size()) < p) return {.fit = samples.name()};
   const math::LeastSquaresProblem problem = samples.problem();
   const Progress stop{{}, options.progress.stop};
-  return contest(
-      {.gauss_newton = [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
-       .levenberg_marquardt =
-           [&](const Eigen::VectorXd& x) { return end_of(math::minimize(problem, x, {.progress = stop})); },
-       .cost = math::direct_search_problem(problem),
-       .samples = problem.residual_count},
-      box, options);
+  SolverContest result =
+      contest({.gauss_newton = [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
+               .levenberg_marquardt =
+                   [&](const Eigen::VectorXd& x) { return end_of(math::minimize(problem, x, {.progress = stop})); },
+               .cost = math::direct_search_problem(problem),
+               .samples = problem.residual_count},
+              box, options);
+  result.fit = samples.name();
+  return result;
 }
 
-std::vector<NamedContest> solver_contests(const StudyData& data, const ContestOptions& options) {
-  std::vector<NamedContest> contests;
+std::vector<SolverContest> solver_contests(const StudyData& data, const ContestOptions& options) {
+  std::vector<SolverContest> contests;
   const auto total = static_cast<double>(2 * data.muscles.size());
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     for (const bool shortening : {true, false}) {
@@ -136,8 +138,7 @@ std::vector<NamedContest> solver_contests(const StudyData& data, const ContestOp
         how.progress.report = [&, done = static_cast<double>(contests.size())](double share, std::string_view what) {
           options.progress.report((done + share) / total, what);
         };
-      contests.push_back({data.muscles[k].name + (shortening ? " shortening" : " lengthening"),
-                          compare_paper_solvers(data, k, shortening, how)});
+      contests.push_back(compare_paper_solvers(data, k, shortening, how));
     }
   }
   return contests;

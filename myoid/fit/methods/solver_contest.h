@@ -21,7 +21,9 @@ struct SolverRun {
   double seconds = 0.0;
 };
 
+/// The solvers on one fit.
 struct SolverContest {
+  std::string fit;  ///< PaperCase::name
   std::vector<SolverRun> runs;
   double best_cost = 0.0;
   BasinTable basins;  ///< Minima found by Levenberg-Marquardt.
@@ -44,13 +46,7 @@ struct ContestOptions {
                                                   bool shortening,
                                                   const ContestOptions& options = {});
 
-/// A contest by the name of its fit: a muscle's branch.
-struct NamedContest {
-  std::string fit;
-  SolverContest contest;
-};
-
 /// Runs every solver on all fits of method `paper`. Throws Interrupted.
-[[nodiscard]] std::vector<NamedContest> solver_contests(const StudyData& data, const ContestOptions& options);
+[[nodiscard]] std::vector<SolverContest> solver_contests(const StudyData& data, const ContestOptions& options);
 
 }  // namespace myoid::fit

@@ -151,7 +151,9 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
   const auto gain = std::find_if(free.begin(), free.end(), [&](const Unknown& p) {
     return p.is(Scope::channel, kGain) && p.acts_on(channel) && p.bounds.upper <= 0.0;
   });
-  if (gain == free.end()) return beside_the_maximum("max_isometric_force", of.from_mvc);
+  if (gain == free.end())
+    return "; no maximal contraction was recorded, so this is the force at the study's largest EMG, not the muscle's "
+           "maximum";
   const Eigen::VectorXd share = of.sample.z.row(gain - free.begin()).array().exp().transpose();
   const Eigen::VectorXd force = f_max.cwiseProduct(share);
   const auto reach = [&](const Eigen::VectorXd& values, double p) {

@@ -42,9 +42,8 @@ struct TrialRun {
   [[nodiscard]] Eigen::Index row_count() const { return first_row(joints.size()); }
 };
 
-/// Returns all runs of the calibration trials, thinned to EstimatorOptions::max_rate_hz, in order.
-/// Leaves out the ends of a trial, where splines and filters are unreliable and the delay reaches
-/// beyond the recorded EMG. Throws InvalidInput if no run is left.
+/// Returns all runs of the calibration trials, of their `fitted_stretches` at EstimatorOptions::max_rate_hz, in order.
+/// Throws InvalidInput if no run is left.
 [[nodiscard]] std::vector<TrialRun> trial_runs(const StudyData& data,
                                                const EstimatorOptions& options,
                                                const ParameterMap& map);
