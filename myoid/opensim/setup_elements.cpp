@@ -14,8 +14,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// Returns the elements of OpenSim's classes, older versions included: names with blanks between.
-std::map<std::string, std::string, std::less<>> make_elements() {
+/// Returns the elements of OpenSim's classes, older versions included.
+ElementTable make_elements() {
   const std::string set = "objects groups defaults";
   const std::string folders = "results_directory input_directory ";
   const std::string run =
@@ -83,39 +83,42 @@ std::map<std::string, std::string, std::less<>> make_elements() {
   };
 }
 
-/// Returns the elements of a class by name; null for a class without an entry.
-const Names* elements_of(std::string_view class_name) {
-  static const auto kElements = [] {
-    std::map<std::string, Names, std::less<>> elements;
-    for (const auto& [name, text] : make_elements()) {
-      for (const std::string_view word : split_words(text)) elements[name].emplace_back(word);
-    }
-    return elements;
-  }();
-  const auto known = kElements.find(class_name);
-  return known == kElements.end() ? nullptr : &known->second;
-}
+using Known = std::map<std::string, Names, std::less<>>;
 
-void look_into(const body::OsimXml& xml, pugi::xml_node parent, Names& sentences) {
-  const Names* known = elements_of(parent.name());
+void look_into(pugi::xml_node parent, const Known& table, std::vector<UnknownElement>& unknown) {
+  const auto known = table.find(std::string_view(parent.name()));
+  const Names* names = known == table.end() ? nullptr : &known->second;
   for (const pugi::xml_node child : parent.children()) {
     if (child.type() != pugi::node_element) continue;
-    if (known != nullptr && std::find(known->begin(), known->end(), child.name()) == known->end()) {
-      const auto near = nearest_word(child.name(), *known);
-      sentences.push_back(fmt::format("{}: <{}> has no element <{}>{}; OpenSim and this program ignore the element",
-                                      xml.place_of(child), parent.name(), child.name(),
-                                      near ? fmt::format(" (did you mean <{}>?)", *near) : ""));
-    } else if (known != nullptr || std::string_view(parent.name()) == "objects") {
-      look_into(xml, child, sentences);
+    if (names != nullptr && std::find(names->begin(), names->end(), child.name()) == names->end()) {
+      unknown.push_back({parent, child, nearest_word(child.name(), *names)});
+    } else if (names != nullptr || std::string_view(parent.name()) == "objects") {
+      look_into(child, table, unknown);
     }
   }
 }
 
 }  // namespace
 
+std::vector<UnknownElement> unknown_elements(pugi::xml_node tool, const ElementTable& table) {
+  Known known;
+  for (const auto& [name, text] : table) {
+    Names& names = known[name];
+    for (const std::string_view word : split_words(text)) names.emplace_back(word);
+  }
+  std::vector<UnknownElement> unknown;
+  look_into(tool, known, unknown);
+  return unknown;
+}
+
 std::vector<std::string> unknown_elements(const body::OsimXml& xml, pugi::xml_node tool) {
+  static const ElementTable kElements = make_elements();
   Names sentences;
-  look_into(xml, tool, sentences);
+  for (const UnknownElement& each : unknown_elements(tool, kElements)) {
+    sentences.push_back(fmt::format("{}: <{}> has no element <{}>{}; OpenSim and this program ignore the element",
+                                    xml.place_of(each.element), each.parent.name(), each.element.name(),
+                                    each.nearest ? fmt::format(" (did you mean <{}>?)", *each.nearest) : ""));
+  }
   return sentences;
 }
 

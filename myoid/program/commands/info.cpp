@@ -13,6 +13,7 @@
 #include "myoid/ground/files/named_file.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/opensim/opensim_setup.h"
+#include "myoid/program/contents/project_contents.h"
 #include "myoid/program/contents/recording_contents.h"
 #include "myoid/study/read_study.h"
 
@@ -107,6 +108,7 @@ ordered_json setup_contents(const std::string& path) {
 ordered_json contents_of(const InfoOptions& o) {
   if (auto contents = recording_contents(o.file)) return *std::move(contents);
   if (is_model(o.file)) return contents_of_model(o);
+  if (auto contents = project_contents(o.file)) return *std::move(contents);
   const auto format = format_of(o.file);
   if (format == FileFormat::toml) return study_contents(o.file);
   if (format == FileFormat::set_up) return setup_contents(o.file);
