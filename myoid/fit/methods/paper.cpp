@@ -102,7 +102,7 @@ CaseFit search_case(PaperCase samples) {
   fit.search.x = start;
   fit.failure = fit.samples.obstacle();
   fit.told.muscle = fit.samples.muscle;
-  fit.told.fit_case = fit.samples.shortening ? "shortening" : "lengthening";
+  fit.told.fit_case = fit.samples.shortening ? FitCase::shortening : FitCase::lengthening;
   if (fit.failure.empty()) {
     const MinimumSearch minimum = search_for_minimum(fit.samples, start);
     fit.search = minimum.found;
@@ -262,7 +262,7 @@ std::optional<CaseFit> fit_case(const StudyData& data,
   result.published.push_back(fit.told);
   result.iterations += fit.search.iterations;
   if (!fit.failure.empty())
-    result.message += fmt::format("{}, {}: {}. ", fit.told.muscle, fit.told.fit_case, fit.failure);
+    result.message += fmt::format("{}, {}: {}. ", fit.told.muscle, name(fit.told.fit_case), fit.failure);
   result.effective_samples += fit.effective_samples;
   result.r2 = std::min(result.r2, fit.r2);
   return fit;
@@ -334,7 +334,7 @@ std::array<muscle::HillParameters<double>, 2> by_branch(const IdentificationResu
   std::array<muscle::HillParameters<double>, 2> branches{start, start};
   for (const ParameterEstimate& e : result.estimates) {
     if (e.muscle != muscle || !std::isfinite(e.estimate)) continue;
-    branches[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member = e.estimate;
+    branches[e.fit_case == FitCase::shortening ? 0 : 1].*muscle::hill_field(e.parameter).member = e.estimate;
   }
   return branches;
 }

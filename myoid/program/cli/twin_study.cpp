@@ -31,10 +31,10 @@ void print_summary(const std::vector<lab::TwinSummary>& summaries, bool each_mus
   for (const lab::TwinSummary& s : summaries) {
     if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
     const int identified = s.verdicts[0];
-    print(s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias), percent(s.median_error),
-          percent(s.rmse), percent(s.within_5), percent(s.within_10), percent(s.within_20), percent(s.prior_within_10),
-          percent(s.coverage), percent(s.half_width), percent(s.given_median_error), percent(s.given_coverage),
-          percent(s.given_half_width), percent(static_cast<double>(identified) / s.count),
+    print(fit::name(s.method), fit::name(s.fit_case), s.muscle, s.parameter, s.count, percent(s.bias),
+          percent(s.median_error), percent(s.rmse), percent(s.within_5), percent(s.within_10), percent(s.within_20),
+          percent(s.prior_within_10), percent(s.coverage), percent(s.half_width), percent(s.given_median_error),
+          percent(s.given_coverage), percent(s.given_half_width), percent(static_cast<double>(identified) / s.count),
           identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
   }
 }

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-GroupPerson person(int number, double strength, const char* verdict = "identified") {
+GroupPerson person(int number, double strength, fit::Verdict verdict = fit::Verdict::identified) {
   return {.name = fmt::format("P{}", number),
           .page = fmt::format("P{}/report.html", number),
           .numbers = {{.parameter = "max_isometric_force",
@@ -22,7 +22,7 @@ GroupPerson person(int number, double strength, const char* verdict = "identifie
                        .low = strength - 10.0,
                        .high = strength + 10.0,
                        .truth = {}}},
-          .quality = {{.name = "R2 of the fit", .unit = {}, .value = 0.9, .verdict = {}}}};
+          .quality = {{.name = "R2 of the fit", .unit = {}, .value = 0.9, .status = {}}}};
 }
 
 TEST(RobustDistance, IsThatOfTheMedianInMedianDeviations) {
