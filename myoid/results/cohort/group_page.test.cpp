@@ -54,7 +54,8 @@ TEST(GroupPage, NamesThePersonWhoIsFarFromTheOthers) {
 }
 
 TEST(GroupPage, ShowsBothReadingsOfEachPersonAndOfTheGroup) {
-  std::vector<GroupPerson> persons{person(0, 600.0, "reproducible"), person(1, 640.0), person(2, 620.0, "weak")};
+  std::vector<GroupPerson> persons{person(0, 600.0, fit::Verdict::reproducible), person(1, 640.0),
+                                   person(2, 620.0, fit::Verdict::weak)};
   EXPECT_EQ(group_page(persons).persons.tables.at(0).columns.size(), 7U);
   for (const int i : {0, 1}) {
     GroupNumber& number = persons[static_cast<std::size_t>(i)].numbers[0];
@@ -80,7 +81,7 @@ TEST(GroupPage, ShowsBothReadingsOfEachPersonAndOfTheGroup) {
 TEST(GroupPage, ANumberThatIsNotToldIsDrawnAndCountsNowhere) {
   std::vector<GroupPerson> persons;
   for (int i = 0; i < 6; ++i) persons.push_back(person(i, 600.0 + 10.0 * i));
-  persons.push_back(person(6, 1900.0, "prior_dominated"));
+  persons.push_back(person(6, 1900.0, fit::Verdict::prior_dominated));
   const GroupPage page = group_page(persons);
   EXPECT_TRUE(page.outliers.empty());
   EXPECT_EQ(outlier_sentence(page.outliers), "");
