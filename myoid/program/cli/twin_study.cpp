@@ -67,7 +67,7 @@ void print_predictions(const lab::TwinStudyResult& result) {
 }
 
 void print_verdicts(const lab::TwinStudyResult& result, const std::vector<lab::TwinSummary>& summaries) {
-  for (const char* method : {"torque", "force", "paper"}) {
+  for (const fit::Method method : {fit::Method::torque, fit::Method::force, fit::Method::paper}) {
     int good = 0;
     int bad = 0;
     int other_good = 0;
@@ -82,7 +82,8 @@ void print_verdicts(const lab::TwinStudyResult& result, const std::vector<lab::T
       outside += s.outside_physical;
     }
     if (good + bad + other_good + other_bad == 0) continue;
-    say("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", method, "", "error < 10 %", "error >= 10 %");
+    say("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", fit::name(method), "", "error < 10 %",
+        "error >= 10 %");
     say("{:<24} {:>14} {:>14}\n{:<24} {:>14} {:>14}\n", "identified", good, bad, "not identified", other_good,
         other_bad);
     say("{} values outside the physical bounds without the verdict non_physical\n", outside);
