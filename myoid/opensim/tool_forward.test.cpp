@@ -8,6 +8,7 @@
 #include "myoid/opensim/model_controls.h"
 #include "myoid/opensim/tool_stages.h"
 
+#include "tests/support/message_of.h"
 #include "tests/support/tool_folder.h"
 
 namespace myoid::opensim {
@@ -139,12 +140,7 @@ TEST_F(ToolForward, AgreesWithTheAccelerationsOfItsStates) {
 TEST_F(ToolForward, RefusesWithWordsWhatItCannot) {
   write_cart();
   const auto message = [&](const std::string& more) {
-    try {
-      std::ignore = run(tool("cart.osim", more));
-    } catch (const ReadError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing");
+    return test::message_of<ReadError>([&] { std::ignore = run(tool("cart.osim", more)); });
   };
   using ::testing::HasSubstr;
   EXPECT_THAT(message("<external_loads_file>loads.xml</external_loads_file>"), HasSubstr("loads on bodies"));

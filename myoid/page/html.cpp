@@ -31,13 +31,13 @@ std::string gates_html(const std::vector<Gate>& gates) {
       "<div class=\"wide gates\"><table><caption>Questions about the recording and the fit, the worst answers "
       "first.</caption><thead><tr><th></th><th>Question</th><th>Found</th>"
       "<th>Asked for</th><th>What follows</th></tr></thead><tbody>\n";
-  for (const auto& [status, word] : {std::pair{GateStatus::fail, "failed"}, std::pair{GateStatus::warn, "caution"},
-                                     std::pair{GateStatus::pass, "passed"}, std::pair{GateStatus::info, "note"}}) {
+  for (const GateStatus status : {GateStatus::fail, GateStatus::warn, GateStatus::pass, GateStatus::info}) {
     for (const Gate& gate : gates) {
       if (gate.status != status) continue;
       text += fmt::format(
           "<tr><td><span class=\"badge {}\">{}</span></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-          name(status), word, typeset(gate.name), typeset(gate.value), typeset(gate.threshold), typeset(gate.why));
+          name(status), spelled(status), typeset(gate.name), typeset(gate.value), typeset(gate.threshold),
+          typeset(gate.why));
     }
   }
   return text + "</tbody></table></div>\n";

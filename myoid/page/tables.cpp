@@ -78,4 +78,9 @@ std::string_view name(GateStatus status) {
   return kNames[static_cast<std::size_t>(status)];
 }
 
+std::string_view spelled(GateStatus status) {
+  static constexpr std::array<std::string_view, 4> kWords{"passed", "caution", "failed", "note"};
+  return kWords[static_cast<std::size_t>(status)];
+}
+
 }  // namespace myoid::page

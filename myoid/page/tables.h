@@ -23,5 +23,7 @@ namespace myoid::page {
 [[nodiscard]] std::string_view name(Role role);
 [[nodiscard]] std::string_view name(Badge badge);
 [[nodiscard]] std::string_view name(GateStatus status);
+/// Returns "passed", "caution", "failed" or "note", as a page says it.
+[[nodiscard]] std::string_view spelled(GateStatus status);
 
 }  // namespace myoid::page

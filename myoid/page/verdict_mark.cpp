@@ -26,14 +26,6 @@ const Mark& mark_of(Badge badge) {
 
 }  // namespace
 
-Badge verdict_badge(std::string_view verdict) {
-  if (verdict == "identified") return Badge::good;
-  if (verdict == "reproducible") return Badge::repeat;
-  if (verdict == "weak") return Badge::weak;
-  if (verdict == "prior_dominated") return Badge::info;
-  return verdict == "non_physical" ? Badge::bad : Badge::none;
-}
-
 std::string_view verdict_color(Badge badge) { return mark_of(badge).color; }
 
 std::string verdict_shape(Badge badge) {

@@ -7,9 +7,6 @@
 
 namespace myoid::page {
 
-/// Returns the badge of a verdict by its name in files ("identified").
-[[nodiscard]] Badge verdict_badge(std::string_view verdict);
-
 /// Returns the color of a verdict. The color-blind can tell these colors apart.
 [[nodiscard]] std::string_view verdict_color(Badge badge);
 

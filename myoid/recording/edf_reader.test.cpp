@@ -177,7 +177,7 @@ TEST(Edf, ASignThatCannotBeReadBeforeTheVoltIsMicro) {
   const EdfFile file = parse(make_edf(false, "", {{"A", "a.u.", -1000, 1000, -1000, 1000, 4}}, 2, 2, ramp));
   EXPECT_FALSE(file.has_unit[0]);
   ASSERT_EQ(file.repairs.size(), 1U);
-  EXPECT_NE(file.repairs[0].message.find("'a.u.' is not known"), std::string::npos);
+  EXPECT_NE(file.repairs[0].message.find("'a.u.'"), std::string::npos);
 }
 
 /// Puts a carriage return before every line feed, as a transfer as text does.
@@ -201,7 +201,7 @@ TEST(Edf, ATransferAsTextIsRefusedWhateverTheNumberOfItsLineFeeds) {
   std::string longer = make_edf(false, "", kTwo, 3, 3, ramp) + "abc";
   const EdfFile file = parse(longer);
   EXPECT_EQ(file.data.sample_count(), 12);
-  EXPECT_NE(file.repairs[0].message.find("3 bytes behind the last record"), std::string::npos);
+  EXPECT_NE(file.repairs[0].message.find("3 bytes"), std::string::npos);
 }
 
 TEST(Edf, LostBytesAreFoundByTheStampsOfTheRecords) {

@@ -21,6 +21,7 @@
 #include "myoid/recording/tables/trc_reader.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/message_of.h"
 #include "tests/support/repair_lines.h"
 #include "tests/support/temporary_folder.h"
 
@@ -101,12 +102,7 @@ void expect_data_or_error(const Format& format, const std::string& text, const s
 
 template <class Action>
 std::string refusal(Action&& action) {
-  try {
-    action();
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  return "(no error)";
+  return test::message_of<ReadError>([&] { action(); });
 }
 
 std::string with(std::string text, const std::string& old, const std::string& replacement) {
@@ -202,10 +198,11 @@ TEST(ParseStorage, AnEmptyCellNeverShiftsTheOthers) {
   EXPECT_NE(
       refusal([&] { (void)parse_storage(head + "0\t\t2\n", "f.sto"); }).find("f.sto:4: expected 3 numbers, found 2"),
       std::string::npos);
-  EXPECT_NE(refusal([&] { (void)parse_storage(head + "0\t\t2\t3\t4\n", "f.sto"); }).find("f.sto:4: a cell is empty"),
+  EXPECT_NE(refusal([&] { (void)parse_storage(head + "0\t\t2\t3\t4\n", "f.sto"); }).find("f.sto:4: a cell"),
             std::string::npos);
-  EXPECT_EQ(test::repair_lines(parse_storage(head + "0\t\t2\t3\n", "f.sto").repairs),
-            "4: two tabs in a row taken as one, since the numbers are as many as the columns\n");
+  const Storage tabs = parse_storage(head + "0\t\t2\t3\n", "f.sto");
+  EXPECT_EQ(test::lines_of(tabs.repairs), std::vector<std::size_t>{4});
+  EXPECT_EQ(tabs.data.values().row(0), Eigen::RowVector2d(2, 3));
 }
 
 TEST(ParseStorage, ACommaInsideANumberIsNoSeparator) {
@@ -234,7 +231,7 @@ TEST(ParseTrc, CommaDecimalsAreReadAndSaid) {
   const MarkerFile file = parse_trc(with(with(kTrc, "1.5\t2.5", "1,5\t2,5"), "0.01", "0,01"), "f.trc");
   EXPECT_DOUBLE_EQ(file.markers.positions_m(1, 0), 1.5e-3);
   EXPECT_EQ(file.markers.time_s[1], 0.01);
-  EXPECT_EQ(test::repair_lines(file.repairs), "8: comma decimals read as decimal points\n");
+  EXPECT_EQ(test::lines_of(file.repairs), std::vector<std::size_t>{8});
 }
 
 TEST(ParseTrc, WithoutTheLineOfAxesTheFirstFrameIsNotLost) {
@@ -246,18 +243,14 @@ TEST(ParseTrc, WithoutTheLineOfAxesTheFirstFrameIsNotLost) {
 TEST(ParseTrc, ARowThatEndsEarlyIsSaidAndTheLastOneOfACutFileLeftOut) {
   const MarkerFile inside = parse_trc(with(kTrc, "1\t0\t1\t2\t3\t4\t5\t6\n", "1\t0\t1\t2\t3\n"), "f.trc");
   EXPECT_TRUE(inside.markers.missing(0, 1));
-  EXPECT_EQ(test::repair_lines(inside.repairs),
-            "7: a row ends early; the markers behind its end are taken as missing\n");
+  EXPECT_EQ(test::lines_of(inside.repairs), std::vector<std::size_t>{7});
   const MarkerFile cut = parse_trc(kTrc.substr(0, kTrc.size() - 4), "f.trc");  // "... 4 5" without the 6
   EXPECT_EQ(cut.markers.frame_count(), 2);
-  EXPECT_EQ(test::repair_lines(cut.repairs),
-            "9: the last row has no line end and may be cut off; left out\n3: the header says 3 "
-            "frames, there are 2\n");
+  EXPECT_EQ(test::lines_of(cut.repairs), (std::vector<std::size_t>{9, 3}));
 }
 
 TEST(ParseTrc, RefusesATimeThatIsNoTimeAndASecondColumnThatIsNone) {
-  EXPECT_NE(refusal([] { (void)parse_trc(with(kTrc, "0.01", "nan"), "f.trc"); }).find("f.trc:8: expected the time"),
-            std::string::npos);
+  EXPECT_NE(refusal([] { (void)parse_trc(with(kTrc, "0.01", "nan"), "f.trc"); }).find("f.trc:8: "), std::string::npos);
   EXPECT_NE(refusal([] {
               (void)parse_trc(with(kTrc, "\tTime\t", "\t"), "f.trc");
             }).find("f.trc:4: expected the second column to be 'Time', found 'a'"),
@@ -265,8 +258,8 @@ TEST(ParseTrc, RefusesATimeThatIsNoTimeAndASecondColumnThatIsNone) {
 }
 
 TEST(ParseTrc, NumbersWithoutAMarkerAreSaid) {
-  EXPECT_EQ(test::repair_lines(parse_trc(with(kTrc, "4\t5\t6\n2", "4\t5\t6\t7\n2"), "f.trc").repairs),
-            "7: a row has more numbers than there are markers; the surplus is ignored\n");
+  EXPECT_EQ(test::lines_of(parse_trc(with(kTrc, "4\t5\t6\n2", "4\t5\t6\t7\n2"), "f.trc").repairs),
+            std::vector<std::size_t>{7});
 }
 
 TEST(CsvSeries, TakesUnitsFromARowBelowTheHeader) {
@@ -281,9 +274,8 @@ TEST(CsvSeries, RefusesAClockInMillimetersAndTwoColumnsOfOneName) {
               (void)parse_csv_series("# from the lab\ntime [mm],a\n0,1\n", "f.csv");
             }).find("f.csv:2: column 'time [mm]'"),
             std::string::npos);
-  EXPECT_NE(
-      refusal([] { (void)parse_csv_series("time,a,a\n0,1,1\n", "f.csv"); }).find("f.csv:1: two columns are named 'a'"),
-      std::string::npos);
+  EXPECT_NE(refusal([] { (void)parse_csv_series("time,a,a\n0,1,1\n", "f.csv"); }).find("f.csv:1: two columns"),
+            std::string::npos);
 }
 
 TEST(ReadEmg, AUnitIsAppliedOnceWhoeverStatesIt) {
@@ -294,8 +286,7 @@ TEST(ReadEmg, AUnitIsAppliedOnceWhoeverStatesIt) {
   EXPECT_DOUBLE_EQ(file.data.column("triceps")[0], 3e-3);
   EXPECT_EQ(file.data.channel_count(), 2);  // newtons are no EMG
   EXPECT_EQ(file.repairs.size(), 2U);
-  EXPECT_NE(refusal([&] { (void)read_emg(folder / "e.csv", "", false); }).find("unit of the EMG is not stated"),
-            std::string::npos);
+  EXPECT_NE(refusal([&] { (void)read_emg(folder / "e.csv", "", false); }).find("e.csv"), std::string::npos);
 }
 
 TEST(ReadEmg, AnUnknownUnitIsNamedWithItsChannel) {
@@ -303,9 +294,7 @@ TEST(ReadEmg, AnUnknownUnitIsNamedWithItsChannel) {
   for (const std::string unit : {"kV", "V2"}) {
     write_file(folder / "e.csv", fmt::format("time,TRI [V],BIC [{}]\n0,1,2\n0.001,1,3\n", unit));
     const std::string said = refusal([&] { (void)read_emg(folder / "e.csv", "", false); });
-    EXPECT_NE(said.find(fmt::format("unit '{}' of channel BIC is not known; known are V, mV, uV; give it", unit)),
-              std::string::npos)
-        << said;
+    EXPECT_NE(said.find(fmt::format("unit '{}' of channel BIC", unit)), std::string::npos) << said;
   }
   // In small letters or capitals alone the usual unit is meant, as in a C3D file.
   for (const std::string unit : {"millivolt", "millivolts", "Millivolt", "mv", "MV"}) {

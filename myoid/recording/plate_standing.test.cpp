@@ -206,15 +206,14 @@ TEST(StandPlates, RefusesAFileThatContradictsItselfAndNamesBoth) {
   };
   PlateCase other_screen;
   other_screen.screen = "+Y";
-  EXPECT_THAT(refusal(other_screen),
-              AllOf(HasSubstr("POINT:Y_SCREEN says that y points up"),
-                    HasSubstr("by FORCE_PLATFORM:CORNERS the surface of plate 1 faces z"), HasSubstr("--up")));
+  EXPECT_THAT(refusal(other_screen), AllOf(HasSubstr("POINT:Y_SCREEN"), HasSubstr("FORCE_PLATFORM:CORNERS"),
+                                           HasSubstr("plate 1 faces z"), HasSubstr("--up")));
   for (const char* screen : {"+Z", ""}) {
     PlateCase exchanged;
     exchanged.screen = screen;
     exchanged.channel_order = {3, 2, 1};
-    EXPECT_THAT(refusal(exchanged), AllOf(HasSubstr("the surface of plate 1 faces z"),
-                                          HasSubstr("its mean force runs along"), HasSubstr("degrees from the normal")))
+    EXPECT_THAT(refusal(exchanged),
+                AllOf(HasSubstr("plate 1 faces z"), HasSubstr("mean force"), HasSubstr("from the normal")))
         << screen;
   }
 }
@@ -231,7 +230,7 @@ TEST(StandPlates, WhatIsToldOverridesTheFile) {
   c.screen = "+Z";
   Recording another = from_disk(c);
   stand_plates(another, Vec3::UnitY().eval());
-  EXPECT_THAT(notes_of(another), HasSubstr("up is taken as y, as told; by the file it is z"));
+  EXPECT_THAT(notes_of(another), HasSubstr("as y, as told"));
 }
 
 TEST(StandPlates, AFloorInclinedBy25DegreesIsStillAFloor) {
@@ -296,7 +295,7 @@ TEST(StandPlates, APlateThatNeverChangesTellsNothing) {
   ASSERT_EQ(recording.plates.size(), 1U);
   (void)stand_plates(recording, std::nullopt);
   EXPECT_EQ(recording.force_plates()[0].force_n.norm(), 0.0);
-  EXPECT_THAT(notes_of(recording), HasSubstr("N in every sample: unplugged"));
+  EXPECT_THAT(notes_of(recording), HasSubstr("unplugged"));
   EXPECT_THAT(notes_of(recording), testing::Not(HasSubstr("turned round")));
 }
 
@@ -313,7 +312,7 @@ TEST(StandPlates, AWallHasTheSignOfTheFloorWhetherItPushesOrPulls) {
       // Without a moment about the middle, the force acts there, whatever its direction.
       EXPECT_LT((grf.values().block<1, 3>(500, 12).transpose() - Vec3(1.0, 1.2, 1.0)).norm(), 1e-6);
       EXPECT_EQ(grf.values().block(100, 9, 1, 3).norm(), 0.0);
-      EXPECT_THAT(notes_of(recording), HasSubstr("force plate 2 is a wall or a handle, 90 degrees"));
+      EXPECT_THAT(notes_of(recording), HasSubstr("force plate 2 is a wall"));
     }
   }
 }

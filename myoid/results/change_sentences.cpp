@@ -77,8 +77,8 @@ std::string change_text(const ComparedParameter& p) {
                      with_unit(size + seen, p.first.unit), unseen);
 }
 
-std::string branch_text(const std::string& fit_case, std::string_view before, std::string_view behind) {
-  return fit_case == "both" ? "" : fmt::format("{}{}{}", before, fit_case, behind);
+std::string branch_text(fit::FitCase fit_case, std::string_view before, std::string_view behind) {
+  return fit_case == fit::FitCase::both ? "" : fmt::format("{}{}{}", before, name(fit_case), behind);
 }
 
 std::string reading_sentence(const RunComparison& comparison) {

@@ -21,9 +21,7 @@ namespace myoid::results {
 [[nodiscard]] std::string change_text(const ComparedParameter& parameter);
 
 /// Returns the branch of a muscle between `before` and `behind`; empty if the number is of both branches.
-[[nodiscard]] std::string branch_text(const std::string& fit_case,
-                                      std::string_view before,
-                                      std::string_view behind = "");
+[[nodiscard]] std::string branch_text(fit::FitCase fit_case, std::string_view before, std::string_view behind = "");
 
 /// Returns the sentence that says which of two readings the compared numbers are; empty if there is only one.
 [[nodiscard]] std::string reading_sentence(const RunComparison& comparison);

@@ -46,7 +46,7 @@ std::optional<double> number(const json& object, const char* key) {
 }
 
 /// Muscle, parameter, method, case.
-using Key = std::tuple<std::string, std::string, fit::Method, std::string>;
+using Key = std::tuple<std::string, std::string, fit::Method, fit::FitCase>;
 using MethodAndTrial = std::pair<std::string, std::string>;
 
 struct Run {

@@ -38,13 +38,12 @@ page::StripCell& place(std::vector<page::StripGrid>& grids,
                        const std::vector<PersonChange>& changes,
                        std::size_t person,
                        const ComparedParameter& p) {
-  const std::string id = "change_" + p.first.parameter + (p.first.fit_case == "both" ? "" : "_" + p.first.fit_case);
+  const std::string id = "change_" + p.first.parameter + branch_text(p.first.fit_case, "_");
   auto grid = std::ranges::find(grids, id, &page::StripGrid::id);
   if (grid == grids.end()) {
     page::StripGrid made{
         .id = id,
-        .title = "Change of " + page::spelled(p.first.parameter) +
-                 (p.first.fit_case == "both" ? "" : ", " + p.first.fit_case),
+        .title = "Change of " + page::spelled(p.first.parameter) + branch_text(p.first.fit_case, ", "),
         .caption =
             "Second session minus first, both given geometry and sensors where the fits have that "
             "reading: errors of moment arms, tendons and sensors are the same in both. The bar is the "

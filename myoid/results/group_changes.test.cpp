@@ -11,7 +11,6 @@ ComparedParameter compared(fit::Method method, double difference, Change change)
   ComparedParameter p;
   p.muscle = "BIC";
   p.first.method = p.second.method = method;
-  p.first.fit_case = p.second.fit_case = "both";
   p.first.parameter = p.second.parameter = "max_isometric_force";
   p.difference = difference;
   if (change != Change::cannot_tell) p.smallest_detectable = 50.0;

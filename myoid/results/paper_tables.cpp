@@ -12,8 +12,8 @@
 #include "myoid/ground/core/counted.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/page/tables.h"
-#include "myoid/page/verdict_mark.h"
 #include "myoid/results/parameter_tables.h"
+#include "myoid/run/design/verdict_badge.h"
 
 namespace myoid::results {
 namespace {
@@ -74,14 +74,14 @@ Cell estimate_cell(const ParameterEstimate* e, bool searched) {
   std::string text = page::format_value(e->estimate);
   if (e->ci_low && e->ci_high && !is_undetermined(*e))
     text += fmt::format(" ({})", page::format_interval(*e->ci_low, *e->ci_high));
-  return {std::move(text), page::verdict_badge(fit::name(e->verdict)), e->reason};
+  return {std::move(text), run::verdict_badge(e->verdict), e->reason};
 }
 
 Table branch_table(const IdentificationResult& method,
-                   std::string_view branch,
+                   fit::FitCase branch,
                    std::string title,
                    std::span<const PaperColumn> columns) {
-  Table table{.id = fmt::format("table_{}_{}", branch == "shortening" ? 1 : 2, branch),
+  Table table{.id = fmt::format("table_{}_{}", branch == fit::FitCase::shortening ? 1 : 2, name(branch)),
               .title = std::move(title),
               .caption =
                   "Each muscle alone: x_init is the literature's, x̂ the minimum of the published criterion "
@@ -110,7 +110,7 @@ Table branch_table(const IdentificationResult& method,
 }  // namespace
 
 std::string published_sentence(const PublishedSearch& search) {
-  const std::string who = fmt::format("{}, {}: ", search.muscle, search.fit_case);
+  const std::string who = fmt::format("{}, {}: ", search.muscle, name(search.fit_case));
   if (without_search(search)) return who + search.message;
   return fmt::format("{}{}; plain steps: {}", who, ended(search), plain_ended(search));
 }
@@ -123,11 +123,15 @@ std::vector<Table> paper_tables(const IdentificationResult& method) {
                      "that is near enough.",
                  .columns = {"muscle", "branch", "steps that lower the criterion", "plain steps"}};
   for (const PublishedSearch& search : method.published)
-    searches.rows.push_back(
-        {{search.muscle}, {search.fit_case}, {ended(search)}, {without_search(search) ? "–" : plain_ended(search)}});
-  return {branch_table(method, "shortening", "Table I: parameters from shortening (method paper)", kShortening),
-          branch_table(method, "lengthening", "Table II: parameters from lengthening (method paper)", kLengthening),
-          std::move(searches)};
+    searches.rows.push_back({{search.muscle},
+                             {std::string(name(search.fit_case))},
+                             {ended(search)},
+                             {without_search(search) ? "–" : plain_ended(search)}});
+  return {
+      branch_table(method, fit::FitCase::shortening, "Table I: parameters from shortening (method paper)", kShortening),
+      branch_table(method, fit::FitCase::lengthening, "Table II: parameters from lengthening (method paper)",
+                   kLengthening),
+      std::move(searches)};
 }
 
 Table solver_table(const std::vector<fit::SolverContest>& contests) {

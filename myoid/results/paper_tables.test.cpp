@@ -13,7 +13,7 @@ using fit::ParameterEstimate;
 using fit::PublishedSearch;
 using math::Termination;
 
-ParameterEstimate number(const std::string& muscle, const std::string& branch, const std::string& name, double value) {
+ParameterEstimate number(const std::string& muscle, fit::FitCase branch, const std::string& name, double value) {
   ParameterEstimate e;
   e.muscle = muscle;
   e.fit_case = branch;
@@ -29,18 +29,19 @@ ParameterEstimate number(const std::string& muscle, const std::string& branch, c
 IdentificationResult two_branches() {
   IdentificationResult method;
   method.method = fit::Method::paper;
-  method.estimates = {number("BIC", "shortening", "optimal_fiber_length", 0.131),
-                      number("BIC", "shortening", "concentric_curvature", 0.27),
-                      number("BIC", "lengthening", "optimal_fiber_length", 0.14)};
-  method.published = {{.muscle = "BIC",
-                       .fit_case = "shortening",
-                       .termination = Termination::converged,
-                       .iterations = 9,
-                       .start_cost = 800.0,
-                       .cost = 20.0,
-                       .plain = Termination::no_descent,
-                       .plain_iterations = 1},
-                      {.muscle = "BIC", .fit_case = "lengthening", .message = "only 3 samples in lengthening"}};
+  method.estimates = {number("BIC", fit::FitCase::shortening, "optimal_fiber_length", 0.131),
+                      number("BIC", fit::FitCase::shortening, "concentric_curvature", 0.27),
+                      number("BIC", fit::FitCase::lengthening, "optimal_fiber_length", 0.14)};
+  method.published = {
+      {.muscle = "BIC",
+       .fit_case = fit::FitCase::shortening,
+       .termination = Termination::converged,
+       .iterations = 9,
+       .start_cost = 800.0,
+       .cost = 20.0,
+       .plain = Termination::no_descent,
+       .plain_iterations = 1},
+      {.muscle = "BIC", .fit_case = fit::FitCase::lengthening, .message = "only 3 samples in lengthening"}};
   return method;
 }
 

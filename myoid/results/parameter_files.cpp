@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <type_traits>
 #include <variant>
 
 #include <fmt/format.h>
@@ -43,8 +44,10 @@ struct CsvCell {
   std::string operator()(double value) const { return number_or_empty(value); }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(Unit unit) const { return std::string(symbol(unit)); }
-  std::string operator()(fit::Verdict verdict) const { return std::string(name(verdict)); }
-  std::string operator()(fit::Method method) const { return std::string(name(method)); }
+  template <typename Enumeration>
+  requires std::is_enum_v<Enumeration> std::string operator()(Enumeration value) const {
+    return std::string(choice_name(value));
+  }
 };
 
 struct JsonValue {
@@ -121,7 +124,7 @@ ordered_json branch_test_json(const fit::BranchTest& test) {
 
 ordered_json published_json(const fit::PublishedSearch& search) {
   return {{"muscle", search.muscle},
-          {"case", search.fit_case},
+          {"case", std::string(name(search.fit_case))},
           {"termination", std::string(math::name(search.termination))},
           {"message", search.message},
           {"iterations", search.iterations},

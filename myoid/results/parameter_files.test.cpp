@@ -20,7 +20,6 @@ fit::IdentificationResult one_estimate() {
   e.parameter = "optimal_fiber_length";
   e.unit = Unit::meter;
   e.method = fit::Method::torque;
-  e.fit_case = "both";
   e.initial = 0.1;
   e.estimate = 0.1 + 0.2;
   e.std_error = std::numeric_limits<double>::infinity();

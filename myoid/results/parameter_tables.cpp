@@ -14,21 +14,18 @@
 #include "myoid/page/plain_unit.h"
 #include "myoid/page/tables.h"
 #include "myoid/page/typeset.h"
-#include "myoid/page/verdict_mark.h"
+#include "myoid/run/design/verdict_badge.h"
 
 namespace myoid::results {
 namespace {
 
 using fit::IdentificationResult;
 using fit::ParameterEstimate;
-using fit::Verdict;
 using page::Badge;
 using page::Cell;
 using page::format_rounded;
 using page::format_value;
 using page::Table;
-
-Badge badge(Verdict verdict) { return page::verdict_badge(fit::name(verdict)); }
 
 /// Rounds a value to the digits of its interval's ends, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {
@@ -55,7 +52,9 @@ std::string prior(const ParameterEstimate& e) {
   return fmt::format("{} ± {}", format_rounded(*e.prior_mean, *e.prior_sd), format_rounded(*e.prior_sd, *e.prior_sd));
 }
 
-Cell verdict_cell(const ParameterEstimate& e) { return {page::spelled(fit::name(e.verdict)), badge(e.verdict)}; }
+Cell verdict_cell(const ParameterEstimate& e) {
+  return {page::spelled(fit::name(e.verdict)), run::verdict_badge(e.verdict)};
+}
 
 Cell truth_cell(const run::StudyResult& result, const ParameterEstimate& e) {
   const std::optional<double> truth = truth_of(result, e);
@@ -212,7 +211,7 @@ std::vector<page::ForestRow> forest_rows(const run::StudyResult& result, const I
                         .prior_sd = scaled(e.prior_sd),
                         .truth = scaled(truth_of(result, e)),
                         .verdict = page::spelled(fit::name(e.verdict)),
-                        .badge = badge(e.verdict),
+                        .badge = run::verdict_badge(e.verdict),
                         .why = e.reason,
                         .about = std::string(page::parameter_meaning(e.parameter)),
                         .beside = fit::is_nuisance(e)};

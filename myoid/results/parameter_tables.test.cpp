@@ -16,7 +16,6 @@ ParameterEstimate estimate(std::string owner, std::string parameter, double valu
   e.muscle = std::move(owner);
   e.parameter = std::move(parameter);
   e.method = fit::Method::torque;
-  e.fit_case = "both";
   e.estimate = value;
   e.ci_low = value - 0.01;
   e.ci_high = value + 0.01;

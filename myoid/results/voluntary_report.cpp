@@ -14,8 +14,8 @@
 #include "myoid/page/forest.h"
 #include "myoid/page/muscle_names.h"
 #include "myoid/page/typeset.h"
-#include "myoid/page/verdict_mark.h"
 #include "myoid/results/parameter_tables.h"
+#include "myoid/run/design/verdict_badge.h"
 
 namespace myoid::results {
 namespace {
@@ -109,7 +109,7 @@ Cell truth_cell(const run::StudyResult& result, const ParameterEstimate& e, doub
 
 Cell verdict_cell(const ParameterEstimate* e) {
   if (e == nullptr) return {"–"};
-  return {spelled_verdict(*e), page::verdict_badge(fit::name(e->verdict)), e->reason};
+  return {spelled_verdict(*e), run::verdict_badge(e->verdict), e->reason};
 }
 
 std::string interval_text(const std::optional<double>& low, const std::optional<double>& high, double unit) {

@@ -27,7 +27,7 @@ TEST(MuscleTable, AStartThatNoMuscleHasIsRefusedWithTheRange) {
 TEST(MuscleTable, AnUnknownParameterIsRefusedAtItsLine) {
   const std::string message = table_message<MuscleSpec>("name = \"B\"\nemg = \"b\"\nfixed = [\"eccentric_plato\"]\n");
   EXPECT_NE(message.find("study.toml:3"), std::string::npos) << message;
-  EXPECT_NE(message.find("did you mean 'eccentric_plateau'"), std::string::npos) << message;
+  EXPECT_NE(message.find("'eccentric_plateau'"), std::string::npos) << message;
 }
 
 TEST(MuscleTable, WithoutOsimTheModelsMuscleHasTheSameName) {
@@ -49,10 +49,9 @@ TEST(ParameterRuleTable, APennationInDegreesIsRefused) {
 TEST(ParameterRuleTable, ARuleForAnUnknownParameterAndBoundsInTheWrongOrderAreRefused) {
   EXPECT_NE(table_message<fit::ParameterRule>("name = \"F_mx\"\n").find("study.toml:1"), std::string::npos);
   EXPECT_NE(table_message<fit::ParameterRule>("name = \"optimal_fiber_length\"\nlower = 0.3\nupper = 0.2\n")
-                .find("found 0.3, not below upper = 0.2"),
+                .find("0.3, not below"),
             std::string::npos);
-  EXPECT_NE(table_message<fit::ParameterRule>("name = \"optimal_fiber_length\"\nprior_sd = 0\n")
-                .find("expected a positive number"),
+  EXPECT_NE(table_message<fit::ParameterRule>("name = \"optimal_fiber_length\"\nprior_sd = 0\n").find("positive"),
             std::string::npos);
 }
 

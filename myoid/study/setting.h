@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -133,6 +134,16 @@ class SettingVisitor {
     if (about.words.empty()) about.words = choice_names(value);
     return met({key, SettingKind::text, about}, std::string(choice_name(value)), [&value](const SettingValue& given) {
       if (const auto* name = std::get_if<std::string>(&given)) value = *choice_named<Enumeration>(*name);
+    });
+  }
+  /// Visits such a value or none; the one of `about.words` that names no value, if any, stands for none.
+  template <typename Enumeration>
+  bool choice(std::string_view key, std::optional<Enumeration>& value, const About& about) {
+    const auto none =
+        std::ranges::find_if(about.words, [](std::string_view word) { return !choice_named<Enumeration>(word); });
+    const std::string_view now = value ? choice_name(*value) : none == about.words.end() ? "" : *none;
+    return met({key, SettingKind::text, about}, std::string(now), [&value](const SettingValue& given) {
+      if (const auto* name = std::get_if<std::string>(&given)) value = choice_named<Enumeration>(*name);
     });
   }
   /// Visits a list of such values.

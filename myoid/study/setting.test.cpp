@@ -42,6 +42,19 @@ TEST(SettingVisitor, AChoiceIsItsNameInAFile) {
   EXPECT_TRUE(second);
 }
 
+TEST(SettingVisitor, AWordThatNamesNoChoiceStandsForNone) {
+  static constexpr std::string_view kOrNone[] = {"left", "right", "none"};
+  std::optional<Side> side = Side::left;
+  Giver none(std::string("none"));
+  none.choice("side", side, {.says = "a side", .words = kOrNone});
+  EXPECT_EQ(side, std::nullopt);
+  EXPECT_EQ(std::get<std::string>(none.before), "left");
+  Giver right(std::string("right"));
+  right.choice("side", side, {.says = "a side", .words = kOrNone});
+  EXPECT_EQ(side, Side::right);
+  EXPECT_EQ(std::get<std::string>(right.before), "none");
+}
+
 TEST(SettingVisitor, AWordStandsInsteadOfANumber) {
   std::optional<double> delay_s = 0.05;
   bool estimated = false;

@@ -63,8 +63,7 @@ TEST(TrialTable, ATrialThatGivesPathsAndTorquesNeedsNoMotion) {
   EXPECT_TRUE(trial.given.needs_no_body());
   EXPECT_TRUE(trial.moves());
   EXPECT_EQ(trial_message("name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\nforces = \"f.sto\"\n"), "(no error)");
-  EXPECT_NE(trial_message("name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\n")
-                .find("moment_arms and torques, or with forces"),
+  EXPECT_NE(trial_message("name = \"t1\"\nemg = \"a.sto\"\nlengths = \"l.sto\"\n").find("moment_arms"),
             std::string::npos);
   EXPECT_NE(trial_message(kGiven + "use = \"passive\"\n").find("neither"), std::string::npos);
   EXPECT_TRUE(Study{}.fits(trial_of(kGiven + "use = \"mvc\"\n")));
@@ -120,14 +119,14 @@ TEST(TrialTable, NothingHeldIsAnotherAnswerThanNone) {
 
 TEST(TrialTable, OneFileHasOneClock) {
   const std::string text = "name = \"t\"\nmotion = \"a.sto\"\nemg = \"a.sto\"\n[sync]\n";
-  EXPECT_NE(trial_message(text + "offset_s = 0.1\n").find("in one file"), std::string::npos);
+  EXPECT_NE(trial_message(text + "offset_s = 0.1\n").find("one file"), std::string::npos);
   EXPECT_EQ(trial_message(text + "loads_offset_s = 0.1\n"), "(no error)");
 }
 
 TEST(TrialTable, ClocksAreJoinedByTriggersOrByANumber) {
   const std::string triggers = "[sync]\nemg_trigger = \"T\"\nmotion_trigger = \"start\"\n";
   EXPECT_EQ(trial_of(kTrial + triggers).sync->emg_trigger, "T");
-  EXPECT_NE(trial_message(kTrial + triggers + "offset_s = 0.1\n").find("give one or the other"), std::string::npos);
+  EXPECT_NE(trial_message(kTrial + triggers + "offset_s = 0.1\n").find("offset_s"), std::string::npos);
   EXPECT_NE(trial_message(kTrial + "[sync]\nemg_trigger = \"T\"\n").find("give both"), std::string::npos);
 }
 

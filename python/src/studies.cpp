@@ -124,7 +124,12 @@ class KeywordReader : public study::FlatSettingVisitor {
     for (char& c : name) c = c == '-' ? '_' : c;
     const char* const key = name.c_str();
     if (!keywords_->object(key)) return false;
-    set(value(setting, key));
+    study::SettingValue given = value(setting, key);
+    if (const auto* word = std::get_if<std::string>(&given)) {
+      const std::string reason = study::refusal(setting, *word);
+      if (!reason.empty()) throw InvalidInput(fmt::format("{}: {}", name, reason));
+    }
+    set(std::move(given));
     return true;
   }
 
@@ -209,7 +214,7 @@ py::dict compare(py::dict given) {
     d["parameter"] = p.first.parameter;
     d["unit"] = std::string(symbol(p.first.unit));
     d["method"] = std::string(fit::name(p.first.method));
-    d["case"] = p.first.fit_case;
+    d["case"] = std::string(fit::name(p.first.fit_case));
     d["first"] = p.first.estimate;
     d["second"] = p.second.estimate;
     d["difference"] = p.difference;
@@ -283,7 +288,9 @@ program::DesignOptions design_options(Keywords& k) {
   k.take("wire", o.wire);
   k.take("targets", o.design.targets);
   k.take("after", o.after);
-  k.word("criterion", o.criterion, {"D", "A"});
+  std::string criterion(choice_name(o.design.choice.criterion));
+  k.word("criterion", criterion, {"D", "A"});
+  o.design.choice.criterion = *choice_named<run::DesignCriterion>(criterion);
   k.count("movements", o.design.choice.movements, 1, 50);
   k.count("repeat", o.design.choice.most_of_each, 1, 50);
   k.above_zero("budget", o.design.choice.budget_s);

@@ -220,30 +220,7 @@ TEST(LeftOut, R2OfStretchesAtAnAnkleIsThatOfAFitWithoutTheTrial) {
 }
 
 /// A virtual person with a few seconds of several movements.
-const char* const kProtocol = R"(
-name = "short"
-level = "L1"
-[[trial]]
-name = "mvc"
-kind = "mvc"
-direction = "both"
-[[trial]]
-name = "slow"
-kind = "flexion"
-frequency_hz = 0.4
-centre_deg = 72
-amplitude_deg = 45
-held_mass_kg = 2.0
-duration_s = 8
-[[trial]]
-name = "fast"
-kind = "flexion"
-frequency_hz = 0.8
-centre_deg = 72
-amplitude_deg = 50
-held_mass_kg = 1.0
-duration_s = 8
-[[trial]]
+const std::string kProtocol = "name = \"short\"\n" + std::string(myoid::test::kTwoSpeeds) + R"([[trial]]
 name = "lower"
 kind = "eccentric"
 held_mass_kg = 3.0

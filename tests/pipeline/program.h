@@ -12,6 +12,30 @@
 
 namespace myoid::test {
 
+/// A protocol: a maximal contraction, and the elbow bent and stretched slowly and fast.
+inline constexpr const char* kTwoSpeeds = R"(level = "L1"
+[[trial]]
+name = "mvc"
+kind = "mvc"
+direction = "both"
+[[trial]]
+name = "slow"
+kind = "flexion"
+frequency_hz = 0.4
+centre_deg = 72
+amplitude_deg = 45
+held_mass_kg = 2.0
+duration_s = 8
+[[trial]]
+name = "fast"
+kind = "flexion"
+frequency_hz = 0.8
+centre_deg = 72
+amplitude_deg = 50
+held_mass_kg = 1.0
+duration_s = 8
+)";
+
 /// What a finished program left behind.
 struct Finished {
   int exit_code = -1;                   ///< 128 + signal if it was killed.

@@ -111,30 +111,7 @@ TEST(TwinCommand, SaysWhatItCannotDo) {
 
 TEST(TwinCommand, APersonOfTwinStudyIsPredictedAsRunPredictsTheRecording) {
   const TemporaryFolder folder;
-  write_text(folder / "p.toml", R"(
-level = "L1"
-[[trial]]
-name = "mvc"
-kind = "mvc"
-direction = "both"
-[[trial]]
-name = "slow"
-kind = "flexion"
-frequency_hz = 0.4
-centre_deg = 72
-amplitude_deg = 45
-held_mass_kg = 2.0
-duration_s = 8
-[[trial]]
-name = "fast"
-kind = "flexion"
-frequency_hz = 0.8
-centre_deg = 72
-amplitude_deg = 50
-held_mass_kg = 1.0
-duration_s = 8
-use = "validation"
-)");
+  write_text(folder / "p.toml", std::string(myoid::test::kTwoSpeeds) + "use = \"validation\"\n");
   const std::vector<std::string> person{"--protocol", folder / "p.toml", "--seed", "3", "--out"};
   const auto with = [&](std::vector<std::string> command, const std::string& out) {
     command.insert(command.end(), person.begin(), person.end());

@@ -7,11 +7,12 @@
 
 namespace myoid::test {
 
-/// What an action complains of: the text of its InvalidInput, or "(no error)".
-inline std::string message_of(const std::function<void()>& action) {
+/// What an action complains of: the text of its error of this type, or "(no error)". Other errors pass.
+template <typename Error = InvalidInput>
+std::string message_of(const std::function<void()>& action) {
   try {
     action();
-  } catch (const InvalidInput& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "(no error)";

@@ -12,6 +12,8 @@
 #include "myoid/body/osim/osim_reader.h"
 #include "myoid/ground/core/error.h"
 
+#include "tests/support/message_of.h"
+
 namespace myoid::body {
 namespace {
 
@@ -113,14 +115,7 @@ TEST_F(Loads, APointThatIsNoNumberWhileUnloadedIsMendedAndSaid) {
 }
 
 TEST_F(Loads, WhatCannotBeUsedIsNamedWithItsLine) {
-  const auto message = [&] {
-    try {
-      (void)read();
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing thrown");
-  };
+  const auto message = [&] { return test::message_of([&] { (void)read(); }); };
   write("loads.mot", data("0\t0\t5\t0\t0\t0\t0\t0\t0\t0\n0.1\t0\t5\t0\tNaN\t0\t0\t0\t0\t0\n"));
   write_set("foot", kIdentifiers);
   EXPECT_THAT(message(),

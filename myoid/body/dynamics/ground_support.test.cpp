@@ -129,14 +129,12 @@ TEST(WrongSupport, SaysTheSignTheAxisOrTheUnitOfForcesThatDoNotCarryTheBody) {
   EXPECT_EQ(says(0.55 * weight_n * Vec3::UnitY()), "");
   // The mean while the force acts, not over the two seconds.
   EXPECT_THAT(says(-0.95 * weight_n * Vec3::UnitY()),
-              AllOf(HasSubstr("misdirected: the forces pull the body downwards"), HasSubstr("-0.95 times"),
-                    HasSubstr("reverse their sign")));
-  EXPECT_THAT(says(0.95 * weight_n * Vec3::UnitZ()), HasSubstr("misdirected: the forces push the body sideways"));
-  EXPECT_THAT(says(0.95 / 9.80665 * weight_n * Vec3::UnitY()),
-              AllOf(HasSubstr("the forces carry 9.7 % of the body's weight"), HasSubstr("are they in kgf?")));
-  EXPECT_THAT(says(0.95 / 4.4482 * weight_n * Vec3::UnitY()), HasSubstr("are they in lbf?"));
-  EXPECT_THAT(says(0.95e-3 * weight_n * Vec3::UnitY()), HasSubstr("are they in kN? Then multiply them by 1000"));
-  EXPECT_THAT(says(0.4 * weight_n * Vec3::UnitY()), HasSubstr("is a plate or a foot missing"));
+              AllOf(HasSubstr("misdirected: "), HasSubstr("downwards"), HasSubstr("-0.95 times")));
+  EXPECT_THAT(says(0.95 * weight_n * Vec3::UnitZ()), AllOf(HasSubstr("misdirected: "), HasSubstr("sideways")));
+  EXPECT_THAT(says(0.95 / 9.80665 * weight_n * Vec3::UnitY()), AllOf(HasSubstr(" 9.7 %"), HasSubstr("in kgf?")));
+  EXPECT_THAT(says(0.95 / 4.4482 * weight_n * Vec3::UnitY()), HasSubstr("in lbf?"));
+  EXPECT_THAT(says(0.95e-3 * weight_n * Vec3::UnitY()), AllOf(HasSubstr("in kN?"), HasSubstr(" 1000")));
+  EXPECT_THAT(says(0.4 * weight_n * Vec3::UnitY()), HasSubstr("missing"));
 }
 
 TEST(WrongSupport, IsOfForcesOnTheGroundUnderABodyThatIsFree) {
@@ -153,8 +151,8 @@ TEST(WrongSupport, IsOfForcesOnTheGroundUnderABodyThatIsFree) {
 
 TEST(UnsupportedWeight, AsksNotForForcesThatAreGiven) {
   const UnsupportedWeight weight{"pelvis_ty", 765.0, 836.0};
-  EXPECT_EQ(weight.sentence("").find("give it by"), std::string::npos);
-  EXPECT_NE(weight.sentence("--loads").find("give it by --loads"), std::string::npos);
+  EXPECT_EQ(weight.sentence("").find("give"), std::string::npos);
+  EXPECT_NE(weight.sentence("--loads").find("by --loads"), std::string::npos);
 }
 
 TEST(BearsTheBody, AStatedMassThatIsTooLargeTakesTheGroundFromNoModel) {

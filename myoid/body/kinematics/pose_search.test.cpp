@@ -13,6 +13,7 @@
 #include "myoid/recording/tables/trc_reader.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/marker_pairs.h"
 
 namespace myoid::body {
 namespace {
@@ -48,12 +49,7 @@ TEST(PoseSequence, IsNeverAboveRandomStartsOnTheSharedMotions) {
     const MarkerSeries markers = recording::read_trc(file).markers;
     const IkResult result = inverse_kinematics(m, markers);
     const IkOptions options;
-    std::vector<PoseFit::Pair> pairs;
-    for (std::size_t i = 0; i < m.markers.size(); ++i) {
-      const auto it = std::find(markers.names.begin(), markers.names.end(), m.markers[i].name);
-      if (it != markers.names.end()) pairs.push_back({i, it - markers.names.begin(), 1.0});
-    }
-    PoseFit fit(m, options, pairs);
+    PoseFit fit(m, options, test::marker_pairs(m, markers));
     const int frames = number_from("MYOID_IK_JUDGE", 2);
     for (int k = 0; k < frames; ++k) {
       const Eigen::Index i = (2 * k + 1) * markers.frame_count() / (2 * frames);

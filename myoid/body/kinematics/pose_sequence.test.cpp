@@ -19,6 +19,7 @@
 #include "myoid/recording/tables/trc_reader.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/marker_pairs.h"
 
 namespace myoid::body {
 namespace {
@@ -280,12 +281,7 @@ TEST(PoseSequence, IsNeverAboveOpenSimsOwnMotions) {
     const TimeSeries theirs = recording::read_storage(folder / name / "opensim/ik_noisy.mot").data;
     const IkResult result = inverse_kinematics(m, markers);
     const IkOptions options;
-    std::vector<PoseFit::Pair> pairs;
-    for (std::size_t i = 0; i < m.markers.size(); ++i) {
-      const auto it = std::find(markers.names.begin(), markers.names.end(), m.markers[i].name);
-      if (it != markers.names.end()) pairs.push_back({i, it - markers.names.begin(), 1.0});
-    }
-    PoseFit fit(m, options, pairs);
+    PoseFit fit(m, options, test::marker_pairs(m, markers));
     ASSERT_EQ(theirs.sample_count(), markers.frame_count());
     for (Eigen::Index i = 0; i < theirs.sample_count(); ++i) {
       Eigen::VectorXd q = m.default_q();

@@ -7,6 +7,8 @@
 
 #include "myoid/ground/core/error.h"
 
+#include "tests/support/message_of.h"
+
 namespace myoid::body {
 namespace {
 
@@ -51,12 +53,7 @@ TEST(Expression, DefinitionsMayFollow) {
 
 TEST(Expression, WhatIsNotUnderstoodIsNamed) {
   const auto message = [](std::string_view text) -> std::string {
-    try {
-      (void)value(text);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "no error";
+    return test::message_of([&] { (void)value(text); });
   };
   EXPECT_NE(message("2*knee").find("'knee' is neither defined nor one of q, qdot"), std::string::npos);
   EXPECT_NE(message("foo(q)").find("no function 'foo'"), std::string::npos);

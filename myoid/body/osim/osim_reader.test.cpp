@@ -15,17 +15,13 @@
 #include "myoid/recording/tables/storage_reader.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/message_of.h"
 
 namespace myoid::body {
 namespace {
 
 std::string message_of(const std::string& xml) {
-  try {
-    (void)parse_osim(xml, "m.osim");
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "(no error)";
+  return test::message_of([&] { (void)parse_osim(xml, "m.osim"); });
 }
 
 TEST(ParseOsim, TakesTwoDotsForTheComponentThatHoldsAFrame) {

@@ -26,6 +26,7 @@ struct EstimateColumn {
                               bool ParameterEstimate::*,
                               Unit ParameterEstimate::*,
                               Method ParameterEstimate::*,
+                              FitCase ParameterEstimate::*,
                               Verdict ParameterEstimate::*>;
   std::string_view name;
   Member member;

@@ -44,6 +44,12 @@ inline constexpr std::string_view kVerdictNames[] = {"identified",      "reprodu
 constexpr ChoiceNames choice_names(Verdict) { return kVerdictNames; }
 [[nodiscard]] constexpr std::string_view name(Verdict verdict) { return choice_name(verdict); }
 
+/// The samples that a number is fitted to.
+enum class FitCase { both, shortening, lengthening };
+inline constexpr std::string_view kFitCaseNames[] = {"both", "shortening", "lengthening"};
+constexpr ChoiceNames choice_names(FitCase) { return kFitCaseNames; }
+[[nodiscard]] constexpr std::string_view name(FitCase fit_case) { return choice_name(fit_case); }
+
 /// Returns the rank of a verdict; a greater rank is worse.
 [[nodiscard]] constexpr int severity(Verdict verdict) { return static_cast<int>(verdict); }
 
@@ -62,7 +68,7 @@ struct ParameterEstimate : PriorOfEstimate {
   std::string parameter;
   Unit unit = Unit::dimensionless;
   Method method = Method::torque;
-  std::string fit_case = "both";  ///< shortening | lengthening | both
+  FitCase fit_case = FitCase::both;
   double initial = 0.0;
   double estimate = 0.0;
   std::optional<double> std_error;
@@ -125,7 +131,7 @@ struct BasinTable {
 /// The searches of method `paper` for one muscle in one branch.
 struct PublishedSearch {
   std::string muscle;
-  std::string fit_case;  ///< shortening | lengthening
+  FitCase fit_case = FitCase::shortening;  ///< Never both.
   /// End of the steps that are halved until the criterion falls, or of damped ones; `converged`: a minimum of the
   /// published criterion.
   math::Termination termination = math::Termination::no_descent;

@@ -99,7 +99,7 @@ CaseFit search_case(PaperCase samples) {
   fit.search.x = start;
   fit.told.message = fit.samples.obstacle();
   fit.told.muscle = fit.samples.muscle;
-  fit.told.fit_case = fit.samples.shortening ? "shortening" : "lengthening";
+  fit.told.fit_case = fit.samples.shortening ? FitCase::shortening : FitCase::lengthening;
   if (fit.told.message.empty()) {
     const MinimumSearch minimum = search_for_minimum(fit.samples, start);
     fit.search = minimum.found;
@@ -254,7 +254,7 @@ std::optional<CaseFit> fit_case(const StudyData& data,
   result.published.push_back(fit.told);
   result.iterations += fit.search.iterations;
   if (!fit.told.message.empty())
-    result.message += fmt::format("{}, {}: {}. ", fit.told.muscle, fit.told.fit_case, fit.told.message);
+    result.message += fmt::format("{}, {}: {}. ", fit.told.muscle, name(fit.told.fit_case), fit.told.message);
   result.effective_samples += fit.effective_samples;
   result.r2 = std::min(result.r2, fit.r2);
   return fit;
@@ -327,7 +327,7 @@ void add_basins(const StudyData& data,
 /// Returns the numbers of all muscles in one branch.
 std::vector<muscle::HillParameters<double>> in_branch(const StudyData& data,
                                                       const IdentificationResult& result,
-                                                      std::string_view branch) {
+                                                      FitCase branch) {
   std::vector<muscle::HillParameters<double>> muscles = result.muscles;
   for (const ParameterEstimate& e : result.estimates) {
     if (e.fit_case != branch || !std::isfinite(e.estimate)) continue;
@@ -344,9 +344,9 @@ TrialFit predicted(const StudyData& data, const TrialData& trial, const Identifi
   for (const MuscleSetup& setup : data.muscles) literature.push_back(setup.start);
   const auto force_n = [&](const auto& muscles) { return predict(data, trial, muscles, 0.0).force_n; };
   fit.literature_force_n = force_n(literature);
-  fit.force_fit_n =
-      (trial.velocity_mps.array() <= 0.0)
-          .select(force_n(in_branch(data, result, "shortening")), force_n(in_branch(data, result, "lengthening")));
+  fit.force_fit_n = (trial.velocity_mps.array() <= 0.0)
+                        .select(force_n(in_branch(data, result, FitCase::shortening)),
+                                force_n(in_branch(data, result, FitCase::lengthening)));
   add_torques_of_forces(trial, fit);
   return fit;
 }

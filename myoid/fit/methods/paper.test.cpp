@@ -18,7 +18,7 @@ using test::ElbowStudy;
 const ParameterEstimate& find(const IdentificationResult& result,
                               const std::string& muscle,
                               const std::string& parameter,
-                              const std::string& fit_case) {
+                              FitCase fit_case) {
   for (const ParameterEstimate& e : result.estimates) {
     if (e.muscle == muscle && e.parameter == parameter && e.fit_case == fit_case) return e;
   }
@@ -42,7 +42,7 @@ TEST(IdentifyPaper, FindsTheTruthFromTrueForces) {
     for (std::size_t k = 0; k < 4; ++k) {
       if (study.data.muscles[k].name != e.muscle) continue;
       const double truth = study.truth[k].*muscle::hill_field(e.parameter).member;
-      EXPECT_NEAR(e.estimate, truth, 1e-6 * truth) << e.muscle << " " << e.parameter << " " << e.fit_case;
+      EXPECT_NEAR(e.estimate, truth, 1e-6 * truth) << e.muscle << " " << e.parameter << " " << name(e.fit_case);
       EXPECT_GT(std::abs(e.initial - truth), 0.02 * truth);
       EXPECT_EQ(e.verdict, Verdict::identified) << e.reason;
     }
@@ -93,7 +93,7 @@ TEST(IdentifyPaper, AForceThatNobodyMeasuredGivesNoIntervalAndNoMoreThanThePrior
     EXPECT_FALSE(e.ci_low || e.ci_high || e.std_error) << e.muscle << " " << e.parameter;
     EXPECT_GE(severity(e.verdict), severity(Verdict::prior_dominated)) << e.reason;
   }
-  EXPECT_EQ(find(result, "BIC", "optimal_fiber_length", "shortening").verdict, Verdict::prior_dominated);
+  EXPECT_EQ(find(result, "BIC", "optimal_fiber_length", FitCase::shortening).verdict, Verdict::prior_dominated);
 }
 
 TEST(IdentifyPaper, TellsHowTheSearchEndedAndHowPlainStepsFared) {
@@ -131,7 +131,7 @@ TEST(IdentifyPaper, AMuscleToWhichNoForceWasAssignedGetsNoNumbers) {
     EXPECT_EQ(e.estimate, e.initial);
     EXPECT_NE(e.reason.find("no force"), std::string::npos) << e.reason;
   }
-  EXPECT_EQ(find(result, "BIC", "optimal_fiber_length", "shortening").verdict, Verdict::identified);
+  EXPECT_EQ(find(result, "BIC", "optimal_fiber_length", FitCase::shortening).verdict, Verdict::identified);
 }
 
 TEST(IdentifyPaper, TooFewSamplesAreNotFitted) {
@@ -181,9 +181,9 @@ TEST(IdentifyPaper, ABranchTestThatRejectsDemotesExactNumbersToo) {
     }
   }
   const IdentificationResult result = identify_paper(study.data, {.muscles = {"BIC"}});
-  for (const std::string branch : {"shortening", "lengthening"}) {
+  for (const FitCase branch : {FitCase::shortening, FitCase::lengthening}) {
     const ParameterEstimate& e = find(result, "BIC", "optimal_fiber_length", branch);
-    EXPECT_EQ(e.verdict, Verdict::weak) << branch;
+    EXPECT_EQ(e.verdict, Verdict::weak) << name(branch);
     EXPECT_NE(e.reason.find("the other branch gives another value (p < 0.001)"), std::string::npos) << e.reason;
   }
 }

@@ -11,6 +11,7 @@
 #include "myoid/ground/core/error.h"
 
 #include "tests/support/elbow_study.h"
+#include "tests/support/exact_sensors.h"
 #include "tests/support/leg_study.h"
 
 namespace myoid::fit {
@@ -116,13 +117,7 @@ TEST(IdentifyByPosterior, TwoJointsAndTheMuscleThatCrossesBothComeBack) {
   // The recording is the model's with hardly any noise: geometry and sensors are exact.
   const ElbowStudy study = test::leg_study({.seconds = 15.0, .torque_sd_nm = 0.2});
   EstimatorOptions options;
-  options.unseen = {.moment_arm = 0.0,
-                    .moment_arm_slope = 0.0,
-                    .tendon_strain = 0.0,
-                    .torque_scale = 0.0,
-                    .crosstalk = 0.0,
-                    .gain_drift = 0.0,
-                    .effort = 0.0};
+  options.unseen = test::no_unseen_errors();
   for (const MuscleSetup& muscle : study.data.muscles) options.state(muscle.emg_channel).bandwidth_hz = 5000.0;
   const IdentificationResult result = identify_by_posterior(study.data, options);
   ASSERT_EQ(result.termination, math::Termination::converged) << result.message;

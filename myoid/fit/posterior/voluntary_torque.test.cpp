@@ -12,6 +12,7 @@
 #include "myoid/muscle/force_length.h"
 
 #include "tests/support/elbow_study.h"
+#include "tests/support/exact_sensors.h"
 #include "tests/support/leg_study.h"
 
 namespace myoid::fit {
@@ -66,13 +67,7 @@ StudyData one_muscle(double low_rad, double high_rad) {
 EstimatorOptions exact_sensors() {
   EstimatorOptions options;
   options.delay_s = 0.0;
-  options.unseen = {.moment_arm = 0.0,
-                    .moment_arm_slope = 0.0,
-                    .tendon_strain = 0.0,
-                    .torque_scale = 0.0,
-                    .crosstalk = 0.0,
-                    .gain_drift = 0.0,
-                    .effort = 0.0};
+  options.unseen = test::no_unseen_errors();
   options.state("BIC").bandwidth_hz = 1e5;
   return options;
 }

@@ -6,16 +6,13 @@
 
 #include "myoid/ground/core/error.h"
 
+#include "tests/support/message_of.h"
+
 namespace myoid::inline ground {
 namespace {
 
 std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  return "(no error)";
+  return test::message_of<ReadError>([&] { action(); });
 }
 
 TEST(TomlTable, AnUnknownKeyIsRefusedWithItsLineAndTheNearestKnownOne) {

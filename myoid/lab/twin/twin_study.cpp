@@ -249,7 +249,7 @@ TwinStudyResult twin_study(const lab::Protocol& protocol, const TwinStudyOptions
 }
 
 std::vector<TwinSummary> summarize(const TwinStudyResult& result) {
-  using Key = std::tuple<std::string, std::string, std::string, std::string>;
+  using Key = std::tuple<fit::Method, fit::FitCase, std::string, std::string>;
   std::vector<Key> order;
   std::map<Key, std::vector<const TwinRow*>> groups;
   for (const bool all : {true, false}) {
@@ -257,7 +257,7 @@ std::vector<TwinSummary> summarize(const TwinStudyResult& result) {
       const ParameterEstimate& e = row.estimate;
       const bool single = e.muscle == "subject";
       if (single && !all) continue;
-      const Key key{std::string(name(e.method)), e.fit_case, e.parameter, single ? "subject" : all ? "all" : e.muscle};
+      const Key key{e.method, e.fit_case, e.parameter, single ? "subject" : all ? "all" : e.muscle};
       auto& group = groups[key];
       if (group.empty()) order.push_back(key);
       group.push_back(&row);
@@ -282,9 +282,9 @@ std::string persons_text(const TwinStudyResult& result) {
   for (const TwinRow& row : result.rows) {
     const ParameterEstimate& e = row.estimate;
     persons +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.seed, name(e.method), e.fit_case, e.muscle,
-                    e.parameter, symbol(e.unit), cell(row.truth), cell(e.initial), cell(e.estimate), optional(e.ci_low),
-                    optional(e.ci_high), optional(e.given_estimate), optional(e.given_ci_low),
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.seed, name(e.method), name(e.fit_case),
+                    e.muscle, e.parameter, symbol(e.unit), cell(row.truth), cell(e.initial), cell(e.estimate),
+                    optional(e.ci_low), optional(e.ci_high), optional(e.given_estimate), optional(e.given_ci_low),
                     optional(e.given_ci_high), optional(e.shrinkage), fit::name(e.verdict));
   }
   return persons;
@@ -298,13 +298,13 @@ std::string summary_text(const TwinStudyResult& result) {
       "identified_and_within_10,identified_but_not,not_identified_but_within_10,not_identified_and_not,identified_"
       "within_15,outside_physical\n";
   for (const TwinSummary& s : summarize(result)) {
-    summary += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.method,
-                           s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error), cell(s.mad),
-                           cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15), cell(s.within_20),
-                           cell(s.prior_within_10), cell(s.coverage), cell(s.half_width), cell(s.given_median_error),
-                           cell(s.given_coverage), cell(s.given_half_width), cell(s.shrinkage),
-                           fmt::join(s.verdicts, ","), s.identified_good, s.identified_bad, s.other_good, s.other_bad,
-                           s.identified_within_15, s.outside_physical);
+    summary += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                           name(s.method), name(s.fit_case), s.muscle, s.parameter, s.count, cell(s.bias),
+                           cell(s.median_error), cell(s.mad), cell(s.rmse), cell(s.within_5), cell(s.within_10),
+                           cell(s.within_15), cell(s.within_20), cell(s.prior_within_10), cell(s.coverage),
+                           cell(s.half_width), cell(s.given_median_error), cell(s.given_coverage),
+                           cell(s.given_half_width), cell(s.shrinkage), fmt::join(s.verdicts, ","), s.identified_good,
+                           s.identified_bad, s.other_good, s.other_bad, s.identified_within_15, s.outside_physical);
   }
   return summary;
 }

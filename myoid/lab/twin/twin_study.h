@@ -62,7 +62,8 @@ struct TwinStudyResult {
 
 /// Errors of one parameter over the persons. Shares refer to all rows, except `truths`.
 struct TwinSummary {
-  std::string method, fit_case;
+  fit::Method method = fit::Method::torque;
+  fit::FitCase fit_case = fit::FitCase::both;
   std::string muscle;  ///< "all": all muscles together.
   std::string parameter;
   int count = 0;

@@ -28,7 +28,7 @@ nlohmann::ordered_json to_json(const results::RunComparison& comparison) {
          {"parameter", p.first.parameter},
          {"unit", std::string(symbol(p.first.unit))},
          {"method", std::string(fit::name(p.first.method))},
-         {"case", p.first.fit_case},
+         {"case", std::string(fit::name(p.first.fit_case))},
          {"first", p.of_first.value},
          {"second", p.of_second.value},
          {"difference", p.difference},

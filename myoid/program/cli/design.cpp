@@ -69,10 +69,10 @@ void print_json(const run::DesignStudyResult& result) {
 void add_choice_options(CLI::App& command, program::DesignOptions& options) {
   run::DesignStudyOptions& design = options.design;
   command
-      .add_option("--criterion", options.criterion,
+      .add_option("--criterion", design.choice.criterion,
                   "D: volume of the confidence ellipsoid, A: sum of relative variances")
-      ->check(one_of({"D", "A"}))
-      ->capture_default_str();
+      ->transform(one_of<run::DesignCriterion>())
+      ->default_str("D");
   command.add_option("--movements", design.choice.movements, "How many to choose")
       ->check(between(1, 50))
       ->capture_default_str();

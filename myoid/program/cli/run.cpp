@@ -64,7 +64,7 @@ void print_method(const fit::IdentificationResult& method, std::size_t muscle_co
                                    ? fmt::format("[{}]", page::format_interval(*e.given_ci_low, *e.given_ci_high, ", "))
                                    : "-";
     say("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}{}  {}\n", in_column(line.owners), owner, labelled(e), parameter,
-        e.fit_case, page::format_value(e.initial), estimate, ends, given(second), fit::name(e.verdict));
+        fit::name(e.fit_case), page::format_value(e.initial), estimate, ends, given(second), fit::name(e.verdict));
   }
 }
 

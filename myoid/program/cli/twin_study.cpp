@@ -31,10 +31,10 @@ void print_summary(const std::vector<lab::TwinSummary>& summaries, bool each_mus
   for (const lab::TwinSummary& s : summaries) {
     if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
     const int identified = s.verdicts[0];
-    print(s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias), percent(s.median_error),
-          percent(s.rmse), percent(s.within_5), percent(s.within_10), percent(s.within_20), percent(s.prior_within_10),
-          percent(s.coverage), percent(s.half_width), percent(s.given_median_error), percent(s.given_coverage),
-          percent(s.given_half_width), percent(static_cast<double>(identified) / s.count),
+    print(fit::name(s.method), fit::name(s.fit_case), s.muscle, s.parameter, s.count, percent(s.bias),
+          percent(s.median_error), percent(s.rmse), percent(s.within_5), percent(s.within_10), percent(s.within_20),
+          percent(s.prior_within_10), percent(s.coverage), percent(s.half_width), percent(s.given_median_error),
+          percent(s.given_coverage), percent(s.given_half_width), percent(static_cast<double>(identified) / s.count),
           identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
   }
 }
@@ -67,7 +67,7 @@ void print_predictions(const lab::TwinStudyResult& result) {
 }
 
 void print_verdicts(const lab::TwinStudyResult& result, const std::vector<lab::TwinSummary>& summaries) {
-  for (const char* method : {"torque", "force", "paper"}) {
+  for (const fit::Method method : {fit::Method::torque, fit::Method::force, fit::Method::paper}) {
     int good = 0;
     int bad = 0;
     int other_good = 0;
@@ -82,7 +82,8 @@ void print_verdicts(const lab::TwinStudyResult& result, const std::vector<lab::T
       outside += s.outside_physical;
     }
     if (good + bad + other_good + other_bad == 0) continue;
-    say("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", method, "", "error < 10 %", "error >= 10 %");
+    say("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", fit::name(method), "", "error < 10 %",
+        "error >= 10 %");
     say("{:<24} {:>14} {:>14}\n{:<24} {:>14} {:>14}\n", "identified", good, bad, "not identified", other_good,
         other_bad);
     say("{} values outside the physical bounds without the verdict non_physical\n", outside);

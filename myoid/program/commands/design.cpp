@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/program/commands/stage_input.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/run_identity.h"
 
@@ -51,11 +50,9 @@ run::EarlierRun read_earlier(const DesignOptions& o, const study::Study& study, 
 }  // namespace
 
 DesignResult design(const DesignOptions& o) {
-  check_word("--criterion", o.criterion, {"D", "A"});
   Remarks remarks(o.call);
   study::Study study = study_of(o);
   run::DesignStudyOptions choice = o.design;
-  choice.choice.criterion = o.criterion == "A" ? run::DesignCriterion::a_optimal : run::DesignCriterion::d_optimal;
   choice.catalogue.dynamometer = o.dynamometer;
   choice.seed = o.call.seed;
   choice.progress = o.call.progress;

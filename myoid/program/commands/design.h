@@ -15,9 +15,8 @@ struct DesignOptions {
   std::string model;               ///< The built-in arm: "arm4".
   bool wire = false;               ///< For arm4: the brachialis has a wire electrode of its own.
   std::string after;               ///< Folder of a run whose results count as known; empty: none.
-  std::string criterion = "D";     ///< D or A.
   bool dynamometer = true;         ///< Isokinetic movements are possible.
-  run::DesignStudyOptions design;  ///< Its seed, criterion and `earlier` follow from the above.
+  run::DesignStudyOptions design;  ///< Its seed and `earlier` follow from the above.
 };
 
 struct DesignResult {

@@ -14,7 +14,7 @@ namespace myoid::program {
 IdentifyResult identify(const IdentifyOptions& o) {
   check_values(o);
   Remarks remarks(o.call);
-  const run::MuscleTable table = run::read_muscles_csv(o.muscles, o.method != "paper");
+  const run::MuscleTable table = run::read_muscles_csv(o.muscles, o.method != fit::Method::paper);
   refuse_impossible(o, table);
   for (const std::string& text : without_effect(o)) remarks.warn(text);
   for (const std::string& note : table.notes) remarks.warn(note);
@@ -23,7 +23,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   options.call = o.call;
   options.call.start_s = options.call.end_s = std::nullopt;  // they are the trials' now
   result.run = run(result.study, options);
-  if (o.beliefs && o.method != "paper")
+  if (o.beliefs && o.method != fit::Method::paper)
     result.run.provenance.inputs.push_back({o.beliefs->string(), sha256(read_text_file(*o.beliefs))});
   for (const std::string& text : result.fit().warnings) remarks.warn(text);
   std::vector<Remark> all = remarks.list();

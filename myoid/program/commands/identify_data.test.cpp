@@ -18,6 +18,7 @@
 #include "myoid/run/run_study.h"
 
 #include "tests/support/elbow_study.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::program {
@@ -68,12 +69,7 @@ struct Written {
   }
   fit::TrialData read() { return read_all().trials.at(0); }
   std::string message() {
-    try {
-      (void)read();
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "(no error)";
+    return test::message_of([&] { (void)read(); });
   }
 };
 

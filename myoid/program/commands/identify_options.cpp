@@ -17,8 +17,8 @@ using fit::ParameterRule;
 std::vector<std::string> beyond_the_paper(const IdentifyOptions& o, const run::MuscleTable& table) {
   std::vector<std::string> asked;
   if (o.delay_s) asked.emplace_back("--delay");
-  if (o.folds == "block") asked.emplace_back("--folds block");
-  if (!o.lag.empty()) asked.push_back("--lag " + o.lag);
+  if (o.folds == fit::FoldKind::block) asked.emplace_back("--folds block");
+  if (o.lag) asked.push_back(fmt::format("--lag {}", choice_name(*o.lag)));
   for (const std::string& name : o.free_more) asked.push_back("--free " + name);
   for (const ParameterRule& rule : table.rules)
     asked.push_back(fmt::format("{}_fixed = false in {}", rule.parameter, o.muscles.string()));
@@ -30,7 +30,7 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
   for (const std::string& name : o.free_more) {
     const fit::ParameterField& field = fit::parameter_field(name);
     if (field.scope != fit::Scope::joint) continue;
-    if (o.method != "torque")
+    if (o.method != fit::Method::torque)
       throw InvalidInput(fmt::format("--free {}: it is the joint's; use --method torque", name));
     if (field.field != fit::kOffset && o.files.motions.empty())
       throw InvalidInput(fmt::format(
@@ -38,15 +38,12 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
   }
 }
 
-/// Throws InvalidInput for a value that its setting does not allow.
+/// Throws InvalidInput for a number that its setting does not allow.
 class ValueCheck : public study::FlatSettingVisitor {
  protected:
   bool met(const study::Setting& setting, const study::SettingValue& now, const Set& /*set*/) override {
     std::string reason;
     if (const auto* number = std::get_if<double>(&now)) reason = study::refusal(setting, *number);
-    // An empty word stands for the default, which need not be a word.
-    if (const auto* word = std::get_if<std::string>(&now); word != nullptr && !word->empty())
-      reason = study::refusal(setting, *word);
     if (!reason.empty()) throw InvalidInput(fmt::format("--{}: {}", setting.key, reason));
     return false;
   }
@@ -93,19 +90,20 @@ void visit_files(IdentifyOptions& o, study::SettingVisitor& v) {
 void visit_law(IdentifyOptions& o, study::SettingVisitor& v) {
   static constexpr std::string_view kMethods[] = {"torque", "force", "paper"};
   static constexpr std::string_view kLags[] = {"automatic", "delay", "shared"};
-  v.text("method", o.method,
-         {.says = "`torque`: all muscles against the joint's torque; `force`: each muscle against its own force; "
-                  "`paper`: each branch alone, as published.",
-          .words = kMethods});
+  v.choice("method", o.method,
+           {.says = "`torque`: all muscles against the joint's torque; `force`: each muscle against its own force; "
+                    "`paper`: each branch alone, as published.",
+            .words = kMethods});
   v.number("delay", o.delay_s,
            {.says = "The EMG delay is held at this (`force`, `torque`).",
             .limits = study::within(0.0, 0.3, "s"),
             .otherwise = "estimated"});
-  v.text("lag", o.lag,
-         {.says = "How muscles follow their EMG (`force`, `torque`): `delay`: by `emg_delay`; `shared`: by a delay and "
-                  "lags; `automatic`: both, by their evidence ([how](../theory/identification.md)).",
-          .otherwise = "`automatic` for `torque`, else `delay`",
-          .words = kLags});
+  v.choice(
+      "lag", o.lag,
+      {.says = "How muscles follow their EMG (`force`, `torque`): `delay`: by `emg_delay`; `shared`: by a delay and "
+               "lags; `automatic`: both, by their evidence ([how](../theory/identification.md)).",
+       .otherwise = "`automatic` for `torque`, else `delay`",
+       .words = kLags});
   v.texts("free", o.free_more,
           {.says = "Further parameters to identify, of all muscles, channels or the joint, by comma: "
                    "`emg_shape,joint_inertia`, beside [those of every fit](#what-is-identified).",
@@ -134,14 +132,15 @@ void visit_fit(IdentifyOptions& o, study::SettingVisitor& v) {
           {.says = "Method `paper`: [starts of the search](#starts-of-the-search), the given one and points about it.",
            .limits = study::within(1, 1000),
            .otherwise = "1; of `--compare-solvers` 3"});
-  v.text("folds", o.folds,
-         {.says = "What is left out of the fit and predicted: a `trial`; a `block`, a fifth of every trial of 3.3 s or "
-                  "more; or `none`.",
-          .words = kFolds});
-  v.text("scales", o.scales,
-         {.says = "Of method `torque`: muscles that share an electrode share one scale of every parameter of the law "
-                  "(`electrode`), or have their own (`muscle`).",
-          .words = kScales});
+  v.choice(
+      "folds", o.folds,
+      {.says = "What is left out of the fit and predicted: a `trial`; a `block`, a fifth of every trial of 3.3 s or "
+               "more; or `none`.",
+       .words = kFolds});
+  v.either("scales", o.own_scales,
+           {.says = "Of method `torque`: muscles that share an electrode share one scale of every parameter of the law "
+                    "(`electrode`), or have their own (`muscle`).",
+            .words = kScales});
   v.texts("validate", o.files.held_back,
           {.says = "Trials that are predicted (`torque`), not fitted: by number, file of lengths, or its name without "
                    "ending. Written as by [`predict`](predict.md).",
@@ -163,12 +162,12 @@ void check_values(const IdentifyOptions& options) {
 }
 
 void refuse_impossible(const IdentifyOptions& o, const run::MuscleTable& table) {
-  if (const auto asked = beyond_the_paper(o, table); o.method == "paper" && !asked.empty()) {
+  if (const auto asked = beyond_the_paper(o, table); o.method == fit::Method::paper && !asked.empty()) {
     throw InvalidInput(fmt::format(
         "{}: the published method has none of it; leave it out, or use --method force, which fits the same forces",
         fmt::join(asked, ", ")));
   }
-  if (o.method == "force" && o.lag == "automatic") {
+  if (o.method == fit::Method::force && o.lag == fit::LagChoice::automatic) {
     throw InvalidInput(
         "--lag automatic: method force fits each muscle alone, and all follow their EMG alike; give --lag delay or "
         "shared, or use --method torque");
@@ -183,7 +182,7 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   const auto tell = [&](bool given, std::string_view option, std::string_view why) {
     if (given) found.push_back(fmt::format("{} has no effect: {}", option, why));
   };
-  const bool paper = o.method == "paper", torque = o.method == "torque";
+  const bool paper = o.method == fit::Method::paper, torque = o.method == fit::Method::torque;
   constexpr std::string_view kNoBelief = "the published method rests on no belief";
   tell(paper && o.posterior_draws > 0, "--posterior-draws", kNoBelief);
   tell(paper && o.beliefs.has_value(), "--beliefs", kNoBelief);

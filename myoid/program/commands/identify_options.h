@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/fit/measurement/options.h"
 #include "myoid/program/commands/call.h"
 #include "myoid/run/identify_files/identify_sources.h"
 #include "myoid/run/identify_files/muscles_csv.h"
@@ -17,23 +18,23 @@ struct IdentifyOptions {
   Call call;
   std::filesystem::path muscles;
   run::IdentifySources files;
-  std::string method = "torque";
+  fit::Method method = fit::Method::torque;
   std::optional<double> delay_s;
-  std::string lag;  ///< Empty: the method's own.
+  std::optional<fit::LagChoice> lag;  ///< Empty: the method's own.
   std::vector<std::string> free_more, hold;
   std::optional<std::filesystem::path> beliefs;  ///< Table [beliefs] of a study file.
   int posterior_draws = 0;
   bool compare_solvers = false;
   std::optional<int> starts;  ///< Method `paper`; empty: one, and three for the comparison of solvers.
-  std::string folds = "trial";
-  std::string scales = "electrode";
+  std::optional<fit::FoldKind> folds = fit::FoldKind::trial;  ///< Empty: none.
+  bool own_scales = false;  ///< Muscles that share an electrode have scales of their own.
 };
 
 /// Visits every option of `myoid identify` once: key, allowed values, default and meaning. The
 /// command line, the check of the options and the guide's table use this list.
 void visit(IdentifyOptions& options, study::SettingVisitor& v);
 
-/// Throws InvalidInput for numbers out of range and for unknown methods, lags or kinds of folds.
+/// Throws InvalidInput for numbers out of range.
 void check_values(const IdentifyOptions& options);
 
 /// Throws InvalidInput if the options ask for a result that the method or the files cannot give.

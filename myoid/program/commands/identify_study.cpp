@@ -28,7 +28,7 @@ ParameterRule free_or_held(const std::string& name, bool free) {
 
 std::vector<study::TrialSpec> trials_of(const IdentifyOptions& o) {
   const run::IdentifySources& files = o.files;
-  const bool torque = o.method == "torque";
+  const bool torque = o.method == fit::Method::torque;
   run::require_counts(files, torque);
   const auto one = [](const std::vector<std::string>& list, std::size_t i) -> std::optional<std::filesystem::path> {
     if (i < list.size()) return list[i];
@@ -59,7 +59,7 @@ std::vector<study::TrialSpec> trials_of(const IdentifyOptions& o) {
 /// Returns the rules in the order in which later ones win: shared scales, muscles.csv, the options.
 std::vector<ParameterRule> rules_of(const IdentifyOptions& o, const run::MuscleTable& table, Remarks& remarks) {
   std::vector<ParameterRule> rules;
-  if (o.method == "torque" && o.scales == "electrode") {
+  if (o.method == fit::Method::torque && !o.own_scales) {
     run::ElectrodeTies ties = run::electrode_ties(table.muscles);
     rules = std::move(ties.rules);
     if (!ties.says.empty()) remarks.note(ties.says);
@@ -76,25 +76,25 @@ std::vector<ParameterRule> rules_of(const IdentifyOptions& o, const run::MuscleT
 bool frees_lags(const IdentifyOptions& o, const std::vector<ParameterRule>& rules) {
   const bool frees = std::ranges::any_of(
       rules, [](const ParameterRule& rule) { return rule.free.value_or(false) && fit::is_lag(rule.parameter); });
-  if (frees && !o.lag.empty())
+  if (frees && o.lag)
     throw InvalidInput(
         fmt::format("--lag {}: the lags of equation (1) are to be identified, which is a third way to follow the "
                     "EMG; leave one of both out",
-                    o.lag));
+                    choice_name(*o.lag)));
   return frees;
 }
 
 study::IdentifySpec fit_of(const IdentifyOptions& o) {
   study::IdentifySpec fit;
-  fit.methods = {*choice_named<fit::Method>(o.method)};
+  fit.methods = {o.method};
   fit.posterior_draws = o.posterior_draws;
-  fit.cross_validate = o.folds != "none";
-  fit.folds = o.folds == "block" ? fit::FoldKind::block : fit::FoldKind::trial;
+  fit.cross_validate = o.folds.has_value();
+  fit.folds = o.folds.value_or(fit.folds);
   fit.starts = o.starts;
   fit.compare_solvers = o.compare_solvers;
   fit.next_movements = 0;
   fit.elastic_tendon = false;
-  if (!o.lag.empty()) fit.lag = *choice_named<fit::LagChoice>(o.lag);
+  if (o.lag) fit.lag = *o.lag;
   return fit;
 }
 
@@ -115,7 +115,7 @@ study::Study identify_study(const IdentifyOptions& o, const run::MuscleTable& ta
   study.emg.has_mvc = false;
   study.emg.delay_s = o.delay_s;
   study.phases.search = false;
-  if (o.beliefs && o.method != "paper") study.beliefs = study::read_beliefs(*o.beliefs);
+  if (o.beliefs && o.method != fit::Method::paper) study.beliefs = study::read_beliefs(*o.beliefs);
   study.identify = fit_of(o);
   study.muscles = run::muscle_specs(table);
   study.parameters = rules_of(o, table, remarks);

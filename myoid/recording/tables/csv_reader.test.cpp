@@ -29,7 +29,7 @@ TEST(CsvSeries, WithoutATimeColumnItSaysWhichColumnsThereAre) {
     (void)parse_csv_series("a,b\n1,2\n", "e.csv");
     FAIL();
   } catch (const ReadError& error) {
-    EXPECT_NE(std::string(error.what()).find("among a, b"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("a, b"), std::string::npos);
   }
 }
 

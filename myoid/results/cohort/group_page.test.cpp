@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-GroupPerson person(int number, double strength, const char* verdict = "identified") {
+GroupPerson person(int number, double strength, fit::Verdict verdict = fit::Verdict::identified) {
   return {.name = fmt::format("P{}", number),
           .page = fmt::format("P{}/report.html", number),
           .numbers = {{.parameter = "max_isometric_force",
@@ -22,7 +22,7 @@ GroupPerson person(int number, double strength, const char* verdict = "identifie
                        .low = strength - 10.0,
                        .high = strength + 10.0,
                        .truth = {}}},
-          .quality = {{.name = "R2 of the fit", .unit = {}, .value = 0.9, .verdict = {}}}};
+          .quality = {{.name = "R2 of the fit", .unit = {}, .value = 0.9, .status = {}}}};
 }
 
 TEST(RobustDistance, IsThatOfTheMedianInMedianDeviations) {
@@ -54,7 +54,8 @@ TEST(GroupPage, NamesThePersonWhoIsFarFromTheOthers) {
 }
 
 TEST(GroupPage, ShowsBothReadingsOfEachPersonAndOfTheGroup) {
-  std::vector<GroupPerson> persons{person(0, 600.0, "reproducible"), person(1, 640.0), person(2, 620.0, "weak")};
+  std::vector<GroupPerson> persons{person(0, 600.0, fit::Verdict::reproducible), person(1, 640.0),
+                                   person(2, 620.0, fit::Verdict::weak)};
   EXPECT_EQ(group_page(persons).persons.tables.at(0).columns.size(), 7U);
   for (const int i : {0, 1}) {
     GroupNumber& number = persons[static_cast<std::size_t>(i)].numbers[0];
@@ -80,7 +81,7 @@ TEST(GroupPage, ShowsBothReadingsOfEachPersonAndOfTheGroup) {
 TEST(GroupPage, ANumberThatIsNotToldIsDrawnAndCountsNowhere) {
   std::vector<GroupPerson> persons;
   for (int i = 0; i < 6; ++i) persons.push_back(person(i, 600.0 + 10.0 * i));
-  persons.push_back(person(6, 1900.0, "prior_dominated"));
+  persons.push_back(person(6, 1900.0, fit::Verdict::prior_dominated));
   const GroupPage page = group_page(persons);
   EXPECT_TRUE(page.outliers.empty());
   EXPECT_EQ(outlier_sentence(page.outliers), "");

@@ -13,6 +13,7 @@
 #include "myoid/ground/math/statistics.h"
 #include "myoid/page/read_gates.h"
 #include "myoid/recording/tables/storage_reader.h"
+#include "myoid/results/change_sentences.h"
 
 namespace myoid::results {
 namespace {
@@ -41,18 +42,21 @@ std::optional<GroupNumber> number_of(const CsvTable& table, const std::vector<st
   const auto value = [&](const char* name) { return parse_number(cell(table, row, name)); };
   const auto estimate = value("estimate");
   if (!estimate) return std::nullopt;
-  const std::string fit_case = cell(table, row, "case"), unit = cell(table, row, "unit");
-  return GroupNumber{.parameter = cell(table, row, "parameter") + (fit_case == "both" ? "" : ", " + fit_case),
-                     .muscle = cell(table, row, "muscle"),
-                     .unit = unit == "1" ? "" : unit,
-                     .verdict = cell(table, row, "verdict"),
-                     .estimate = *estimate,
-                     .low = value("ci_low"),
-                     .high = value("ci_high"),
-                     .given = value("given_estimate"),
-                     .given_low = value("given_ci_low"),
-                     .given_high = value("given_ci_high"),
-                     .truth = value("truth")};
+  const auto fit_case = choice_named<fit::FitCase>(cell(table, row, "case"));
+  const std::string unit = cell(table, row, "unit");
+  return GroupNumber{
+      .parameter = cell(table, row, "parameter") + branch_text(fit_case.value_or(fit::FitCase::both), ", "),
+      .muscle = cell(table, row, "muscle"),
+      .unit = unit == "1" ? "" : unit,
+      // A word that is no verdict vouches for nothing.
+      .verdict = choice_named<fit::Verdict>(cell(table, row, "verdict")).value_or(fit::Verdict::not_identifiable),
+      .estimate = *estimate,
+      .low = value("ci_low"),
+      .high = value("ci_high"),
+      .given = value("given_estimate"),
+      .given_low = value("given_ci_low"),
+      .given_high = value("given_ci_high"),
+      .truth = value("truth")};
 }
 
 json read_json(const fs::path& file) {
@@ -68,15 +72,15 @@ void add_questions(const page::UnpassedGates& gates, std::vector<Quality>& quali
   quality.push_back({.name = "questions not passed",
                      .unit = {},
                      .value = static_cast<double>(gates.failed.size() + gates.warned.size()),
-                     .verdict = !gates.failed.empty()   ? "failed"
-                                : !gates.warned.empty() ? "caution"
-                                                        : "passed"});
+                     .status = !gates.failed.empty()   ? page::GateStatus::fail
+                               : !gates.warned.empty() ? page::GateStatus::warn
+                                                       : page::GateStatus::pass});
 }
 
 void add_fit(const json& parameters, std::vector<Quality>& quality) {
   for (const json& method : parameters.at("methods")) {
     if (method.at("method") == "torque" && method.at("r2").is_number())
-      quality.push_back({"R2 of the fitted samples", "", method.at("r2").get<double>(), ""});
+      quality.push_back({"R2 of the fitted samples", "", method.at("r2").get<double>()});
   }
   std::vector<double> r2, rmse_nm;
   for (const json& fold : parameters.value("leave_one_trial_out", json::array())) {
@@ -84,8 +88,8 @@ void add_fit(const json& parameters, std::vector<Quality>& quality) {
     if (identified.value("r2", json()).is_number()) r2.push_back(identified.at("r2"));
     if (identified.value("rmse_nm", json()).is_number()) rmse_nm.push_back(identified.at("rmse_nm"));
   }
-  if (!r2.empty()) quality.push_back({"R2 of trials left out", "", math::median(r2), ""});
-  if (!rmse_nm.empty()) quality.push_back({"torque error, left out", "N m", math::median(rmse_nm), ""});
+  if (!r2.empty()) quality.push_back({"R2 of trials left out", "", math::median(r2)});
+  if (!rmse_nm.empty()) quality.push_back({"torque error, left out", "N m", math::median(rmse_nm)});
 }
 
 void add_markers(const fs::path& folder, std::vector<Quality>& quality) {
@@ -97,8 +101,7 @@ void add_markers(const fs::path& folder, std::vector<Quality>& quality) {
     const Eigen::VectorXd rms = series.column("marker_error_RMS");
     errors_mm.push_back(1000.0 * math::median({rms.begin(), rms.end()}));
   }
-  if (!errors_mm.empty())
-    quality.push_back({"marker error, median frame", "mm", math::median(std::move(errors_mm)), ""});
+  if (!errors_mm.empty()) quality.push_back({"marker error, median frame", "mm", math::median(std::move(errors_mm))});
 }
 
 /// Finds the folders of runs in this one, in the order of their names.

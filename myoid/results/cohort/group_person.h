@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "myoid/fit/intervals/result.h"
+#include "myoid/page/report.h"
 #include "myoid/recording/tables/csv_reader.h"
 #include "myoid/study/run_identity.h"
 
@@ -15,7 +17,7 @@ struct GroupNumber {
   std::string parameter;  ///< With its case, where that is not "both".
   std::string muscle;     ///< Muscle, EMG channel, joint or "subject".
   std::string unit;       ///< Empty: dimensionless.
-  std::string verdict;
+  fit::Verdict verdict = fit::Verdict::not_identifiable;
   double estimate = 0.0;
   std::optional<double> low, high;                     ///< 95 % interval of the person.
   std::optional<double> given, given_low, given_high;  ///< The same given geometry and sensors; may be empty.
@@ -26,7 +28,7 @@ struct GroupNumber {
 struct Quality {
   std::string name, unit;
   double value = 0.0;
-  std::string verdict;  ///< In words; empty: none.
+  std::optional<page::GateStatus> status = {};  ///< Of a number that is judged.
 };
 
 /// One person of a group.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/page/verdict_mark.h"
+#include "myoid/run/design/verdict_badge.h"
 
 namespace myoid::run {
 namespace {
@@ -17,7 +17,7 @@ std::string half_width_text(const ParameterEstimate& e) {
 }
 
 Badge plan_badge(Verdict verdict) {
-  const Badge badge = page::verdict_badge(fit::name(verdict));
+  const Badge badge = verdict_badge(verdict);
   return badge == Badge::good || badge == Badge::weak || badge == Badge::repeat ? badge : Badge::info;
 }
 

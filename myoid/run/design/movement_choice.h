@@ -2,9 +2,12 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "myoid/ground/core/choice.h"
 
 namespace myoid::run {
 
@@ -28,6 +31,8 @@ enum class DesignCriterion {
   d_optimal,  ///< log det of the targets' covariance: the volume of their confidence ellipsoid.
   a_optimal,  ///< Sum of the targets' variances, each relative to its prior's.
 };
+inline constexpr std::string_view kCriterionNames[] = {"D", "A"};
+constexpr ChoiceNames choice_names(DesignCriterion) { return kCriterionNames; }
 
 struct DesignOptions {
   DesignCriterion criterion = DesignCriterion::d_optimal;

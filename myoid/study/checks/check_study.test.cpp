@@ -87,20 +87,22 @@ TEST(CheckStudy, AMisspeltChannelOfEveryTrialIsToldOnceWithTheTrialsNamed) {
   EXPECT_EQ(
       std::count_if(findings.begin(), findings.end(), [](const Remark& f) { return f.severity == Severity::error; }),
       1);
-  EXPECT_NE(study.error().find("(likewise in u, v)"), std::string::npos) << study.error();
+  EXPECT_EQ(findings.front().likewise, (std::vector<std::string>{"u", "v"}));
 }
 
 TEST(CheckStudy, MarkersOfWhichTheModelHasNoneAreAnError) {
   const WrittenStudy study("RWRA");
-  EXPECT_NE(study.error().find("t: no marker of the recording (RWRA) is in the model"), std::string::npos)
-      << study.error();
+  EXPECT_NE(study.error().find("(RWRA)"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, OneRecordingInTwoTrialsIsAnErrorThatNamesBoth) {
   WrittenStudy study;
   study.text += "[[trial]]\nname = \"u\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n";
-  const std::string error = study.error();
-  EXPECT_EQ(error.find("u: 100 % of its EMG (t.sto) and of its motion are those of trial 't'"), 0U) << error;
+  const Remark first = study.findings().front();
+  EXPECT_EQ(first.code, RemarkCode::same_recording);
+  EXPECT_EQ(first.severity, Severity::error);
+  EXPECT_EQ(first.where, "u");
+  EXPECT_NE(first.says.find("'t'"), std::string::npos) << first.says;
 }
 
 TEST(CheckStudy, TrialsThatAreWindowsOfOneRecordingAreTwo) {
@@ -113,8 +115,7 @@ TEST(CheckStudy, TrialsThatAreWindowsOfOneRecordingAreTwo) {
 TEST(CheckStudy, ATrialOfLessThanHalfASecondIsNamedAsSuch) {
   WrittenStudy study;
   study.text.replace(study.text.find("name = \"t\""), 10, "name = \"t\"\nstart_s = 1.0\nend_s = 1.3");
-  EXPECT_NE(study.error().find("the trial lasts 0.3 s (1 to 1.3 s); at least 0.5 s"), std::string::npos)
-      << study.error();
+  EXPECT_NE(study.error().find("0.3 s (1 to 1.3 s)"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, AnEmgChannelThatNeverRisesIsAnError) {
@@ -128,7 +129,7 @@ TEST(CheckStudy, RawEmgCalledAnEnvelopeIsAnError) {
   for (std::size_t at = emg.find("\t0."); at != std::string::npos; at = emg.find("\t0.", at + 1))
     if ((at / 7) % 2 == 0) emg.insert(at + 1, "-");
   write_file(study.folder / "t.sto", emg);
-  EXPECT_NE(study.error().find("is never below zero; is it raw EMG?"), std::string::npos) << study.error();
+  EXPECT_NE(study.error().find("raw EMG"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, AnActivationInPercentIsAnError) {
@@ -138,7 +139,7 @@ TEST(CheckStudy, AnActivationInPercentIsAnError) {
   std::string emg = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
   for (int i = 0; i < 200; ++i) emg += fmt::format("{:.2f}\t{}\t5\t5\t5\n", 0.01 * i, i % 90);
   write_file(study.folder / "t.sto", emg);
-  EXPECT_NE(study.error().find("'BIC' reaches 89, but an activation"), std::string::npos) << study.error();
+  EXPECT_NE(study.error().find("'BIC' reaches 89"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, WhatInitLeftToBeAnsweredIsAWarningWithItsLine) {
@@ -146,30 +147,24 @@ TEST(CheckStudy, WhatInitLeftToBeAnsweredIsAWarningWithItsLine) {
   const auto asked = [&] {
     write_file(study.folder / "study.toml", study.text);
     for (const Remark& f : study.findings()) {
-      if (f.says.find("TODO") != std::string::npos) return f.says;
+      if (f.code == RemarkCode::unanswered) return f.says;
     }
     return std::string();
   };
   EXPECT_EQ(asked(), "");
   study.text = "# Lines with TODO want an answer\n# TODO: the person's mass\n" + study.text;
-  EXPECT_NE(asked().find("1 line still asks for an answer (TODO), or for being deleted: line 2: "
-                         "the person's mass"),
-            std::string::npos)
-      << asked();
+  EXPECT_NE(asked().find("line 2: "), std::string::npos) << asked();
 }
 
 TEST(CheckStudy, EnvelopesWithoutAMaximalContractionAreSaidToBeSo) {
   const std::vector<Remark> found = WrittenStudy().findings();
-  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Remark& f) {
-    return f.says.find("no trial is a maximal contraction") != std::string::npos;
-  }));
+  EXPECT_EQ(std::ranges::count(found, RemarkCode::no_maximal_contraction, &Remark::code), 1);
 }
 
 TEST(CheckStudy, AWeightOfAMarkerThatTheModelLacksIsAnError) {
   WrittenStudy study;
   study.text += "[markers.weight]\nacromion = 10\n";
-  EXPECT_NE(study.error().find("[markers.weight] acromion: the model has no such marker"), std::string::npos)
-      << study.error();
+  EXPECT_NE(study.error().find("[markers.weight] acromion"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, AWindowOfNormalisationLongerThanTheRecordingIsAnError) {
@@ -252,7 +247,7 @@ TEST(CheckRecording, OfOneThatPausesTheLongestPartIsChecked) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].code, RemarkCode::clock_pause);
   EXPECT_EQ(found[0].where, "emg.csv");
-  EXPECT_NE(found[0].says.find("its longest part, from 5 to 8.999 s"), std::string::npos) << found[0].says;
+  EXPECT_NE(found[0].says.find("5 to 8.999 s"), std::string::npos) << found[0].says;
 }
 
 TEST(CheckRecording, UnevenSamplesAreAnErrorOfTheFile) {

@@ -48,8 +48,9 @@ TEST(DynamometerSigns, ReversedInEveryTrialAreAnErrorThatSaysWhatToNegate) {
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].severity, Severity::error);
   EXPECT_EQ(found[0].where, "up");
-  EXPECT_NE(found[0].says.find("up.sto: the torque on elbow_flexion"), std::string::npos) << found[0].says;
-  EXPECT_NE(found[0].says.find("the person's torque on the dynamometer?"), std::string::npos);
+  EXPECT_EQ(found[0].code, RemarkCode::dynamometer_sign);
+  EXPECT_EQ(found[0].says.find("up.sto"), 0U) << found[0].says;
+  EXPECT_NE(found[0].says.find("elbow_flexion"), std::string::npos) << found[0].says;
 }
 
 TEST(DynamometerSigns, ReversedInOneTrialAreAWarningOfThatTrial) {

@@ -138,9 +138,8 @@ TEST(ForeignContacts, OneContactOfSeveralIsSaidWithItsTimeShareAndDistances) {
     ASSERT_FALSE(times.empty());
     EXPECT_NEAR(times.front().begin_s, 4.2, 0.05);
     EXPECT_NEAR(times.back().end_s, 4.9, 0.05);
-    EXPECT_THAT(found[0].says,
-                AllOf(HasSubstr("'plate_1' is applied to calcn_r"), HasSubstr("in 1 of 3 contacts"),
-                      HasSubstr("from 4.2"), HasSubstr("s another foot's"), HasSubstr("m from calcn_l")));
+    EXPECT_THAT(found[0].says, AllOf(HasSubstr("'plate_1'"), HasSubstr("to calcn_r"), HasSubstr(" 1 of 3 "),
+                                     HasSubstr("from 4.2"), HasSubstr("m from calcn_l")));
     const std::size_t at = found[0].says.find(" % of the loaded time");
     EXPECT_NEAR(std::stod(found[0].says.substr(at - 2)), 34.0, 3.0) << found[0].says;
   }
@@ -161,10 +160,9 @@ TEST(ForeignContacts, AFootOfSomebodyElseIsSaidToo) {
   force.point = force_columns(trial.time_s, p);
   const std::vector<Remark> found = trial.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_THAT(found[0].says, AllOf(HasSubstr("in 1 of 5 contacts"), HasSubstr("from 5.2"),
-                                   HasSubstr("no other body of the model is near"), Not(HasSubstr("another foot's")),
-                                   Not(HasSubstr("loads_offset_s"))));
-  EXPECT_THAT(trial.findings(true)[0].says, HasSubstr("another clock than the motion ([sync] loads_offset_s)"));
+  EXPECT_THAT(found[0].says, AllOf(HasSubstr(" 1 of 5 "), HasSubstr("from 5.2"), Not(HasSubstr("calcn_l")),
+                                   Not(HasSubstr("another foot")), Not(HasSubstr("loads_offset_s"))));
+  EXPECT_THAT(trial.findings(true)[0].says, HasSubstr("[sync] loads_offset_s"));
 }
 
 TEST(ForeignContacts, ASecondFootOnThePlateIsSaid) {
@@ -196,8 +194,8 @@ TEST(ForeignContacts, ASecondFootOnThePlateIsSaid) {
   trial.loads.forces = {force};
   const std::vector<Remark> found = trial.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_THAT(found[0].says, AllOf(HasSubstr("in 1 of 2 contacts"), HasSubstr("from 1.0"),
-                                   HasSubstr("a second foot stands beside"), HasSubstr("from calcn_l")));
+  EXPECT_THAT(found[0].says,
+              AllOf(HasSubstr(" 1 of 2 "), HasSubstr("from 1.0"), HasSubstr("second foot"), HasSubstr("from calcn_l")));
 }
 
 // A load cell 1.1 m above the floor that a hand pushes up against, and a weight of 80 N that hangs from a foot: neither

@@ -136,7 +136,7 @@ TEST(MisplacedLoads, APointInMillimetersIsAnError) {
   const std::vector<Remark> found = walk.findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);
-  EXPECT_NE(found[0].says.find("is it in mm"), std::string::npos) << found[0].says;
+  EXPECT_NE(found[0].says.find("in mm"), std::string::npos) << found[0].says;
 }
 
 /// Moves the points of a force, always or only while the force is below a newton.
@@ -177,7 +177,7 @@ TEST(MisplacedLoads, APointFarFromEveryBodyIsNoOtherBodys) {
   const std::vector<Remark> found = walk.findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::warning);
-  EXPECT_NE(found[0].says.find("and under no other body"), std::string::npos) << found[0].says;
+  EXPECT_NE(found[0].says.find("no other body"), std::string::npos) << found[0].says;
   // A hand leans on a stick.
   walk.input.loads->forces[0].body = 1;
   EXPECT_TRUE(walk.findings().empty());
@@ -194,9 +194,7 @@ TEST(MisplacedLoads, ATurnAboutTheVerticalIsSaidOnce) {
     const std::vector<Remark> found = walk.findings();
     ASSERT_EQ(found.size(), 1U) << turns;
     EXPECT_EQ(found[0].severity, Severity::error);
-    EXPECT_NE(found[0].says.find("after a turn by " + std::to_string(90 * turns) + " degrees about the vertical"),
-              std::string::npos)
-        << found[0].says;
+    EXPECT_NE(found[0].says.find("by " + std::to_string(90 * turns) + " degrees"), std::string::npos) << found[0].says;
   }
 }
 

@@ -66,7 +66,7 @@ TEST(SameRecordings, OneEmgWithTwoMovementsIsAnError) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);
   EXPECT_EQ(found[0].where, "c");
-  EXPECT_NE(found[0].says.find("EMG of trial 'a' (a.sto)"), std::string::npos) << found[0].says;
+  EXPECT_NE(found[0].says.find("'a' (a.sto)"), std::string::npos) << found[0].says;
 }
 
 TEST(SameRecordings, OneRecordingTwiceIsAnErrorAndDifferentOnesAreNone) {

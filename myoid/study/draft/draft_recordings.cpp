@@ -176,13 +176,13 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
   return files;
 }
 
-std::string guessed_use(const std::string& stem) {
+Use guessed_use(const std::string& stem) {
   for (const std::string& word : words_of(stem)) {
-    if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return "mvc";
-    if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical") return "static";
-    if (word == "passive" || word == "relaxed") return "passive";
+    if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return Use::mvc;
+    if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical") return Use::static_pose;
+    if (word == "passive" || word == "relaxed") return Use::passive;
   }
-  return "calibration";
+  return Use::calibration;
 }
 
 }  // namespace myoid::study

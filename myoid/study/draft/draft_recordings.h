@@ -10,6 +10,7 @@
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/force_plate.h"
 #include "myoid/study/draft/draft_loads.h"
+#include "myoid/study/study.h"
 
 namespace myoid::study {
 
@@ -51,7 +52,7 @@ struct FoundBeside {
 [[nodiscard]] std::string trial_stem(const std::filesystem::path& path);
 
 /// Returns the use that the trial's name suggests: "mvc", "static", "passive", else "calibration".
-[[nodiscard]] std::string guessed_use(const std::string& stem);
+[[nodiscard]] Use guessed_use(const std::string& stem);
 
 /// Adds the channels of a file that may be EMG (`recording::emg_channels`), or all channels of a file with EMG in its
 /// name. Raw EMG crosses its median more than 30 times a second, an envelope does not.

@@ -24,10 +24,10 @@ TEST(TrialStem, IsTheNameWithoutWhatAFileSaysOfItsOwnKind) {
 }
 
 TEST(GuessedUse, IsWhatAWordOfTheNameSays) {
-  EXPECT_EQ(guessed_use("mvc_biceps"), "mvc");
-  EXPECT_EQ(guessed_use("static_1"), "static");
-  EXPECT_EQ(guessed_use("relaxed_elbow"), "passive");
-  EXPECT_EQ(guessed_use("subject_1_mvt_random"), "calibration");
+  EXPECT_EQ(guessed_use("mvc_biceps"), Use::mvc);
+  EXPECT_EQ(guessed_use("static_1"), Use::static_pose);
+  EXPECT_EQ(guessed_use("relaxed_elbow"), Use::passive);
+  EXPECT_EQ(guessed_use("subject_1_mvt_random"), Use::calibration);
 }
 
 TEST(RecordingsIn, AFolderAreThoseWithAKnownEndingInItAndItsFolders) {

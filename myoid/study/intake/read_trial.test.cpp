@@ -26,7 +26,7 @@ TEST(ReadTrialInput, RefusesDegreesThatAreSaidToBeRadians) {
   trial.motion = folder / "m.mot";
   trial.use = Use::static_pose;
   const std::string message = message_of([&] { (void)read_trial_input(study, trial, arm()); });
-  EXPECT_NE(message.find("these are degrees"), std::string::npos) << message;
+  EXPECT_NE(message.find("degrees"), std::string::npos) << message;
   EXPECT_NE(message.find("m.mot"), std::string::npos) << message;
 }
 
@@ -41,7 +41,8 @@ TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
   EXPECT_EQ(parts[0].input.motion->sample_count(), 250);
   EXPECT_NEAR(parts[1].input.motion->time_s()[0], 5.5, 1e-9);
   ASSERT_FALSE(parts[1].input.remarks.empty());
-  EXPECT_NE(parts[1].input.remarks.back().says.find("cut at the pauses of its clock (m.mot)"), std::string::npos);
+  EXPECT_EQ(parts[1].input.remarks.back().code, RemarkCode::clock_pause);
+  EXPECT_NE(parts[1].input.remarks.back().says.find("m.mot"), std::string::npos);
   // Of a trial that ends 0.5 s after the pause, that part is left out.
   WrittenTrial shorter(0.01, 8.0, 3.0);
   shorter.spec.end_s = 6.0;
@@ -63,11 +64,11 @@ TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheTorquesFile) {
   EXPECT_EQ(parts[0].spec.end_s, 3.0);  // as one who gives the trial a window
   EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& remark) {
     return remark.severity == Severity::warning &&
-           remark.says.find("torque.sto: the torque (0 to 3 s) lacks 1.99 s of the motion") == 0;
+           remark.says.find("torque.sto: the torque (0 to 3 s) lacks 1.99 s") == 0;
   }));
 
   write_file(trial.folder / "torque.sto", torque.substr(0, 2000));
-  EXPECT_NE(message_of([&] { (void)read_trial_parts(arm_study(), trial.spec, arm()); }).find("less than half"),
+  EXPECT_NE(message_of([&] { (void)read_trial_parts(arm_study(), trial.spec, arm()); }).find("torque.sto"),
             std::string::npos);
 }
 
@@ -122,7 +123,7 @@ TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheForcesFile) {
   EXPECT_NEAR(input.motion->time_s()[0], 1.0, 1e-9);
   EXPECT_NEAR(input.motion->time_s()[input.motion->sample_count() - 1], 4.0, 1e-9);
   EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& remark) {
-    return remark.says.find("loads.xml: the force (1 to 4 s) lacks 1.99 s of the motion") == 0;
+    return remark.says.find("loads.xml: the force (1 to 4 s) lacks 1.99 s") == 0;
   }));
   // The check of rates sees the durations of the files.
   ASSERT_EQ(input.lengths.size(), 1U);

@@ -15,6 +15,7 @@
 #include "myoid/study/intake/trial_input.h"
 #include "myoid/study/read_study.h"
 
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::study {
@@ -67,12 +68,7 @@ class TwoClocks : public ::testing::Test {
   }
   [[nodiscard]] TrialInput read(const Study& s) const { return read_trial_input(s, s.trials[0], arm); }
   std::string refusal(const std::string& sync, const std::string& trial = "") const {
-    try {
-      (void)read(study(sync, trial));
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "nothing thrown";
+    return test::message_of([&] { (void)read(study(sync, trial)); });
   }
 
   test::TemporaryFolder folder;
@@ -101,7 +97,7 @@ TEST_F(TwoClocks, ByPulsesThatBothRecordedOffsetAndDriftAreFoundWithinTheirError
 TEST_F(TwoClocks, ByNumbersTheTimesAreWhatTheStudySays) {
   const TrialInput input = read(study("offset_s = 0.2345\ndrift_ppm = 50\noffset_sd_s = 0.002\n"));
   EXPECT_NEAR(input.emg->time_s()[12500], 50.0 + 50e-6 * 50.0 + 0.2345, 1e-9);
-  EXPECT_THAT(input.remarks[0].says, HasSubstr("+234.5 ± 2 ms, 50 ppm (as the study says)"));
+  EXPECT_THAT(input.remarks[0].says, HasSubstr("+234.5 ± 2 ms, 50 ppm"));
 }
 
 TEST_F(TwoClocks, EstimatedFromEmgAndMotionTheOffsetIsFoundWithinItsError) {
@@ -143,11 +139,10 @@ TEST_F(TwoClocks, AnEmgOfTheMotionsOwnFileStaysOnItsClock) {
 }
 
 TEST_F(TwoClocks, WhatIsWrongWithATriggerIsSaidWithWhatThereIs) {
-  EXPECT_THAT(refusal("emg_trigger = \"Trigg\"\nmotion_trigger = \"sync\"\n"), HasSubstr("did you mean 'Trig'?"));
+  EXPECT_THAT(refusal("emg_trigger = \"Trigg\"\nmotion_trigger = \"sync\"\n"), HasSubstr("'Trig'"));
   EXPECT_THAT(refusal("emg_trigger = \"Trig\"\n"), HasSubstr("give both"));
-  EXPECT_THAT(refusal("emg_trigger = \"Trig\"\nmotion_trigger = \"sync\"\noffset_s = 1\n"),
-              HasSubstr("one or the other"));
-  EXPECT_THAT(refusal("emg_trigger = \"Trig\"\nmotion_trigger = \"start\"\n"), HasSubstr("too few to tell"));
+  EXPECT_THAT(refusal("emg_trigger = \"Trig\"\nmotion_trigger = \"sync\"\noffset_s = 1\n"), HasSubstr("offset_s"));
+  EXPECT_THAT(refusal("emg_trigger = \"Trig\"\nmotion_trigger = \"start\"\n"), HasSubstr("too few"));
   EXPECT_THAT(refusal("emg_trigger = \"b\"\nmotion_trigger = \"sync\"\n"), HasSubstr("[sync]"));
 }
 

@@ -26,8 +26,7 @@ TEST(ReadTrialEmg, AMissingEmgChannelIsNamedWithThoseThereAre) {
   trial.use = Use::mvc;
   const std::string message = message_of([&] { (void)read_trial_input(arm_study(), trial, arm()); });
   EXPECT_NE(message.find("no EMG channel 'BIC'"), std::string::npos) << message;
-  EXPECT_NE(message.find("did you mean 'BICC'"), std::string::npos) << message;
-  EXPECT_NE(message.find("rename the column of this file or, if all files name it so"), std::string::npos) << message;
+  EXPECT_NE(message.find("'BICC'"), std::string::npos) << message;
 }
 
 TEST(ReadTrialEmg, ChannelsOfSeveralClocksArePutOnTheFastest) {
@@ -72,11 +71,11 @@ TEST(ReadTrialEmg, ChannelsOfSeveralClocksArePutOnTheFastest) {
 TEST(ReadTrialEmg, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIsWarnedOf) {
   const Study study = arm_study();
   const std::string message = message_of([&] { (void)WrittenTrial(0.1, 20.0).read(study); });
-  EXPECT_NE(message.find("covers less than half of the motion (0 to 49.9 s)"), std::string::npos) << message;
+  EXPECT_NE(message.find("(0 to 49.9 s)"), std::string::npos) << message;
   const TrialInput shorter = WrittenTrial(0.01, 4.0).read(study);
   const std::vector<std::string> warnings = sentences(shorter.remarks, Severity::warning);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("lacks 0.99 s of the motion"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("0.99 s"), std::string::npos) << warnings[0];
 }
 
 /// What reading the trial's EMG says, when all four channels hold these two values in turn, each
@@ -100,7 +99,7 @@ std::string emg_of(const Study& study, double low, double high, int samples = 1)
 
 TEST(ReadTrialEmg, AnEnvelopeMayRingBelowZeroButNotSwingAboutIt) {
   EXPECT_EQ(emg_of(arm_study(), -0.1, 1.0), "(no error)");
-  EXPECT_NE(emg_of(arm_study(), -0.9, 1.0).find("is it raw EMG?"), std::string::npos);
+  EXPECT_NE(emg_of(arm_study(), -0.9, 1.0).find("raw EMG"), std::string::npos);
 }
 
 TEST(ReadTrialEmg, AnEnvelopeThatIsCalledRawIsRefused) {
@@ -117,7 +116,7 @@ TEST(ReadTrialEmg, RawEmgThatNoConverterGivesIsRefusedAndItsCountsAreNot) {
   Study study = arm_study();
   study.emg.kind = EmgKind::raw;
   study.emg.unit = "V";
-  EXPECT_NE(emg_of(study, -1e27, 1e27).find("beyond any converter"), std::string::npos);
+  EXPECT_NE(emg_of(study, -1e27, 1e27).find("1e+27 V"), std::string::npos);
   EXPECT_EQ(emg_of(study, -32768.0, 32767.0), "(no error)");
 }
 
