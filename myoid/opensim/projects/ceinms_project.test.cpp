@@ -163,8 +163,12 @@ TEST(CeinmsProject, KeepsTheClocksOfATrialApart) {
   for (const TrialFile& file : walk.files) {
     ASSERT_TRUE(file.time) << file.path;
     EXPECT_NEAR(file.rate_hz, file.role == TrialRole::emg ? 1000.0 : 100.0, 1e-6);
-    if (file.role == TrialRole::torques) EXPECT_EQ(file.time->begin_s, 0.2);
-    if (file.role == TrialRole::moment_arms) EXPECT_EQ(file.dof, "knee_angle_r");
+    if (file.role == TrialRole::torques) {
+      EXPECT_EQ(file.time->begin_s, 0.2);
+    }
+    if (file.role == TrialRole::moment_arms) {
+      EXPECT_EQ(file.dof, "knee_angle_r");
+    }
   }
 }
 

@@ -96,8 +96,12 @@ TEST(NmsmProject, TakesChannelsFromTheModelsGroupsAndLeavesOtherCoordinates) {
   int arms = 0;
   for (const TrialFile& file : project.trials[0].files) {
     arms += file.role == TrialRole::moment_arms ? 1 : 0;
-    if (file.role == TrialRole::emg) EXPECT_NEAR(file.time->begin_s, -0.2, 1e-12);
-    if (file.role == TrialRole::torques) EXPECT_EQ(file.time->begin_s, 0.0);
+    if (file.role == TrialRole::emg) {
+      EXPECT_NEAR(file.time->begin_s, -0.2, 1e-12);
+    }
+    if (file.role == TrialRole::torques) {
+      EXPECT_EQ(file.time->begin_s, 0.0);
+    }
   }
   EXPECT_EQ(arms, 1);
 }
