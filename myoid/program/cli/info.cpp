@@ -82,7 +82,11 @@ void add_info(CLI::App& app, Context& context) {
                    "Of a model: where a muscle's length or moment arm jumps over the range of a coordinate");
   add_model_page_options(command, *page, *html);
   add_compat_option(command, context);
-  command.add_option("files", *files, program::known_endings() + "; or arm4")->required();
+  command
+      .add_option(
+          "files", *files,
+          program::known_endings() + "; arm4; or a project of CEINMS, CEINMS-RT or NMSM (its folder, .xml or .osimx)")
+      ->required();
   add_common_options(command, context);
   command.callback([&context, files, o, page, html] {
     if (!html->empty()) return write_page(*files, *page, *html, context);
