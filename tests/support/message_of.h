@@ -7,7 +7,7 @@
 
 namespace myoid::test {
 
-/// What an action complains of: the text of its error of this type, or "(no error)". Other errors pass.
+/// Returns the text of the error of this type that an action throws, or "(no error)". Other errors pass through.
 template <typename Error = InvalidInput>
 std::string message_of(const std::function<void()>& action) {
   try {

@@ -60,7 +60,7 @@ const ElementTable& osimx_elements() {
   return kElements;
 }
 
-/// What these projects take from a model.
+/// The parts of a model that these projects use.
 struct ModelParts {
   std::vector<ProjectMuscle> muscles;                      ///< Lengths and forces.
   std::map<std::string, std::vector<std::string>> groups;  ///< Muscles of an ObjectGroup.

@@ -95,7 +95,7 @@ struct ProjectDof {
   bool is_calibrated = false;  ///< Its torque was fitted.
 };
 
-/// What a file of a trial holds.
+/// The quantity that a file of a trial holds.
 enum class TrialRole { emg, lengths, moment_arms, torques, motion, loads, velocities };
 inline constexpr std::string_view kTrialRoleNames[] = {"emg",    "lengths", "moment_arms", "torques",
                                                        "motion", "loads",   "velocities"};

@@ -113,7 +113,7 @@ TEST(MarkerTable, OtherTablesAreNone) {
   EXPECT_THROW((void)parse_marker_table("a,b\n1,2\n", "a.csv"), ReadError);
 }
 
-/// What the reader says of a table in which `from` became `to`.
+/// Returns the message of the reader for a table in which `from` became `to`.
 std::string refusal(std::string text, const std::string& from, const std::string& to) {
   text.replace(text.find(from), from.size(), to);
   return test::message_of<ReadError>([&] { (void)parse_marker_table(text, "a.csv"); });
