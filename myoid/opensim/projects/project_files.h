@@ -23,7 +23,7 @@ struct RootedFile {
 class ProjectFolder {
  public:
   /// Lists a folder to a depth of 6 and at most 20,000 entries; links to folders and hidden folders are passed over.
-  /// Lists the files of a folder; for a file, the list holds that file alone.
+  /// For a file the list holds that file alone.
   explicit ProjectFolder(const std::filesystem::path& path);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
