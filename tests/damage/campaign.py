@@ -21,14 +21,12 @@ cheap ones have half of the time.
 
 import argparse
 import concurrent.futures
-import functools
 import hashlib
+import itertools
 import os
 import random
 import re
-import resource
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
@@ -36,38 +34,10 @@ from pathlib import Path
 
 import campaign_cases
 from campaign_damages import damaged
+from program import Program
 
-WALL = 900  # seconds
-GIGABYTE = 1 << 30
 PICTURES = (".svg", ".html", ".bib", ".txt")  # of the results; commands that read results take no numbers from them
 TEMPORARY = os.environ.get("TMPDIR") or ("/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
-ENVIRONMENT = {**os.environ, "NO_COLOR": "1", "UBSAN_OPTIONS": "halt_on_error=1:exitcode=99:print_stacktrace=1",
-               "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1:exitcode=99:hard_rss_limit_mb=4000"}
-
-
-@functools.cache
-def is_sanitized(program):
-    return b"__asan_init" in Path(program).read_bytes()
-
-
-def run(program, arguments, folder, timeout=120):
-    """Returns (exit code, standard output, standard error); the code is None if the program takes too long."""
-    with subprocess.Popen([program, *arguments], cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        try:
-            resource.prlimit(process.pid, resource.RLIMIT_CPU, (timeout, timeout + 5))
-            resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (GIGABYTE, GIGABYTE))
-            if not is_sanitized(program):  # the sanitizer reserves terabytes of addresses, and has a limit of its own
-                resource.prlimit(process.pid, resource.RLIMIT_AS, (8 * GIGABYTE, 8 * GIGABYTE))
-            out, err = process.communicate(timeout=WALL)
-        except ProcessLookupError:
-            out, err = process.communicate()
-        except subprocess.TimeoutExpired:
-            process.kill()
-            out, err = process.communicate()
-            return None, out.decode(errors="replace"), err.decode(errors="replace")
-    code = process.returncode
-    return None if code == -24 else code, out.decode(errors="replace"), err.decode(errors="replace")  # 24: SIGXCPU
 
 
 def contents(folder):
@@ -105,7 +75,7 @@ def good_run(program, seeds, case):
     if case.good is None:
         with tempfile.TemporaryDirectory(prefix="campaign.", dir=TEMPORARY) as name:
             lay_out(seeds, case, Path(name))
-            code, out, err = run(program, case.arguments, name)
+            code, out, err = program(case.arguments, name)
             case.good = (code, numbers_of(Path(name), case, out), messages(out, err))
     return case.good
 
@@ -159,7 +129,7 @@ def attempt(program, seeds, case, number, timeout, keep):
         victim.write_bytes(changed)
         place = str(victim.relative_to(folder))
         before = contents(folder)
-        code, out, err = run(program, arguments, folder, timeout)
+        code, out, err = program(arguments, folder, timeout)
         faults = faults_of(code, out, err)
         gone = lost(case, place, before, contents(folder))
         if gone:
@@ -228,14 +198,15 @@ def campaign(program, seeds, cases, options):
         return case, *attempt(program, seeds, case, number, options.timeout, options.keep), time.monotonic() - begin
 
     base = options.seed * 10**7
-    numbers = [options.replay] if options.replay is not None else range(base, base + options.runs)
+    numbers = iter([options.replay] if options.replay is not None else range(base, base + options.runs))
     with concurrent.futures.ThreadPoolExecutor(options.workers) as pool:
-        at = 0
-        while at < len(numbers) and time.monotonic() < end:
-            for done in pool.map(work, numbers[at: at + 20 * options.workers]):
-                if done is not None:
-                    tally.add(*done)
-            at += 20 * options.workers
+        waiting = {pool.submit(work, number) for number in itertools.islice(numbers, 2 * options.workers)}
+        while waiting:
+            done, waiting = concurrent.futures.wait(waiting, return_when=concurrent.futures.FIRST_COMPLETED)
+            for each in done:
+                if each.result() is not None:
+                    tally.add(*each.result())
+                    waiting |= {pool.submit(work, number) for number in itertools.islice(numbers, 1)}
     return tally
 
 
@@ -254,10 +225,10 @@ def main():
     parser.add_argument("--keep", help="folder for the inputs and outputs of runs with a fault")
     options = parser.parse_args()
     begin = time.monotonic()
-    program = str(Path(options.program).resolve())
     seeds = Path(tempfile.mkdtemp(prefix="campaign.seeds.", dir=TEMPORARY))
+    program = Program(options.program, options.workers, seeds)
     try:
-        campaign_cases.virtual_person(lambda words, folder: run(program, words, folder), seeds)
+        campaign_cases.virtual_person(program, seeds)
         cases = campaign_cases.own_cases() + campaign_cases.shared_cases(seeds)
         cases = [c for c in cases if options.only in c.name]
         for case in cases:
@@ -276,6 +247,7 @@ def main():
         tally.summary()
         return 1 if tally.failures else 0
     finally:
+        program.close()
         shutil.rmtree(seeds, ignore_errors=True)
 
 
