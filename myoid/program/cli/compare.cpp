@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/ground/core/json_text.h"
+#include "myoid/page/json_values.h"
 #include "myoid/page/plain_unit.h"
 #include "myoid/page/report.h"
 #include "myoid/program/cli/context.h"
@@ -15,10 +16,6 @@
 
 namespace myoid::program {
 namespace {
-
-nlohmann::ordered_json optional_number(const std::optional<double>& x) {
-  return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
-}
 
 nlohmann::ordered_json to_json(const results::RunComparison& comparison) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -35,8 +32,8 @@ nlohmann::ordered_json to_json(const results::RunComparison& comparison) {
          {"difference_percent", p.of_first.value == 0.0
                                     ? nlohmann::ordered_json(nullptr)
                                     : nlohmann::ordered_json(100.0 * p.difference / std::abs(p.of_first.value))},
-         {"smallest_detectable", optional_number(p.smallest_detectable)},
-         {"p_value", optional_number(p.p_value)},
+         {"smallest_detectable", page::number_or_null(p.smallest_detectable)},
+         {"p_value", page::number_or_null(p.p_value)},
          {"change", std::string(results::name(p.change))},
          {"says", results::change_text(p)}});
   }

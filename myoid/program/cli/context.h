@@ -123,6 +123,7 @@ void add_muscle(CLI::App& app, Context& context);
 void add_paths(CLI::App& app, Context& context);
 void add_predict(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
+void add_review(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
 void add_settings(CLI::App& app, Context& context);
 void add_simulate(CLI::App& app, Context& context);

@@ -85,7 +85,7 @@ struct Command {
 constexpr const char* kStudy = "One study";
 constexpr const char* kPersons = "Many persons";
 constexpr const char* kSteps = "Single steps, from file to file";
-constexpr const char* kOpenSim = "OpenSim";
+constexpr const char* kOpenSim = "OpenSim and other programs";
 constexpr const char* kVirtual = "Virtual persons and movements";
 
 /// In the order of the help.
@@ -110,6 +110,7 @@ constexpr Command kCommands[] = {
     {"so", myoid::program::add_so, kSteps},
     {"identify", myoid::program::add_identify, kSteps},
     {"muscle", myoid::program::add_muscle, kSteps},
+    {"review", myoid::program::add_review, kOpenSim},
     {"run-tool", myoid::program::add_run_tool, kOpenSim},
     {"update-file", myoid::program::add_update_file, kOpenSim},
     {"twin", myoid::program::add_twin, kVirtual},

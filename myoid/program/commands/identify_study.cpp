@@ -134,6 +134,7 @@ study::Study seen_from(const std::filesystem::path& folder, study::Study study) 
   const auto turn = [&](std::filesystem::path& path) {
     path = std::filesystem::absolute(path).lexically_normal().lexically_relative(here);
   };
+  if (study.model.file) turn(*study.model.file);
   for (study::TrialSpec& trial : study.trials) {
     for (std::optional<std::filesystem::path>* path :
          {&trial.emg, &trial.motion, &trial.given.lengths, &trial.given.velocities, &trial.given.torques,

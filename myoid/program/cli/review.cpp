@@ -1,0 +1,102 @@
+#include "myoid/program/commands/review.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/ground/core/json_text.h"
+#include "myoid/page/json_values.h"
+#include "myoid/program/cli/context.h"
+#include "myoid/program/cli/say.h"
+#include "myoid/results/review_report.h"
+
+namespace myoid::program {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json score_json(const std::optional<fit::Score>& score) {
+  if (!score) return nullptr;
+  return {{"r2", score->r2()}, {"rmse_nm", score->rmse_nm()}};
+}
+
+ordered_json to_json(const run::SecondOpinion& opinion) {
+  ordered_json torques = ordered_json::array(), numbers = torques, strengths = torques;
+  for (const run::ReviewedTorque& t : opinion.torques)
+    torques.push_back({{"trial", t.trial},
+                       {"joint", t.joint},
+                       {"calibration", t.is_calibrating},
+                       {"theirs", score_json(t.theirs)},
+                       {"left_out", score_json(t.ours)}});
+  for (const run::ReviewedNumber& n : opinion.numbers)
+    numbers.push_back({{"muscle", n.muscle},
+                       {"muscles", n.lumped},
+                       {"parameter", n.parameter},
+                       {"unit", std::string(symbol(n.unit))},
+                       {"start", page::number_or_null(n.start)},
+                       {"calibrated", n.theirs},
+                       {"on_bound", n.on_bound},
+                       {"estimate", n.ours},
+                       {"ci_low", page::number_or_null(n.low)},
+                       {"ci_high", page::number_or_null(n.high)},
+                       {"verdict", std::string(fit::name(n.verdict))},
+                       {"standing", std::string(choice_name(n.standing))}});
+  for (const run::JointStrength& s : opinion.strengths)
+    strengths.push_back({{"joint", s.joint},
+                         {"direction", s.is_positive ? 1 : -1},
+                         {"strength_nm", s.all_nm},
+                         {"without_emg_nm", s.without_emg_nm},
+                         {"without_emg", s.without_emg}});
+  return {{"dialect", std::string(choice_name(opinion.project.dialect))},
+          {"subject", opinion.project.subject.string()},
+          {"joints", opinion.joints},
+          {"calibrated_numbers", opinion.unknowns},
+          {"on_bound", opinion.on_bound},
+          {"independent_rows", opinion.independent_rows},
+          {"torques", torques},
+          {"numbers", numbers},
+          {"strengths", strengths},
+          {"says", results::review_sentences(opinion)}};
+}
+
+std::string r2_text(const std::optional<fit::Score>& score) { return score ? fit::r2_text(score->r2()) : "-"; }
+
+void print(const run::SecondOpinion& opinion) {
+  for (const std::string& sentence : results::review_sentences(opinion)) say("{}\n", sentence);
+  say("\n{:<24} {:<20} {:<12} {:>9} {:>21}\n", "trial", "joint", "their use", "their R2", "Myoid's R2, left out");
+  for (const run::ReviewedTorque& t : opinion.torques)
+    say("{:<24} {:<20} {:<12} {:>9} {:>21}\n", in_column(t.trial), in_column(t.joint),
+        t.is_calibrating ? "calibration" : "other", r2_text(t.theirs), r2_text(t.ours));
+}
+
+}  // namespace
+
+void add_review(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand(
+      "review",
+      "A second opinion on a calibration by CEINMS, CEINMS-RT or NMSM: its torque by its own law, its numbers on "
+      "bounds "
+      "and without EMG, and the numbers that its recordings tell. Nothing is written into the project.\n"
+      "Example: myoid review ceinms_project --out opinion");
+  const auto o = std::make_shared<program::ReviewOptions>();
+  o->folder = "review";
+  command.add_option("project", o->project, "Folder, set-up or subject of the project")->required();
+  command.add_option("--joint", o->joints, "Joints to judge (default: those of the calibration)");
+  command.add_option("--out", o->folder, "Folder for report.html, tables, figures and study.toml")
+      ->capture_default_str();
+  add_common_options(command, context);
+  command.callback([&context, o] {
+    context.prepare_folder(o->folder);
+    o->call = context.call();
+    const program::ReviewResult result = program::review(*o);
+    context.end_progress();
+    program::write_review(result, o->folder);
+    if (context.json) {
+      say_whole(json_text(to_json(result.opinion)) + "\n");
+      return;
+    }
+    print(result.opinion);
+    say("{}/report.html\n", o->folder);
+  });
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,39 @@
+#include "myoid/program/commands/review.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/ground/core/error.h"
+#include "myoid/ground/files/atomic_file.h"
+#include "myoid/opensim/projects/read_project.h"
+#include "myoid/page/write_report.h"
+#include "myoid/program/commands/project_files.h"
+#include "myoid/results/review_report.h"
+#include "myoid/run/run_study.h"
+
+namespace myoid::program {
+
+ReviewResult review(const ReviewOptions& o) {
+  Remarks remarks(o.call);
+  refuse_inside(o.project, o.folder);
+  ProjectOfStudy of = project_of_study(o.project, o.joints, o.folder, remarks);
+  write_project_study(of.study, o.folder);
+  ReviewResult result;
+  run::StudyResult fitted = run::run_study(of.study.study, {.start_s = o.call.start_s,
+                                                            .end_s = o.call.end_s,
+                                                            .seed = o.call.seed,
+                                                            .progress = o.call.progress,
+                                                            .stage_ended = o.call.stage_ended,
+                                                            .share_forces = false,
+                                                            .inform_forces = false});
+  result.opinion = run::second_opinion(std::move(of.project), std::move(of.joints), std::move(fitted));
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_review(const ReviewResult& result, const std::filesystem::path& folder) {
+  page::write_report(results::review_report(result.opinion), folder);
+}
+
+}  // namespace myoid::program

@@ -1,0 +1,253 @@
+#include "myoid/run/review/second_opinion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "myoid/opensim/projects/ceinms_law.h"
+#include "myoid/recording/tables/series_file.h"
+#include "myoid/run/review/project_study.h"
+
+namespace myoid::run {
+namespace {
+
+using Eigen::Index;
+using opensim::MuscleQuantity;
+using opensim::Project;
+using opensim::ProjectDof;
+using opensim::ProjectMuscle;
+using opensim::ProjectNumber;
+using opensim::ProjectTrial;
+
+/// Seconds of movement that count as one sample (theory/identification.md).
+constexpr double kRow_s = 0.22;
+
+const ProjectNumber* number_of(const ProjectMuscle& muscle, MuscleQuantity quantity) {
+  const auto at = muscle.numbers.find(quantity);
+  return at == muscle.numbers.end() ? nullptr : &at->second;
+}
+
+double value_of(const ProjectMuscle& muscle, MuscleQuantity quantity, double absent) {
+  const ProjectNumber* number = number_of(muscle, quantity);
+  return number == nullptr ? absent : number->value;
+}
+
+double strength_of(const ProjectMuscle& muscle) {
+  return value_of(muscle, MuscleQuantity::max_isometric_force, 0.0) *
+         value_of(muscle, MuscleQuantity::strength_coefficient, 1.0);
+}
+
+/// The quantities of a project that are one parameter of a study: a product.
+struct Pairing {
+  const char* parameter;
+  std::vector<MuscleQuantity> quantities;
+  bool adds;  ///< Numbers of lumped muscles add; else they are averaged by strength.
+};
+const std::vector<Pairing>& pairings() {
+  static const std::vector<Pairing> all{
+      {"max_isometric_force", {MuscleQuantity::max_isometric_force, MuscleQuantity::strength_coefficient}, true},
+      {"optimal_fiber_length", {MuscleQuantity::optimal_fiber_length}, false},
+      {"tendon_slack_length", {MuscleQuantity::tendon_slack_length}, false},
+      {"max_shortening_speed", {MuscleQuantity::max_contraction_velocity, MuscleQuantity::optimal_fiber_length}, false},
+  };
+  return all;
+}
+
+/// A product of numbers over muscles that act as one.
+struct Combined {
+  double value = 0.0;
+  std::optional<double> start;
+  std::size_t on_bound = 0;
+};
+
+/// Returns the number of muscles that act as one; empty if a muscle lacks it.
+std::optional<Combined> combined(const std::vector<const ProjectMuscle*>& muscles, const Pairing& pairing) {
+  Combined sum;
+  double start = 0.0, weights = 0.0;
+  bool has_start = false;
+  for (const ProjectMuscle* muscle : muscles) {
+    double value = 1.0, before = 1.0;
+    bool on_bound = false;
+    for (const MuscleQuantity quantity : pairing.quantities) {
+      const ProjectNumber* number = number_of(*muscle, quantity);
+      if (number == nullptr && quantity == MuscleQuantity::strength_coefficient) continue;
+      if (number == nullptr) return std::nullopt;
+      value *= number->value;
+      before *= number->start.value_or(number->value);
+      has_start = has_start || number->start.has_value();
+      on_bound = on_bound || number->is_on_bound();
+    }
+    const double weight = pairing.adds ? 1.0 : std::max(strength_of(*muscle), 1e-9);
+    sum.value += weight * value;
+    start += weight * before;
+    weights += weight;
+    sum.on_bound += on_bound ? 1 : 0;
+  }
+  const double share = pairing.adds ? 1.0 : weights;
+  sum.value /= share;
+  if (has_start) sum.start = start / share;
+  return sum;
+}
+
+Standing standing_of(const fit::ParameterEstimate& e, double theirs) {
+  if (e.verdict == fit::Verdict::prior_dominated || e.verdict == fit::Verdict::not_identifiable ||
+      e.verdict == fit::Verdict::non_physical || !e.ci_low || !e.ci_high)
+    return Standing::untold;
+  return theirs >= *e.ci_low && theirs <= *e.ci_high ? Standing::agrees : Standing::differs;
+}
+
+std::vector<ReviewedNumber> numbers_of(const Project& project, const StudyResult& study) {
+  std::vector<ReviewedNumber> numbers;
+  const fit::IdentificationResult* method = torque_of(study.fit);
+  if (method == nullptr) return numbers;
+  for (const study::MuscleSpec& spec : study.source.study.muscles) {
+    std::vector<const ProjectMuscle*> muscles;
+    for (const std::string& name : muscles_of(spec))
+      if (const ProjectMuscle* muscle = project.find(name)) muscles.push_back(muscle);
+    for (const Pairing& pairing : pairings()) {
+      const auto e = std::ranges::find_if(method->estimates, [&](const fit::ParameterEstimate& each) {
+        return each.muscle == spec.name && each.parameter == pairing.parameter;
+      });
+      const std::optional<Combined> theirs = combined(muscles, pairing);
+      if (e == method->estimates.end() || !theirs || muscles.empty()) continue;
+      numbers.push_back({.muscle = spec.name,
+                         .lumped = muscles.size(),
+                         .parameter = pairing.parameter,
+                         .unit = e->unit,
+                         .theirs = theirs->value,
+                         .start = theirs->start,
+                         .on_bound = theirs->on_bound,
+                         .ours = e->estimate,
+                         .low = e->ci_low,
+                         .high = e->ci_high,
+                         .verdict = e->verdict,
+                         .standing = standing_of(*e, theirs->value)});
+    }
+  }
+  return numbers;
+}
+
+const ProjectTrial* trial_named(const Project& project, const std::string& name) {
+  const auto at = std::ranges::find(project.trials, name, &ProjectTrial::name);
+  return at == project.trials.end() ? nullptr : &*at;
+}
+
+/// Returns the muscles of a joint that the paths have, too.
+std::vector<std::string> muscles_of_joint(const Project& project, const std::string& joint, const TimeSeries& lengths) {
+  std::vector<std::string> names;
+  const auto dof = std::ranges::find(project.dofs, joint, &ProjectDof::name);
+  for (const ProjectMuscle& muscle : project.muscles) {
+    const bool acts = dof->muscles.empty() || std::ranges::find(dof->muscles, muscle.name) != dof->muscles.end();
+    if (acts && lengths.find(muscle.name)) names.push_back(muscle.name);
+  }
+  return names;
+}
+
+void add_their_torque(const Project& project,
+                      const ProjectTrial& source,
+                      const TrialResult& trial,
+                      ReviewedTorque& torque) {
+  const body::MuscleKinematics& paths = trial.forces.muscles;
+  const auto emg = std::ranges::find(source.files, opensim::TrialRole::emg, &opensim::TrialFile::role);
+  const auto arms = paths.moment_arm.find(torque.joint);
+  if (emg == source.files.end() || arms == paths.moment_arm.end()) return;
+  const std::vector<std::string> names = muscles_of_joint(project, torque.joint, paths.length);
+  const TimeSeries force =
+      opensim::forces_by_law(project, recording::read_series(emg->path).data, paths.length, names).force;
+  torque.theirs_nm = Eigen::VectorXd::Zero(torque.time_s.size());
+  for (const std::string& name : names) torque.theirs_nm += force.column(name).cwiseProduct(arms->second.column(name));
+  torque.theirs = fit::score(torque.measured_nm, torque.theirs_nm);
+}
+
+void add_our_torque(const std::vector<fit::Fold>& folds, ReviewedTorque& torque) {
+  const auto fold = std::ranges::find_if(
+      folds, [&](const fit::Fold& each) { return each.trial == torque.trial && each.joint == torque.joint; });
+  if (fold == folds.end()) return;
+  torque.ours_time_s = fold->time_s;
+  torque.ours_nm = fold->predicted_nm;
+  torque.ours = fold->identified;
+}
+
+std::vector<ReviewedTorque> torques_of(const SecondOpinion& opinion) {
+  std::vector<ReviewedTorque> torques;
+  for (const TrialResult& trial : opinion.study.trials) {
+    const ProjectTrial* source = trial_named(opinion.project, trial.spec.name);
+    if (source == nullptr || !trial.failure().empty()) continue;
+    for (const std::string& joint : opinion.joints) {
+      const auto column = trial.forces.muscle_torque.find(joint + "_moment");
+      if (!column) continue;
+      ReviewedTorque torque{.trial = trial.spec.name, .joint = joint, .is_calibrating = source->is_calibrating};
+      torque.time_s = trial.forces.muscle_torque.time_s();
+      torque.measured_nm = trial.forces.muscle_torque.values().col(*column);
+      if (opinion.no_law.empty()) add_their_torque(opinion.project, *source, trial, torque);
+      add_our_torque(opinion.study.folds, torque);
+      torques.push_back(std::move(torque));
+    }
+  }
+  return torques;
+}
+
+/// Returns the mean moment arm of a muscle over the first trial that has it [m]; 0: none.
+double mean_arm_m(const StudyResult& study, const std::string& joint, const std::string& muscle) {
+  for (const TrialResult& trial : study.trials) {
+    const auto arms = trial.forces.muscles.moment_arm.find(joint);
+    if (arms == trial.forces.muscles.moment_arm.end()) continue;
+    if (const auto column = arms->second.find(muscle)) return arms->second.values().col(*column).mean();
+  }
+  return 0.0;
+}
+
+std::vector<JointStrength> strengths_of(const SecondOpinion& opinion) {
+  std::vector<JointStrength> strengths;
+  if (!opinion.project.has_mapping || opinion.study.trials.empty()) return strengths;
+  for (const std::string& joint : opinion.joints) {
+    for (const bool positive : {true, false}) {
+      JointStrength strength{.joint = joint, .is_positive = positive};
+      std::vector<std::pair<double, std::string>> without;
+      for (const ProjectMuscle& muscle : opinion.project.muscles) {
+        const double torque = strength_of(muscle) * mean_arm_m(opinion.study, joint, muscle.name);
+        if (torque == 0.0 || (torque > 0.0) != positive) continue;
+        strength.all_nm += std::abs(torque);
+        if (muscle.inputs.empty()) without.emplace_back(std::abs(torque), muscle.name);
+      }
+      std::ranges::sort(without, std::ranges::greater{});
+      for (const auto& [torque, name] : without) {
+        strength.without_emg_nm += torque;
+        strength.without_emg.push_back(name);
+      }
+      if (strength.all_nm > 0.0) strengths.push_back(std::move(strength));
+    }
+  }
+  return strengths;
+}
+
+/// Returns the seconds of the trials that the calibration fitted.
+double calibrated_seconds(const Project& project) {
+  double seconds = 0.0;
+  for (const ProjectTrial& trial : project.trials) {
+    if (!trial.is_calibrating) continue;
+    const auto torques = std::ranges::find(trial.files, opensim::TrialRole::torques, &opensim::TrialFile::role);
+    const std::optional<Stretch> whole = torques == trial.files.end() ? std::nullopt : torques->time;
+    if (const std::optional<Stretch>& used = trial.used ? trial.used : whole) seconds += used->end_s - used->begin_s;
+  }
+  return seconds;
+}
+
+}  // namespace
+
+SecondOpinion second_opinion(Project project, std::vector<std::string> joints, StudyResult study) {
+  SecondOpinion opinion{.project = std::move(project), .study = std::move(study), .joints = std::move(joints)};
+  opinion.no_law = opensim::missing_of_law(opinion.project);
+  opinion.torques = torques_of(opinion);
+  opinion.numbers = numbers_of(opinion.project, opinion.study);
+  opinion.strengths = strengths_of(opinion);
+  for (std::size_t k = 0; k < std::size(opensim::kMuscleQuantityNames); ++k) {
+    const opensim::UnknownCount count = unknowns(opinion.project, static_cast<MuscleQuantity>(k));
+    opinion.unknowns += count.all;
+    opinion.on_bound += count.on_bound;
+  }
+  opinion.independent_rows = calibrated_seconds(opinion.project) / kRow_s * static_cast<double>(opinion.joints.size());
+  return opinion;
+}
+
+}  // namespace myoid::run
