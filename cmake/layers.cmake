@@ -8,8 +8,8 @@ set(MYOID_WING_body model osim arm kinematics dynamics forces simulation scene)
 set(MYOID_WING_fit beliefs measurement intervals posterior methods)
 set(MYOID_WING_opensim opensim projects)
 set(MYOID_WING_study phases study draft intake checks)
-set(MYOID_WING_run design run identify_files review)
-set(MYOID_WING_results results cohort mat realtime)
+set(MYOID_WING_run design run identify_files)
+set(MYOID_WING_results results review cohort mat realtime)
 set(MYOID_WING_lab virtual_person twin)
 set(MYOID_WING_program contents commands cli)
 set(MYOID_WINGS ground recording muscle page body fit opensim study run results lab program)
@@ -27,7 +27,7 @@ endforeach()
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation beliefs measurement intervals posterior methods page phases study intake checks
-    design run scene draft opensim projects contents identify_files review results virtual_person twin cohort
+    design run scene results draft opensim projects contents identify_files review virtual_person twin cohort
     realtime mat commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
@@ -62,12 +62,11 @@ set(MYOID_LAYER_run core math files tables signals model kinematics dynamics for
     measurement intervals methods page phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim page)
 set(MYOID_LAYER_results core math files muscle tables recording model kinematics forces simulation
-    measurement intervals methods page phases study projects design run review scene)
+    measurement intervals methods page phases study design run scene)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model projects)
 set(MYOID_LAYER_identify_files core files muscle tables measurement study)
-set(MYOID_LAYER_review core files tables model kinematics measurement intervals methods study intake projects
-    identify_files run)
+set(MYOID_LAYER_review core files tables intervals page study intake projects identify_files run results)
 set(MYOID_LAYER_opensim core math files tables recording signals model osim kinematics
     dynamics forces simulation)
 set(MYOID_LAYER_projects core math files tables osim opensim)
@@ -81,7 +80,7 @@ set(MYOID_LAYER_mat core files tables)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation measurement intervals methods page study checks design run scene
     results draft contents identify_files opensim projects review virtual_person twin cohort)
-set(MYOID_LAYER_cli core math files intervals methods page study projects review results contents cohort mat commands)
+set(MYOID_LAYER_cli core math files intervals methods page study review results contents cohort mat commands)
 
 # Rooms that compute little themselves: they read, write, judge and call the rooms below.
 set(MYOID_LIGHT_LAYERS osim arm beliefs page phases study intake checks design run scene results draft contents

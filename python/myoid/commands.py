@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 __all__ = [
-    "run", "identify", "predict", "check", "compare", "design", "emg", "ik", "id", "paths", "sweep", "so", "muscle",
+    "run", "identify", "predict", "check", "compare", "review", "design", "emg", "ik", "id", "paths", "sweep", "so", "muscle",
     "simulate", "twin", "twin_study", "run_tool", "scale", "info", "convert",
     "CheckResult", "CompareResult", "DesignResult", "EmgResult", "IkResult", "IdResult", "PathsResult", "SoResult",
     "SweepResult",
@@ -70,8 +70,9 @@ def run(study: File, *, out: File | None = None, mat: File | None = None, method
     return result
 
 
-def identify(*, muscles: File, activations: Files, lengths: Files, velocities: Files | None = None,
-             forces: Files | None = None, moment_arms: Files | None = None, torques: Files | None = None,
+def identify(*, from_: File | None = None, muscles: File | None = None, activations: Files | None = None,
+             lengths: Files | None = None, velocities: Files | None = None, forces: Files | None = None,
+             moment_arms: Files | None = None, torques: Files | None = None,
              coordinate: Texts | None = None, motion: Files | None = None, lowpass: float | None = None,
              method: str | None = None, delay: float | None = None, lag: str | None = None,
              free: Texts | None = None, hold: Texts | None = None, beliefs: File | None = None,
@@ -83,6 +84,7 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
 
     Args:
+        from_: Project of CEINMS, CEINMS-RT or NMSM, in place of muscles.csv and all files.
         muscles: muscles.csv, the muscles and their starting values, SI.
         activations: Activations, 0 to 1, in columns by muscle; one file per trial.
         lengths: Musculotendon lengths [m]; one file per trial.
@@ -108,6 +110,8 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         out: Folder of the results; None: a temporary folder.
         mat: Parameters, series and draws also as one MATLAB file, which ends in .mat.
     """
+    if from_ is None and (muscles is None or activations is None or lengths is None):
+        raise TypeError("identify() needs muscles, activations and lengths, or from_")
     options = locals()
     folder = _Folder(out)
     return Result._of(folder, call("identify", {**options, "out": folder.path}))
@@ -194,6 +198,42 @@ def compare(first: File | Result, second: File | Result, *, out: File | None = N
     found = call("compare", options)
     found["parameters"] = Table(found["parameters"])
     return CompareResult(**found)
+
+
+@dataclass(eq=False)
+class ReviewResult:
+    """A second opinion on a calibration of another program.
+
+    Attributes:
+        torques: A row for each joint and trial: R2 and error of the calibrated subject by its own law, and of a fit of
+            the same files without this trial.
+        numbers: A row for each number of the muscles: start, calibrated, estimate with 95 % interval, verdict, and
+            standing: agrees, differs, untold.
+        strengths: A row for each joint and direction: strength, and the part of muscles without EMG [N m].
+        says: What the review finds, in sentences.
+    """
+
+    torques: Table
+    numbers: Table
+    strengths: Table
+    says: list[str]
+    remarks: list[Remark] = field(default_factory=list)
+
+
+def review(project: File, *, out: File, joint: Texts | None = None, overwrite: bool = False,
+           seed: int | None = None, start: float | None = None, end: float | None = None,
+           threads: int | None = None, progress: Report = None) -> ReviewResult:  # fmt: skip
+    """A second opinion on a calibration by CEINMS, CEINMS-RT or NMSM, from the project's own files.
+
+    Args:
+        project: Folder, set-up or subject of the project. Nothing is written into it.
+        out: Folder for report.html, tables, figures and study.toml.
+        joint: Joints to judge; default: those of the calibration.
+    """
+    found = call("review", locals())
+    for name in ("torques", "numbers", "strengths"):
+        found[name] = Table(found[name])
+    return ReviewResult(**found)
 
 
 @dataclass(eq=False)

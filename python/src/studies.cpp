@@ -12,8 +12,10 @@
 #include "myoid/program/commands/design.h"
 #include "myoid/program/commands/identify.h"
 #include "myoid/program/commands/predict.h"
+#include "myoid/program/commands/review.h"
 #include "myoid/program/commands/run.h"
 #include "myoid/results/mat/results_mat.h"
+#include "myoid/results/review/review_report.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -122,6 +124,7 @@ class KeywordReader : public study::FlatSettingVisitor {
   bool met(const study::Setting& setting, const study::SettingValue& /*now*/, const Set& set) override {
     std::string name(setting.key);
     for (char& c : name) c = c == '-' ? '_' : c;
+    if (name == "from") name = "from_";  // a word of the language
     const char* const key = name.c_str();
     if (!keywords_->object(key)) return false;
     study::SettingValue given = value(setting, key);
@@ -167,6 +170,7 @@ py::dict identify(py::dict given) {
   const program::IdentifyResult done = work.run([&] {
     prepare_mat(mat, o.muscles.string(), overwrite);
     ResultOut folder(out, o.call, overwrite);
+    o.folder = out;
     protect_files(out, program::kIdentifyFiles, {o.muscles.string()});
     program::IdentifyResult r = program::identify(o);
     program::write_identify(r, out);
@@ -227,6 +231,75 @@ py::dict compare(py::dict given) {
   d["parameters"] = rows;
   d["unlike"] = result.comparison.unlike;
   d["notes"] = result.comparison.remarks;
+  d["remarks"] = to_python(result.remarks);
+  return d;
+}
+
+py::object score_of(const std::optional<fit::Score>& score, double (fit::Score::*value)() const) {
+  return score ? py::object(py::float_(((*score).*value)())) : py::object(py::none());
+}
+
+py::dict review(py::dict given) {
+  Keywords k("review", std::move(given));
+  Work work(k);
+  program::ReviewOptions o;
+  bool overwrite = false;
+  k.take("project", o.project);
+  k.take("joint", o.joints);
+  k.take("out", o.folder);
+  k.take("overwrite", overwrite);
+  k.refuse_others();
+  o.call = work.call();
+  const program::ReviewResult result = work.run([&] {
+    ResultOut folder(o.folder, o.call, overwrite);
+    program::ReviewResult r = program::review(o);
+    program::write_review(r, o.folder);
+    folder.finish();
+    return r;
+  });
+  const results::SecondOpinion& opinion = result.opinion;
+  py::list torques, numbers, strengths;
+  for (const results::ReviewedTorque& t : opinion.torques) {
+    py::dict d;
+    d["trial"] = t.trial;
+    d["joint"] = t.joint;
+    d["calibration"] = t.is_calibrating;
+    d["their_r2"] = score_of(t.theirs, &fit::Score::r2);
+    d["their_rmse_nm"] = score_of(t.theirs, &fit::Score::rmse_nm);
+    d["left_out_r2"] = score_of(t.ours, &fit::Score::r2);
+    d["left_out_rmse_nm"] = score_of(t.ours, &fit::Score::rmse_nm);
+    torques.append(d);
+  }
+  for (const results::ReviewedNumber& n : opinion.numbers) {
+    py::dict d;
+    d["muscle"] = n.muscle;
+    d["muscles"] = n.lumped;
+    d["parameter"] = n.ours.parameter;
+    d["unit"] = std::string(symbol(n.ours.unit));
+    d["start"] = optional(n.start);
+    d["calibrated"] = n.theirs;
+    d["on_bound"] = n.on_bound;
+    d["estimate"] = n.ours.estimate;
+    d["ci_low"] = optional(n.ours.ci_low);
+    d["ci_high"] = optional(n.ours.ci_high);
+    d["verdict"] = std::string(fit::name(n.ours.verdict));
+    d["standing"] = std::string(choice_name(n.standing));
+    numbers.append(d);
+  }
+  for (const results::JointStrength& s : opinion.strengths) {
+    py::dict d;
+    d["joint"] = s.joint;
+    d["direction"] = s.is_positive ? 1 : -1;
+    d["strength_nm"] = s.all_nm;
+    d["without_emg_nm"] = s.without_emg_nm;
+    d["without_emg"] = s.without_emg;
+    strengths.append(d);
+  }
+  py::dict d;
+  d["torques"] = torques;
+  d["numbers"] = numbers;
+  d["strengths"] = strengths;
+  d["says"] = results::review_sentences(opinion);
   d["remarks"] = to_python(result.remarks);
   return d;
 }
@@ -340,6 +413,7 @@ void bind_studies(py::module_& module) {
   module.def("identify", &identify);
   module.def("predict", &predict);
   module.def("compare", &compare);
+  module.def("review", &review);
   module.def("design", &design);
 }
 

@@ -10,6 +10,13 @@
 
 namespace myoid::program {
 
+namespace {
+
+/// The files without which there is nothing to identify, unless a project has them.
+constexpr const char* kFilesOfTrials[] = {"--muscles", "--activations", "--lengths"};
+
+}  // namespace
+
 void add_identify(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand(
       "identify",
@@ -19,6 +26,7 @@ void add_identify(CLI::App& app, Context& context) {
   program::IdentifyOptions defaults;
   OptionDeclarer declarer(command);
   visit(defaults, declarer);
+  for (const char* option : kFilesOfTrials) command.get_option(option)->required(false);  // --from has them
   for (const char* option : {"--free", "--hold"}) command.get_option(option)->delimiter(',');
   const auto out = std::make_shared<std::string>();
   command.add_option("--out", *out, "Folder of the results")->required();
@@ -29,6 +37,9 @@ void add_identify(CLI::App& app, Context& context) {
     program::IdentifyOptions o;
     OptionReader reader(command);
     visit(o, reader);
+    for (const char* option : kFilesOfTrials)
+      if (o.from.empty() && command.get_option(option)->count() == 0) throw CLI::RequiredError(option);
+    o.folder = *out;
     mat.prepare(context, {o.muscles.string()});
     context.prepare_folder(*out);
     protect_files(*out, program::kIdentifyFiles, {o.muscles.string()});

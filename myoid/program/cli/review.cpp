@@ -7,7 +7,7 @@
 #include "myoid/page/json_values.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/say.h"
-#include "myoid/results/review_report.h"
+#include "myoid/results/review/review_report.h"
 
 namespace myoid::program {
 namespace {
@@ -19,28 +19,28 @@ ordered_json score_json(const std::optional<fit::Score>& score) {
   return {{"r2", score->r2()}, {"rmse_nm", score->rmse_nm()}};
 }
 
-ordered_json to_json(const run::SecondOpinion& opinion) {
+ordered_json to_json(const results::SecondOpinion& opinion) {
   ordered_json torques = ordered_json::array(), numbers = torques, strengths = torques;
-  for (const run::ReviewedTorque& t : opinion.torques)
+  for (const results::ReviewedTorque& t : opinion.torques)
     torques.push_back({{"trial", t.trial},
                        {"joint", t.joint},
                        {"calibration", t.is_calibrating},
                        {"theirs", score_json(t.theirs)},
                        {"left_out", score_json(t.ours)}});
-  for (const run::ReviewedNumber& n : opinion.numbers)
+  for (const results::ReviewedNumber& n : opinion.numbers)
     numbers.push_back({{"muscle", n.muscle},
                        {"muscles", n.lumped},
-                       {"parameter", n.parameter},
-                       {"unit", std::string(symbol(n.unit))},
+                       {"parameter", n.ours.parameter},
+                       {"unit", std::string(symbol(n.ours.unit))},
                        {"start", page::number_or_null(n.start)},
                        {"calibrated", n.theirs},
                        {"on_bound", n.on_bound},
-                       {"estimate", n.ours},
-                       {"ci_low", page::number_or_null(n.low)},
-                       {"ci_high", page::number_or_null(n.high)},
-                       {"verdict", std::string(fit::name(n.verdict))},
+                       {"estimate", n.ours.estimate},
+                       {"ci_low", page::number_or_null(n.ours.ci_low)},
+                       {"ci_high", page::number_or_null(n.ours.ci_high)},
+                       {"verdict", std::string(fit::name(n.ours.verdict))},
                        {"standing", std::string(choice_name(n.standing))}});
-  for (const run::JointStrength& s : opinion.strengths)
+  for (const results::JointStrength& s : opinion.strengths)
     strengths.push_back({{"joint", s.joint},
                          {"direction", s.is_positive ? 1 : -1},
                          {"strength_nm", s.all_nm},
@@ -60,10 +60,10 @@ ordered_json to_json(const run::SecondOpinion& opinion) {
 
 std::string r2_text(const std::optional<fit::Score>& score) { return score ? fit::r2_text(score->r2()) : "-"; }
 
-void print(const run::SecondOpinion& opinion) {
+void print(const results::SecondOpinion& opinion) {
   for (const std::string& sentence : results::review_sentences(opinion)) say("{}\n", sentence);
   say("\n{:<24} {:<20} {:<12} {:>9} {:>21}\n", "trial", "joint", "their use", "their R2", "Myoid's R2, left out");
-  for (const run::ReviewedTorque& t : opinion.torques)
+  for (const results::ReviewedTorque& t : opinion.torques)
     say("{:<24} {:<20} {:<12} {:>9} {:>21}\n", in_column(t.trial), in_column(t.joint),
         t.is_calibrating ? "calibration" : "other", r2_text(t.theirs), r2_text(t.ours));
 }

@@ -4,21 +4,20 @@
 #include <string>
 #include <utility>
 
+#include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/commands/identify_study.h"
+#include "myoid/program/commands/project_files.h"
 #include "myoid/study/study_text.h"
 
 namespace myoid::program {
 
-IdentifyResult identify(const IdentifyOptions& o) {
-  check_values(o);
-  Remarks remarks(o.call);
-  const run::MuscleTable table = run::read_muscles_csv(o.muscles, o.method != fit::Method::paper);
-  refuse_impossible(o, table);
-  for (const std::string& text : without_effect(o)) remarks.warn(text);
-  for (const std::string& note : table.notes) remarks.warn(note);
-  IdentifyResult result{.study = identify_study(o, table, remarks), .run = {}};
+namespace {
+
+/// Runs the study, and puts the remarks before those of the run.
+IdentifyResult run_of(study::Study study, const IdentifyOptions& o, Remarks& remarks) {
+  IdentifyResult result{.study = std::move(study), .run = {}};
   RunOptions options;
   options.call = o.call;
   options.call.start_s = options.call.end_s = std::nullopt;  // they are the trials' now
@@ -30,6 +29,28 @@ IdentifyResult identify(const IdentifyOptions& o) {
   all.insert(all.end(), result.run.remarks.begin(), result.run.remarks.end());
   result.run.remarks = std::move(all);
   return result;
+}
+
+IdentifyResult identify_project(const IdentifyOptions& o, Remarks& remarks) {
+  if (o.method != fit::Method::torque) throw InvalidInput("--from: a project holds torques; use --method torque");
+  refuse_inside(o.from, o.folder);
+  ProjectOfStudy of = project_of_study(o.from, o.files.coordinates, o.folder, remarks);
+  of.study.study = with_choices(std::move(of.study.study), o);
+  write_project_study(of.study, o.folder);
+  return run_of(std::move(of.study.study), o, remarks);
+}
+
+}  // namespace
+
+IdentifyResult identify(const IdentifyOptions& o) {
+  check_values(o);
+  Remarks remarks(o.call);
+  if (!o.from.empty()) return identify_project(o, remarks);
+  const run::MuscleTable table = run::read_muscles_csv(o.muscles, o.method != fit::Method::paper);
+  refuse_impossible(o, table);
+  for (const std::string& text : without_effect(o)) remarks.warn(text);
+  for (const std::string& note : table.notes) remarks.warn(note);
+  return run_of(identify_study(o, table, remarks), o, remarks);
 }
 
 void write_identify(IdentifyResult& result, const std::filesystem::path& folder) {

@@ -50,6 +50,10 @@ class ValueCheck : public study::FlatSettingVisitor {
 };
 
 void visit_files(IdentifyOptions& o, study::SettingVisitor& v) {
+  v.text("from", o.from,
+         {.says = "[Project of CEINMS, CEINMS-RT or NMSM](review.md#going-on) in place of muscles.csv and all files; "
+                  "`--coordinate` names its joints.",
+          .otherwise = "none"});
   v.path("muscles", o.muscles,
          {.says = "[muscles.csv](#musclescsv): the muscles and their starting values, SI.", .required = "muscles.csv"});
   v.texts("activations", o.files.activations,

@@ -16,6 +16,8 @@ namespace myoid::program {
 /// Options of the identification of muscle parameters from files. `visit` explains each option.
 struct IdentifyOptions {
   Call call;
+  std::string from;    ///< Project of another program, in place of muscles.csv and all files.
+  std::string folder;  ///< Of the results; of a project alone.
   std::filesystem::path muscles;
   run::IdentifySources files;
   fit::Method method = fit::Method::torque;

@@ -56,7 +56,7 @@ std::vector<study::TrialSpec> trials_of(const IdentifyOptions& o) {
   return trials;
 }
 
-/// Returns the rules in the order in which later ones win: shared scales, muscles.csv, the options.
+/// Returns the rules in the order in which later ones win: shared scales, muscles.csv.
 std::vector<ParameterRule> rules_of(const IdentifyOptions& o, const run::MuscleTable& table, Remarks& remarks) {
   std::vector<ParameterRule> rules;
   if (o.method == fit::Method::torque && !o.own_scales) {
@@ -66,8 +66,6 @@ std::vector<ParameterRule> rules_of(const IdentifyOptions& o, const run::MuscleT
   }
   const std::vector<ParameterRule> of_table = run::parameter_rules(table);
   rules.insert(rules.end(), of_table.begin(), of_table.end());
-  for (const std::string& name : o.free_more) rules.push_back(free_or_held(name, true));
-  for (const std::string& name : o.hold) rules.push_back(free_or_held(name, false));
   return rules;
 }
 
@@ -84,18 +82,20 @@ bool frees_lags(const IdentifyOptions& o, const std::vector<ParameterRule>& rule
   return frees;
 }
 
-study::IdentifySpec fit_of(const IdentifyOptions& o) {
-  study::IdentifySpec fit;
+/// Sets the choices of the fit that files and projects share.
+void choose_fit(const IdentifyOptions& o, study::Study& study) {
+  study::IdentifySpec& fit = study.identify;
   fit.methods = {o.method};
   fit.posterior_draws = o.posterior_draws;
   fit.cross_validate = o.folds.has_value();
-  fit.folds = o.folds.value_or(fit.folds);
+  if (o.folds) fit.folds = *o.folds;
   fit.starts = o.starts;
   fit.compare_solvers = o.compare_solvers;
-  fit.next_movements = 0;
-  fit.elastic_tendon = false;
   if (o.lag) fit.lag = *o.lag;
-  return fit;
+  study.emg.delay_s = o.delay_s;
+  if (o.beliefs && o.method != fit::Method::paper) study.beliefs = study::read_beliefs(*o.beliefs);
+  for (const std::string& name : o.free_more) study.parameters.push_back(free_or_held(name, true));
+  for (const std::string& name : o.hold) study.parameters.push_back(free_or_held(name, false));
 }
 
 }  // namespace
@@ -113,18 +113,24 @@ study::Study identify_study(const IdentifyOptions& o, const run::MuscleTable& ta
   study.motion.cutoff_hz = o.files.motion_cutoff_hz.value_or(study.motion.cutoff_hz);
   study.emg.kind = study::EmgKind::activation;
   study.emg.has_mvc = false;
-  study.emg.delay_s = o.delay_s;
   study.phases.search = false;
-  if (o.beliefs && o.method != fit::Method::paper) study.beliefs = study::read_beliefs(*o.beliefs);
-  study.identify = fit_of(o);
+  study.identify.next_movements = 0;
+  study.identify.elastic_tendon = false;
   study.muscles = run::muscle_specs(table);
   study.parameters = rules_of(o, table, remarks);
+  study.trials = trials_of(o);
+  choose_fit(o, study);
   study.identify.dynamics = frees_lags(o, study.parameters);
   if (study.identify.dynamics)
     remarks.warn(
         "the lags of equation (1) are to be identified: the activations given are taken for excitations that pass "
         "them, and the delay is the time that is left beside them");
-  study.trials = trials_of(o);
+  study::restrict_trials(study, o.call.start_s, o.call.end_s);
+  return study;
+}
+
+study::Study with_choices(study::Study study, const IdentifyOptions& o) {
+  choose_fit(o, study);
   study::restrict_trials(study, o.call.start_s, o.call.end_s);
   return study;
 }

@@ -15,6 +15,9 @@ namespace myoid::program {
                                           const run::MuscleTable& table,
                                           Remarks& remarks);
 
+/// Returns a project's study (results/review/project_study.h) with the choices of the fit and the times of `identify`.
+[[nodiscard]] study::Study with_choices(study::Study study, const IdentifyOptions& options);
+
 /// Returns the study with its paths relative to the folder, for a study.toml there.
 [[nodiscard]] study::Study seen_from(const std::filesystem::path& folder, study::Study study);
 

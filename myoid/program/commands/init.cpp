@@ -1,9 +1,37 @@
 #include "myoid/program/commands/init.h"
 
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/result_record.h"
+#include "myoid/opensim/projects/read_project.h"
+#include "myoid/program/commands/project_files.h"
 
 namespace myoid::program {
+
+namespace {
+
+/// Returns the study of a project as a draft; empty if there is no project.
+std::optional<InitResult> draft_of_project(const InitOptions& o, Remarks& remarks) {
+  if (o.from.size() != 1 || !opensim::read_project(o.from.front())) return std::nullopt;
+  refuse_inside(o.from.front(), o.folder);
+  std::vector<std::string> joints;
+  if (!o.coordinate.empty()) joints.push_back(o.coordinate);
+  ProjectOfStudy of = project_of_study(o.from.front(), joints, o.folder, remarks);
+  if (!o.model.empty()) of.study.study.model.file = o.model;
+  InitResult result;
+  result.draft.todo = {"a maximal contraction of each muscle, as a trial with use = \"mvc\", would tell F_max"};
+  result.draft.toml =
+      fmt::format("# The project {} as a study. Next: myoid run study.toml --out results\n# TODO: {}\n\n{}",
+                  o.from.front(), result.draft.todo.front(), project_toml(of.study, o.folder));
+  result.mixed = std::move(of.study.mixed);
+  return result;
+}
+
+}  // namespace
 
 InitResult init(const InitOptions& o) {
   study::DraftOptions options;
@@ -12,6 +40,10 @@ InitResult init(const InitOptions& o) {
   if (!o.model.empty()) options.model = o.model;
   options.coordinate = o.coordinate;
   Remarks remarks(o.call);
+  if (std::optional<InitResult> project = draft_of_project(o, remarks)) {
+    project->remarks = remarks.list();
+    return *std::move(project);
+  }
   InitResult result;
   result.draft = study::draft_study(o.folder, options);
   for (const std::string& note : result.draft.notes) remarks.note(note);
@@ -21,6 +53,7 @@ InitResult init(const InitOptions& o) {
 
 void write_init(const InitResult& result, const std::filesystem::path& path, const Call& call) {
   RecordedFolder held(path.parent_path(), "init");
+  write_mixed(result.mixed);
   write_file(path, result.draft.toml);
   held.finish();
   Remarks remarks(call);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "myoid/program/commands/call.h"
+#include "myoid/results/review/project_study.h"
 #include "myoid/study/draft/study_draft.h"
 
 namespace myoid::program {
@@ -12,14 +13,16 @@ namespace myoid::program {
 /// Options of the draft of a study.toml.
 struct InitOptions {
   Call call;
-  std::string folder;             ///< Folder of study.toml: paths are relative to it.
-  std::vector<std::string> from;  ///< Recordings, or their folders; empty: the folder itself.
-  std::string model;              ///< .osim; empty: the only one in the folders, else arm4.
-  std::string coordinate;         ///< The joint; empty: guessed.
+  std::string folder;  ///< Folder of study.toml: paths are relative to it.
+  /// Recordings, or their folders, or the project of another program; empty: the folder itself.
+  std::vector<std::string> from;
+  std::string model;       ///< .osim; empty: the only one in the folders, else arm4.
+  std::string coordinate;  ///< The joint; empty: guessed.
 };
 
 struct InitResult {
   study::StudyDraft draft;
+  std::vector<results::ProjectStudy::MixedEmg> mixed;  ///< EMG of a project's muscles that take several channels.
   std::vector<Remark> remarks;
 };
 

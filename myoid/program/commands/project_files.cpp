@@ -28,8 +28,8 @@ ProjectOfStudy project_of_study(const std::string& path,
                     path));
   for (const Remark& remark : project->remarks) remarks.add(remark);
   ProjectOfStudy of{.project = std::move(*project), .joints = joints, .study = {}};
-  if (of.joints.empty()) of.joints = run::reviewed_joints(of.project);
-  of.study = run::study_of_project(of.project, of.joints, folder);
+  if (of.joints.empty()) of.joints = results::reviewed_joints(of.project);
+  of.study = results::study_of_project(of.project, of.joints, folder);
   for (const Remark& remark : of.study.remarks) remarks.add(remark);
   return of;
 }
@@ -43,14 +43,20 @@ void refuse_inside(const std::filesystem::path& project, const std::filesystem::
         fmt::format("{} lies in the project, which stays as it is; name another folder by --out", folder.string()));
 }
 
-void write_project_study(const run::ProjectStudy& study, const std::filesystem::path& folder) {
-  for (const run::ProjectStudy::MixedEmg& mixed : study.mixed) {
-    std::filesystem::create_directories(mixed.file.parent_path());
-    recording::write_storage(mixed.file, mixed.emg, {.title = "EMG envelopes of a project, mixed"});
+std::string project_toml(const results::ProjectStudy& study, const std::filesystem::path& folder) {
+  return study::study_toml(seen_from(folder, study.study));
+}
+
+void write_mixed(const std::vector<results::ProjectStudy::MixedEmg>& mixed) {
+  for (const results::ProjectStudy::MixedEmg& each : mixed) {
+    std::filesystem::create_directories(each.file.parent_path());
+    recording::write_storage(each.file, each.emg, {.title = "EMG envelopes of a project, mixed"});
   }
-  study::Study own = seen_from(folder, study.study);
-  const std::string text = study::study_toml(own);
-  write_file(folder / own.file, text);
+}
+
+void write_project_study(const results::ProjectStudy& study, const std::filesystem::path& folder) {
+  write_mixed(study.mixed);
+  write_file(folder / "study.toml", project_toml(study, folder));
 }
 
 }  // namespace myoid::program

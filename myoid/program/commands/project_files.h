@@ -6,7 +6,7 @@
 
 #include "myoid/opensim/projects/project.h"
 #include "myoid/program/commands/call.h"
-#include "myoid/run/review/project_study.h"
+#include "myoid/results/review/project_study.h"
 
 namespace myoid::program {
 
@@ -14,7 +14,7 @@ namespace myoid::program {
 struct ProjectOfStudy {
   opensim::Project project;
   std::vector<std::string> joints;
-  run::ProjectStudy study;
+  results::ProjectStudy study;
 };
 
 /// Reads a project and makes the study of these joints, or of those of its calibration. Throws InvalidInput if the path
@@ -27,7 +27,13 @@ struct ProjectOfStudy {
 /// Throws InvalidInput if the folder of results lies in the project's.
 void refuse_inside(const std::filesystem::path& project, const std::filesystem::path& folder);
 
-/// Writes study.toml into the folder, with paths as seen from there, and the mixed EMG that the study names.
-void write_project_study(const run::ProjectStudy& study, const std::filesystem::path& folder);
+/// Returns the study as study.toml of this folder.
+[[nodiscard]] std::string project_toml(const results::ProjectStudy& study, const std::filesystem::path& folder);
+
+/// Writes the EMG of muscles that take several channels.
+void write_mixed(const std::vector<results::ProjectStudy::MixedEmg>& mixed);
+
+/// Writes study.toml into the folder, and the mixed EMG that the study names.
+void write_project_study(const results::ProjectStudy& study, const std::filesystem::path& folder);
 
 }  // namespace myoid::program

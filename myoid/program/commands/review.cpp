@@ -9,7 +9,7 @@
 #include "myoid/opensim/projects/read_project.h"
 #include "myoid/page/write_report.h"
 #include "myoid/program/commands/project_files.h"
-#include "myoid/results/review_report.h"
+#include "myoid/results/review/review_report.h"
 #include "myoid/run/run_study.h"
 
 namespace myoid::program {
@@ -27,7 +27,7 @@ ReviewResult review(const ReviewOptions& o) {
                                                             .stage_ended = o.call.stage_ended,
                                                             .share_forces = false,
                                                             .inform_forces = false});
-  result.opinion = run::second_opinion(std::move(of.project), std::move(of.joints), std::move(fitted));
+  result.opinion = results::second_opinion(std::move(of.project), std::move(of.joints), std::move(fitted));
   result.remarks = remarks.list();
   return result;
 }

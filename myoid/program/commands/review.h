@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "myoid/program/commands/call.h"
-#include "myoid/run/review/second_opinion.h"
+#include "myoid/results/review/second_opinion.h"
 
 namespace myoid::program {
 
@@ -18,7 +18,7 @@ struct ReviewOptions {
 };
 
 struct ReviewResult {
-  run::SecondOpinion opinion;
+  results::SecondOpinion opinion;
   std::vector<Remark> remarks;
 };
 

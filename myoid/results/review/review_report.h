@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "myoid/page/report.h"
-#include "myoid/run/review/second_opinion.h"
+#include "myoid/results/review/second_opinion.h"
 
 namespace myoid::results {
 
 /// Returns what the review finds, in sentences, the gravest first.
-[[nodiscard]] std::vector<std::string> review_sentences(const run::SecondOpinion& opinion);
+[[nodiscard]] std::vector<std::string> review_sentences(const SecondOpinion& opinion);
 
 /// Returns the review as a report: the findings, torques by joint and trial, their numbers beside the recording's, the
 /// strength without EMG, bounds, and the next recording.
-[[nodiscard]] page::Report review_report(const run::SecondOpinion& opinion);
+[[nodiscard]] page::Report review_report(const SecondOpinion& opinion);
 
 }  // namespace myoid::results

@@ -14,7 +14,7 @@
 #include "myoid/opensim/projects/project.h"
 #include "myoid/run/study_result.h"
 
-namespace myoid::run {
+namespace myoid::results {
 
 /// How a number of a calibration stands to the recording.
 enum class Standing {
@@ -29,14 +29,10 @@ constexpr ChoiceNames choice_names(Standing) { return kStandingNames; }
 struct ReviewedNumber {
   std::string muscle;      ///< As the study names it.
   std::size_t lumped = 1;  ///< Muscles of the project for which it stands: forces add, lengths are means by force.
-  std::string parameter;   ///< As in parameters.csv.
-  Unit unit = Unit::dimensionless;
   double theirs = 0.0;
   std::optional<double> start;  ///< Before the calibration.
   std::size_t on_bound = 0;     ///< Of the lumped muscles, those whose number lies on a bound.
-  double ours = 0.0;
-  std::optional<double> low, high;  ///< 95 % interval of the person.
-  fit::Verdict verdict = fit::Verdict::not_identifiable;
+  fit::ParameterEstimate ours;  ///< With the interval of the person.
   Standing standing = Standing::untold;
 };
 
@@ -63,7 +59,7 @@ struct JointStrength {
 /// A calibration of another program, judged with its own files.
 struct SecondOpinion {
   opensim::Project project;
-  StudyResult study;  ///< The fit of the same trials.
+  run::StudyResult study;  ///< The fit of the same trials.
   std::vector<std::string> joints;
   std::vector<ReviewedTorque> torques;
   std::vector<ReviewedNumber> numbers;
@@ -78,6 +74,6 @@ struct SecondOpinion {
 /// without EMG passive.
 [[nodiscard]] SecondOpinion second_opinion(opensim::Project project,
                                            std::vector<std::string> joints,
-                                           StudyResult study);
+                                           run::StudyResult study);
 
-}  // namespace myoid::run
+}  // namespace myoid::results

@@ -1,4 +1,4 @@
-#include "myoid/run/review/project_study.h"
+#include "myoid/results/review/project_study.h"
 
 #include <algorithm>
 #include <map>
@@ -13,7 +13,7 @@
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/run/identify_files/electrode_ties.h"
 
-namespace myoid::run {
+namespace myoid::results {
 namespace {
 
 using opensim::MuscleQuantity;
@@ -159,7 +159,7 @@ class StudyMaker {
       setup.name = muscle.name;
       setup.emg_channel = muscle.emg;
     }
-    result_.study.parameters = electrode_ties(muscles).rules;
+    result_.study.parameters = run::electrode_ties(muscles).rules;
   }
 
   static std::map<std::string, double> starts_of(const ProjectMuscle& muscle) {
@@ -169,9 +169,8 @@ class StudyMaker {
       return at->second.start.value_or(at->second.value);
     };
     std::map<std::string, double> starts;
-    const double strength = start(MuscleQuantity::strength_coefficient).value_or(1.0);
-    if (const auto force = start(MuscleQuantity::max_isometric_force))
-      starts["max_isometric_force"] = *force * strength;
+    // Without the coefficient, by which a calibration fits the person: the prior is about the model's muscle.
+    if (const auto force = start(MuscleQuantity::max_isometric_force)) starts["max_isometric_force"] = *force;
     const auto length = start(MuscleQuantity::optimal_fiber_length);
     if (length) starts["optimal_fiber_length"] = *length;
     if (const auto slack = start(MuscleQuantity::tendon_slack_length)) starts["tendon_slack_length"] = *slack;
@@ -268,4 +267,4 @@ std::vector<std::string> muscles_of(const study::MuscleSpec& muscle) {
   return muscle.osim.empty() ? std::vector{muscle.name} : muscle.osim;
 }
 
-}  // namespace myoid::run
+}  // namespace myoid::results

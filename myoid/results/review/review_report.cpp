@@ -1,4 +1,4 @@
-#include "myoid/results/review_report.h"
+#include "myoid/results/review/review_report.h"
 
 #include <algorithm>
 #include <optional>
@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/ground/core/counted.h"
-#include "myoid/ground/math/statistics.h"
 #include "myoid/page/muscle_names.h"
 #include "myoid/page/plain_unit.h"
 #include "myoid/page/typeset.h"
@@ -20,12 +18,9 @@ namespace {
 
 using page::Badge;
 using page::Table;
-using run::ReviewedNumber;
-using run::ReviewedTorque;
-using run::SecondOpinion;
-using run::Standing;
 
 constexpr double kMuch = 0.1;                ///< Share of a joint's strength without EMG that a finding names.
+constexpr double kShown_s = 30.0;            ///< Of a long trial; the table of the figure has all.
 constexpr std::size_t kNamed = 6;            ///< Muscles that a sentence names.
 constexpr double kGood = 0.75, kFair = 0.5;  ///< R2.
 
@@ -99,13 +94,13 @@ std::string numbers_sentence(const SecondOpinion& opinion) {
       count(Standing::differs));
 }
 
-std::string direction(const run::JointStrength& strength) {
+std::string direction(const JointStrength& strength) {
   return fmt::format("{} ({} direction)", joint_name(strength.joint), strength.is_positive ? "positive" : "negative");
 }
 
 std::string strength_sentence(const SecondOpinion& opinion) {
   std::vector<std::string> parts;
-  for (const run::JointStrength& s : opinion.strengths) {
+  for (const JointStrength& s : opinion.strengths) {
     if (s.without_emg_nm < kMuch * s.all_nm) continue;
     parts.push_back(fmt::format("{:.0f} % of the strength of {} has no EMG: nothing is told about {}.",
                                 100.0 * s.without_emg_nm / s.all_nm, direction(s), first_names(s.without_emg)));
@@ -148,13 +143,15 @@ Table torque_table(const SecondOpinion& opinion) {
 }
 
 page::Figure torque_figure(const SecondOpinion& opinion) {
-  page::Figure figure{
-      .id = "review_torques",
-      .title = "Measured and predicted torque",
-      .caption = "Blue: measured. Grey: by the calibrated subject. Green: by Myoid's fit without this trial.",
-      .most_on_page = 6};
+  page::Figure figure{.id = "review_torques",
+                      .title = "Measured and predicted torque",
+                      .caption =
+                          "Blue: measured. Grey: by the calibrated subject. Green: by Myoid's fit without this trial. "
+                          "Of longer trials the first 30 s.",
+                      .most_on_page = 6};
   for (const ReviewedTorque& t : opinion.torques) {
     page::Panel panel = page::time_panel(t.trial + ", " + joint_name(t.joint), "torque", "N m");
+    if (t.time_s.size() > 0 && t.time_s(t.time_s.size() - 1) - t.time_s(0) > kShown_s) panel.x.upper = kShown_s;
     const double begin = t.time_s.size() > 0 ? t.time_s(0) : 0.0;
     const auto from_begin = [&](const Eigen::VectorXd& time) { return page::to_vector(time.array() - begin); };
     panel.series.push_back({.name = "measured", .x = from_begin(t.time_s), .y = page::to_vector(t.measured_nm)});
@@ -194,10 +191,10 @@ Table number_table(const SecondOpinion& opinion) {
               .columns = {"muscle", "number", "unit", "start", "calibrated", "on a bound", "Myoid", "95 % interval",
                           "verdict", "their number"}};
   for (const ReviewedNumber& n : opinion.numbers) {
-    const page::PlainUnit unit = page::plain_unit(n.unit);
+    const page::PlainUnit unit = page::plain_unit(n.ours.unit);
     const auto shown = [&](double x) { return page::format_value(x * unit.per_si); };
     table.rows.push_back({{page::plain_muscle_and_name(n.muscle)},
-                          {page::spelled(n.parameter)},
+                          {page::spelled(n.ours.parameter)},
                           {unit.symbol.empty() ? "–" : std::string(unit.symbol)},
                           {n.start ? shown(*n.start) : "–"},
                           {shown(n.theirs)},
@@ -205,9 +202,11 @@ Table number_table(const SecondOpinion& opinion) {
                            : n.lumped == 1 ? "yes"
                                            : fmt::format("{} of {}", n.on_bound, n.lumped),
                            n.on_bound > 0 ? Badge::weak : Badge::none},
-                          {shown(n.ours)},
-                          {n.low && n.high ? page::format_interval(*n.low * unit.per_si, *n.high * unit.per_si) : "–"},
-                          {page::spelled(fit::name(n.verdict))},
+                          {shown(n.ours.estimate)},
+                          {n.ours.ci_low && n.ours.ci_high
+                               ? page::format_interval(*n.ours.ci_low * unit.per_si, *n.ours.ci_high * unit.per_si)
+                               : "–"},
+                          {page::spelled(fit::name(n.ours.verdict))},
                           {standing_text(n), n.standing == Standing::agrees    ? Badge::good
                                              : n.standing == Standing::differs ? Badge::bad
                                                                                : Badge::weak}});
@@ -220,7 +219,7 @@ Table strength_table(const SecondOpinion& opinion) {
               .title = "Strength without EMG",
               .caption = "Maximal force times mean moment arm, summed. Such muscles are passive in the calibration.",
               .columns = {"joint", "strength [N m]", "without EMG [N m]", "share", "muscles, strongest first"}};
-  for (const run::JointStrength& s : opinion.strengths) {
+  for (const JointStrength& s : opinion.strengths) {
     const double share = s.without_emg_nm / s.all_nm;
     table.rows.push_back({{direction(s)},
                           {page::format_value(s.all_nm)},
@@ -251,7 +250,7 @@ std::string next_text(const SecondOpinion& opinion) {
   if (text.empty())
     text = "Record a maximal contraction of each muscle, and slow and fast movements through the whole range.";
   std::vector<std::string> without;
-  for (const run::JointStrength& s : opinion.strengths)
+  for (const JointStrength& s : opinion.strengths)
     if (s.without_emg_nm >= kMuch * s.all_nm) without.push_back(s.without_emg.front());
   if (!without.empty()) text += fmt::format(" An electrode on {} would tell most.", fmt::join(without, ", "));
   return text;

@@ -9,7 +9,7 @@
 #include "myoid/opensim/projects/project.h"
 #include "myoid/study/study.h"
 
-namespace myoid::run {
+namespace myoid::results {
 
 /// The joints of a project, and its muscles that have EMG, as a study.
 struct ProjectStudy {
@@ -40,4 +40,4 @@ struct ProjectStudy {
 /// Returns the muscles of the project that a muscle of its study stands for.
 [[nodiscard]] std::vector<std::string> muscles_of(const study::MuscleSpec& muscle);
 
-}  // namespace myoid::run
+}  // namespace myoid::results

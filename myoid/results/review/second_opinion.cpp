@@ -1,14 +1,17 @@
-#include "myoid/run/review/second_opinion.h"
+#include "myoid/results/review/second_opinion.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <utility>
 
 #include "myoid/opensim/projects/ceinms_law.h"
 #include "myoid/recording/tables/series_file.h"
-#include "myoid/run/review/project_study.h"
+#include "myoid/results/review/project_study.h"
+#include "myoid/study/intake/given_stages.h"
 
-namespace myoid::run {
+namespace myoid::results {
 namespace {
 
 using Eigen::Index;
@@ -96,9 +99,9 @@ Standing standing_of(const fit::ParameterEstimate& e, double theirs) {
   return theirs >= *e.ci_low && theirs <= *e.ci_high ? Standing::agrees : Standing::differs;
 }
 
-std::vector<ReviewedNumber> numbers_of(const Project& project, const StudyResult& study) {
+std::vector<ReviewedNumber> numbers_of(const Project& project, const run::StudyResult& study) {
   std::vector<ReviewedNumber> numbers;
-  const fit::IdentificationResult* method = torque_of(study.fit);
+  const fit::IdentificationResult* method = run::torque_of(study.fit);
   if (method == nullptr) return numbers;
   for (const study::MuscleSpec& spec : study.source.study.muscles) {
     std::vector<const ProjectMuscle*> muscles;
@@ -112,15 +115,10 @@ std::vector<ReviewedNumber> numbers_of(const Project& project, const StudyResult
       if (e == method->estimates.end() || !theirs || muscles.empty()) continue;
       numbers.push_back({.muscle = spec.name,
                          .lumped = muscles.size(),
-                         .parameter = pairing.parameter,
-                         .unit = e->unit,
                          .theirs = theirs->value,
                          .start = theirs->start,
                          .on_bound = theirs->on_bound,
-                         .ours = e->estimate,
-                         .low = e->ci_low,
-                         .high = e->ci_high,
-                         .verdict = e->verdict,
+                         .ours = *e,
                          .standing = standing_of(*e, theirs->value)});
     }
   }
@@ -132,30 +130,52 @@ const ProjectTrial* trial_named(const Project& project, const std::string& name)
   return at == project.trials.end() ? nullptr : &*at;
 }
 
+/// Lengths and moment arms of all muscles about one joint, on the clock of its torque. A study without a model has the
+/// paths of its own muscles only; the project's files have those without EMG, too.
+struct JointPaths {
+  TimeSeries length, arm;  ///< Empty: unknown.
+};
+
+TimeSeries on_clock(const std::filesystem::path& file, const Eigen::VectorXd& time_s) {
+  const TimeSeries whole = recording::read_series(file).data;
+  return {time_s, whole.channels(), study::values_at(whole, time_s)};
+}
+
+JointPaths paths_of(const run::TrialResult& trial, const SecondOpinion& opinion, const std::string& joint) {
+  const study::GivenSpec& given = trial.spec.given;
+  if (given.lengths) {
+    const Eigen::VectorXd& time_s = trial.forces.muscle_torque.time_s();
+    const auto at = static_cast<std::size_t>(std::ranges::find(opinion.joints, joint) - opinion.joints.begin());
+    if (at >= given.moment_arms.size()) return {};
+    return {on_clock(*given.lengths, time_s), on_clock(given.moment_arms[at], time_s)};
+  }
+  const auto arm = trial.forces.muscles.moment_arm.find(joint);
+  if (arm == trial.forces.muscles.moment_arm.end()) return {};
+  return {trial.forces.muscles.length, arm->second};
+}
+
 /// Returns the muscles of a joint that the paths have, too.
-std::vector<std::string> muscles_of_joint(const Project& project, const std::string& joint, const TimeSeries& lengths) {
+std::vector<std::string> muscles_of_joint(const Project& project, const std::string& joint, const JointPaths& paths) {
   std::vector<std::string> names;
   const auto dof = std::ranges::find(project.dofs, joint, &ProjectDof::name);
   for (const ProjectMuscle& muscle : project.muscles) {
     const bool acts = dof->muscles.empty() || std::ranges::find(dof->muscles, muscle.name) != dof->muscles.end();
-    if (acts && lengths.find(muscle.name)) names.push_back(muscle.name);
+    if (acts && paths.length.find(muscle.name) && paths.arm.find(muscle.name)) names.push_back(muscle.name);
   }
   return names;
 }
 
 void add_their_torque(const Project& project,
                       const ProjectTrial& source,
-                      const TrialResult& trial,
+                      const JointPaths& paths,
                       ReviewedTorque& torque) {
-  const body::MuscleKinematics& paths = trial.forces.muscles;
   const auto emg = std::ranges::find(source.files, opensim::TrialRole::emg, &opensim::TrialFile::role);
-  const auto arms = paths.moment_arm.find(torque.joint);
-  if (emg == source.files.end() || arms == paths.moment_arm.end()) return;
-  const std::vector<std::string> names = muscles_of_joint(project, torque.joint, paths.length);
+  const std::vector<std::string> names = muscles_of_joint(project, torque.joint, paths);
+  if (emg == source.files.end() || names.empty()) return;
   const TimeSeries force =
       opensim::forces_by_law(project, recording::read_series(emg->path).data, paths.length, names).force;
   torque.theirs_nm = Eigen::VectorXd::Zero(torque.time_s.size());
-  for (const std::string& name : names) torque.theirs_nm += force.column(name).cwiseProduct(arms->second.column(name));
+  for (const std::string& name : names) torque.theirs_nm += force.column(name).cwiseProduct(paths.arm.column(name));
   torque.theirs = fit::score(torque.measured_nm, torque.theirs_nm);
 }
 
@@ -170,7 +190,7 @@ void add_our_torque(const std::vector<fit::Fold>& folds, ReviewedTorque& torque)
 
 std::vector<ReviewedTorque> torques_of(const SecondOpinion& opinion) {
   std::vector<ReviewedTorque> torques;
-  for (const TrialResult& trial : opinion.study.trials) {
+  for (const run::TrialResult& trial : opinion.study.trials) {
     const ProjectTrial* source = trial_named(opinion.project, trial.spec.name);
     if (source == nullptr || !trial.failure().empty()) continue;
     for (const std::string& joint : opinion.joints) {
@@ -179,7 +199,7 @@ std::vector<ReviewedTorque> torques_of(const SecondOpinion& opinion) {
       ReviewedTorque torque{.trial = trial.spec.name, .joint = joint, .is_calibrating = source->is_calibrating};
       torque.time_s = trial.forces.muscle_torque.time_s();
       torque.measured_nm = trial.forces.muscle_torque.values().col(*column);
-      if (opinion.no_law.empty()) add_their_torque(opinion.project, *source, trial, torque);
+      if (opinion.no_law.empty()) add_their_torque(opinion.project, *source, paths_of(trial, opinion, joint), torque);
       add_our_torque(opinion.study.folds, torque);
       torques.push_back(std::move(torque));
     }
@@ -187,25 +207,30 @@ std::vector<ReviewedTorque> torques_of(const SecondOpinion& opinion) {
   return torques;
 }
 
-/// Returns the mean moment arm of a muscle over the first trial that has it [m]; 0: none.
-double mean_arm_m(const StudyResult& study, const std::string& joint, const std::string& muscle) {
-  for (const TrialResult& trial : study.trials) {
-    const auto arms = trial.forces.muscles.moment_arm.find(joint);
-    if (arms == trial.forces.muscles.moment_arm.end()) continue;
-    if (const auto column = arms->second.find(muscle)) return arms->second.values().col(*column).mean();
+/// Returns the mean moment arm of each muscle over the first trial that has paths [m].
+std::map<std::string, double> mean_arms_m(const SecondOpinion& opinion, const std::string& joint) {
+  std::map<std::string, double> arms;
+  for (const run::TrialResult& trial : opinion.study.trials) {
+    if (!trial.failure().empty()) continue;
+    const JointPaths paths = paths_of(trial, opinion, joint);
+    for (const std::string& name : muscles_of_joint(opinion.project, joint, paths))
+      arms.try_emplace(name, paths.arm.column(name).mean());
+    if (!arms.empty()) break;
   }
-  return 0.0;
+  return arms;
 }
 
 std::vector<JointStrength> strengths_of(const SecondOpinion& opinion) {
   std::vector<JointStrength> strengths;
   if (!opinion.project.has_mapping || opinion.study.trials.empty()) return strengths;
   for (const std::string& joint : opinion.joints) {
+    const std::map<std::string, double> arms = mean_arms_m(opinion, joint);
     for (const bool positive : {true, false}) {
       JointStrength strength{.joint = joint, .is_positive = positive};
       std::vector<std::pair<double, std::string>> without;
       for (const ProjectMuscle& muscle : opinion.project.muscles) {
-        const double torque = strength_of(muscle) * mean_arm_m(opinion.study, joint, muscle.name);
+        const auto arm = arms.find(muscle.name);
+        const double torque = arm == arms.end() ? 0.0 : strength_of(muscle) * arm->second;
         if (torque == 0.0 || (torque > 0.0) != positive) continue;
         strength.all_nm += std::abs(torque);
         if (muscle.inputs.empty()) without.emplace_back(std::abs(torque), muscle.name);
@@ -235,7 +260,7 @@ double calibrated_seconds(const Project& project) {
 
 }  // namespace
 
-SecondOpinion second_opinion(Project project, std::vector<std::string> joints, StudyResult study) {
+SecondOpinion second_opinion(Project project, std::vector<std::string> joints, run::StudyResult study) {
   SecondOpinion opinion{.project = std::move(project), .study = std::move(study), .joints = std::move(joints)};
   opinion.no_law = opensim::missing_of_law(opinion.project);
   opinion.torques = torques_of(opinion);
@@ -250,4 +275,4 @@ SecondOpinion second_opinion(Project project, std::vector<std::string> joints, S
   return opinion;
 }
 
-}  // namespace myoid::run
+}  // namespace myoid::results
