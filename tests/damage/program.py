@@ -10,7 +10,7 @@ import tempfile
 import time
 from pathlib import Path
 
-WALL = 900  # seconds
+WALL = 3600  # seconds: of a process that waits; processor time has a limit of its own
 GIGABYTE = 1 << 30
 MEMORY = 4 * GIGABYTE  # of a run of a program with sanitizers, which reserves terabytes of addresses
 ENVIRONMENT = {**os.environ, "NO_COLOR": "1", "UBSAN_OPTIONS": "halt_on_error=1:exitcode=99:print_stacktrace=1",

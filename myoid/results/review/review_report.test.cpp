@@ -57,7 +57,8 @@ TEST(ReviewReport, MarksWhatPredictsAndWhatDoesNot) {
 }
 
 TEST(ReviewReport, ShowsNumbersInTheUnitsOfPeople) {
-  const std::vector<page::Cell>& row = table(review_report(opinion()), "numbers").rows.at(0);
+  const page::Report report = review_report(opinion());
+  const std::vector<page::Cell>& row = table(report, "numbers").rows.at(0);
   EXPECT_EQ(row.at(2).text, "cm");
   EXPECT_EQ(row.at(4).text, "5");
   EXPECT_EQ(row.at(7).text, "3.80 to 4.20");
