@@ -22,6 +22,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   RunOptions options;
   options.call = o.call;
   options.call.start_s = options.call.end_s = std::nullopt;  // they are the trials' now
+  options.exports = o.exports;
   result.run = run(result.study, options);
   if (o.beliefs && o.method != fit::Method::paper)
     result.run.provenance.inputs.push_back({o.beliefs->string(), sha256(read_text_file(*o.beliefs))});
