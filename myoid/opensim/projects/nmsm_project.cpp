@@ -13,6 +13,7 @@
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/opensim/projects/calibration_plan.h"
+#include "myoid/opensim/projects/model_parts.h"
 #include "myoid/opensim/projects/osimx_file.h"
 #include "myoid/opensim/projects/project_xml.h"
 #include "myoid/opensim/projects/trial_files.h"
@@ -23,32 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Quantity = MuscleQuantity;
 using body::OsimXml;
-
-/// The parts of a model that these projects use.
-struct ModelParts {
-  std::vector<ProjectMuscle> muscles;                      ///< Lengths and forces.
-  std::map<std::string, std::vector<std::string>> groups;  ///< Muscles of an ObjectGroup.
-};
-
-ModelParts read_model_parts(const fs::path& path) {
-  OsimXml xml(read_text_file(path), path);
-  const pugi::xml_node model = xml.root().child("Model");
-  const pugi::xml_node defaults = body::either_child(xml.root(), "defaults", "none");
-  xml.set_prototypes(defaults ? defaults : model.child("defaults"));
-  ModelParts parts;
-  const pugi::xml_node set = model.child("ForceSet");
-  for (const pugi::xml_node object : OsimXml::objects(set)) {
-    ProjectMuscle muscle{OsimXml::name_of(object), {}, {}};
-    for (const OsimxNumber& number : osimx_numbers())
-      if (number.is_length || number.quantity == Quantity::max_isometric_force)
-        if (const auto value = finite_number(xml, object, number.element))
-          muscle.numbers[number.quantity].value = *value;
-    if (muscle.numbers.contains(Quantity::optimal_fiber_length)) parts.muscles.push_back(std::move(muscle));
-  }
-  for (const pugi::xml_node group : set.child("groups").children("ObjectGroup"))
-    parts.groups[OsimXml::name_of(group)] = xml.words(group, "members");
-  return parts;
-}
 
 /// A project while it is read.
 class NmsmReader {

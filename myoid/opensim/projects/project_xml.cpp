@@ -69,10 +69,14 @@ void note_unknown_elements(const body::OsimXml& xml,
   }
 }
 
-void note_reading(std::vector<Remark>& remarks, const std::filesystem::path& path, std::string says) {
+void note_reading(std::vector<Remark>& remarks,
+                  const std::filesystem::path& path,
+                  std::string says,
+                  std::string about) {
   remarks.push_back({.code = RemarkCode::reading,
                      .severity = Severity::note,
                      .where = path.filename().string(),
+                     .about = std::move(about),
                      .says = std::move(says)});
 }
 

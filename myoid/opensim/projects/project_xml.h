@@ -39,6 +39,9 @@ void note_unknown_elements(const body::OsimXml& xml,
                            std::vector<Remark>& remarks);
 
 /// Adds a remark on how a file was read.
-void note_reading(std::vector<Remark>& remarks, const std::filesystem::path& path, std::string says);
+void note_reading(std::vector<Remark>& remarks,
+                  const std::filesystem::path& path,
+                  std::string says,
+                  std::string about = {});
 
 }  // namespace myoid::opensim
