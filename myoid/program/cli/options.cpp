@@ -95,11 +95,12 @@ void add_video_options(CLI::App& command, study::VideoChoice& video) {
   command.add_option("--video-offset", video.offset_s, "When these films begin, in seconds of the motion (default 0)");
 }
 
-void add_export_option(CLI::App& command, std::vector<results::ExportFormat>& formats) {
-  command
+CLI::Option* add_export_option(CLI::App& command, std::vector<results::ExportFormat>& formats) {
+  return command
       .add_option("--export", formats,
                   "Muscles for other programs: ceinms, ceinms-rt, osimx; osim, the identified model, is always written")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->transform(one_of<results::ExportFormat>());
 }
 

@@ -42,7 +42,7 @@ class OptionReader : public study::FlatSettingVisitor {
 void add_truth_option(CLI::App& command, std::vector<std::string>& settings);
 
 /// Adds --export: forms for other programs, separated by commas.
-void add_export_option(CLI::App& command, std::vector<results::ExportFormat>& formats);
+CLI::Option* add_export_option(CLI::App& command, std::vector<results::ExportFormat>& formats);
 
 /// Adds --video and --video-offset: films that the report shows beside the model.
 void add_video_options(CLI::App& command, study::VideoChoice& video);

@@ -121,6 +121,7 @@ class Exporter {
       project.model = std::filesystem::absolute(*file).lexically_normal();
     share_numbers();
     match_muscles();
+    if (is(ExportFormat::ceinms_rt)) share_delay();
     if (!is(ExportFormat::osimx)) set_law(project);
     set_muscles(project);
     set_dofs(project);
@@ -194,6 +195,16 @@ class Exporter {
       }
       theirs_.push_back(theirs);
     }
+  }
+
+  /// Gives all muscles the mean delay, weighted by F_max: CEINMS-RT has one for all.
+  void share_delay() {
+    double sum = 0.0, weights = 0.0;
+    for (std::size_t m = 0; m < theirs_.size(); ++m) {
+      sum += fit_.values.muscles[m][fit::kMaxForce] * theirs_[m].ceinms.delay_s;
+      weights += fit_.values.muscles[m][fit::kMaxForce];
+    }
+    for (ForeignMuscle& each : theirs_) each.ceinms.delay_s = sum / weights;
   }
 
   /// Returns the model's muscles that a muscle of the fit stands for; empty without a model.
@@ -399,7 +410,7 @@ class Exporter {
     if (is(ExportFormat::ceinms))
       note("run it with <tendon><{}/></tendon> and <activation><exponential/></activation>", exported_.project->tendon);
     if (is(ExportFormat::ceinms_rt))
-      note("run it with a stiff tendon; the delay of {:.1f} ms stands in no subject, but in the set-up",
+      note("run it with a stiff tendon, and with a delay of {:.1f} ms, which stands in no subject",
            1e3 * theirs_.front().ceinms.delay_s);
     if (!is(ExportFormat::osimx) && has_lags) note("c1 and c2 hold for EMG of {:.5g} Hz", rate_hz_);
     if (is(ExportFormat::osimx)) note("its pennation angles and v_max are those of the model and of the settings");
