@@ -13,6 +13,7 @@
 #include "myoid/opensim/projects/project_xml.h"
 #include "myoid/opensim/projects/subject_words.h"
 
+#include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::opensim {
@@ -113,6 +114,28 @@ TEST(SubjectWriter, RefusesANameWithBlanks) {
   Project project = every_number(Dialect::ceinms);
   project.muscles[0].name = "vas r";
   EXPECT_THROW((void)ceinms_subject_text(project), InvalidInput);
+}
+
+TEST(SubjectWriter, WritesRealSubjectsAgainWithTheSameValues) {
+  const std::filesystem::path data = test::data_folder() / "ceinms-rt-leg";
+  MYOID_REQUIRE_DATA(data);
+  const test::TemporaryFolder folder;
+  for (const char* name : {"subjectCalibrated.xml", "subjectUncalibrated.xml"}) {
+    const CeinmsSubject real = read_ceinms_subject(data / name);
+    const CeinmsSubject again = written(folder, project_of(real));
+    ASSERT_EQ(again.muscles.size(), real.muscles.size());
+    for (std::size_t m = 0; m < real.muscles.size(); ++m) {
+      EXPECT_EQ(again.muscles[m].name, real.muscles[m].name);
+      EXPECT_EQ(again.muscles[m].inputs.size(), real.muscles[m].inputs.size());
+      ASSERT_EQ(again.muscles[m].numbers.size(), real.muscles[m].numbers.size());
+      for (const auto& [quantity, number] : real.muscles[m].numbers)
+        EXPECT_NEAR(again.muscles[m].numbers.at(quantity).value, number.value, 1e-15 * std::abs(number.value));
+    }
+    ASSERT_EQ(again.dofs.size(), real.dofs.size());
+    for (std::size_t d = 0; d < real.dofs.size(); ++d) EXPECT_EQ(again.dofs[d].muscles, real.dofs[d].muscles);
+    ASSERT_EQ(again.curves.size(), real.curves.size());
+    for (std::size_t c = 0; c < real.curves.size(); ++c) EXPECT_EQ(again.curves[c].y, real.curves[c].y);
+  }
 }
 
 // In the file a delay is ten times, a time constant a hundred times its value in seconds.
