@@ -255,7 +255,7 @@ class MrsReader {
         if (k >= list.names.size()) continue;
         if (trial.name.empty()) trial.name = fs::path(last_part(list.names[k])).stem().string();
         const NamedFile found = folder_.find(script_, list.names[k]);
-        trial.files.push_back({.role = list.role, .path = found.path, .exists = found.exists});
+        trial.files.push_back({.role = list.role, .path = found.path.lexically_normal(), .exists = found.exists});
       }
       if (time != nullptr && !time->numbers.empty()) {
         const std::vector<double>& row = time->numbers[std::min(k, time->numbers.size() - 1)];

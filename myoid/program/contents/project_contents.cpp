@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/ground/core/names.h"
 #include "myoid/ground/core/remark.h"
 #include "myoid/opensim/projects/read_project.h"
 
@@ -63,16 +64,18 @@ void tell_trials(const Project& project, ordered_json& j) {
       told["from_s"] = trial.used->begin_s;
       told["to_s"] = trial.used->end_s;
     }
+    std::vector<std::string> not_read;
     for (const opensim::TrialFile& file : trial.files) {
       if (file.role != opensim::TrialRole::emg && file.role != opensim::TrialRole::torques) continue;
       const std::string role(choice_name(file.role));
       if (!file.time) {
-        told["not_read"].push_back(role);
+        not_read.push_back(role);
         continue;
       }
       told[role + "_duration_s"] = file.time->end_s - file.time->begin_s;
       told[role + "_rate_hz"] = file.rate_hz;
     }
+    if (!not_read.empty()) told["not_read"] = name_list(not_read);
     j["trials"].push_back(std::move(told));
   }
 }

@@ -54,7 +54,7 @@ TEST(ProjectContents, TellACutTableAndTheWeightsOfAHybridRun) {
              "id\nversion=1\nnRows=9\nnColumns=2\ninDegrees=no\nendheader\ntime\tknee\n0\t1\n0.1\t2\n");
   const nlohmann::ordered_json contents = project_contents(folder.path()).value();
   EXPECT_EQ(contents.at("hybrid").at("gamma"), 3.0);
-  EXPECT_EQ(contents.at("trials").at(0).at("not_read").at(0), "emg");
+  EXPECT_EQ(contents.at("trials").at(0).at("not_read"), "emg");
   EXPECT_EQ(contents.at("notes").size(), 2U);  // of the EMG, whose header is cut, and of the torques, with 2 rows of 9
 }
 
