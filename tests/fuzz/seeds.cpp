@@ -10,6 +10,7 @@
 #include "myoid/ground/files/byte_source.h"
 #include "myoid/recording/c3d/c3d_writer.h"
 
+#include "fuzz.h"
 #include "info_kinds.h"
 
 namespace {
