@@ -9,7 +9,7 @@ set(MYOID_WING_fit beliefs measurement intervals posterior methods)
 set(MYOID_WING_opensim opensim projects)
 set(MYOID_WING_study phases study draft intake checks)
 set(MYOID_WING_run design run identify_files)
-set(MYOID_WING_results results review cohort mat realtime)
+set(MYOID_WING_results results review exports cohort mat realtime)
 set(MYOID_WING_lab virtual_person twin)
 set(MYOID_WING_program contents commands cli)
 set(MYOID_WINGS ground recording muscle page body fit opensim study run results lab program)
@@ -27,7 +27,7 @@ endforeach()
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation beliefs measurement intervals posterior methods page phases study intake checks
-    design run scene results draft opensim projects contents identify_files review virtual_person twin cohort
+    design run scene opensim projects exports results draft contents identify_files review virtual_person twin cohort
     realtime mat commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
@@ -61,8 +61,9 @@ set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs measurem
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
     measurement intervals methods page phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim page)
+set(MYOID_LAYER_exports core files muscle osim measurement intervals study run projects)
 set(MYOID_LAYER_results core math files muscle tables recording model kinematics forces simulation
-    measurement intervals methods page phases study design run scene)
+    measurement intervals methods page phases study design run scene exports)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model projects)
 set(MYOID_LAYER_identify_files core files muscle tables measurement study)
@@ -79,12 +80,12 @@ set(MYOID_LAYER_realtime core files measurement kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation measurement intervals methods page study checks design run scene
-    results draft contents identify_files opensim projects review virtual_person twin cohort)
-set(MYOID_LAYER_cli core math files intervals methods page study review results contents cohort mat commands)
+    exports results draft contents identify_files opensim projects review virtual_person twin cohort)
+set(MYOID_LAYER_cli core math files intervals methods page study exports review results contents cohort mat commands)
 
 # Rooms that compute little themselves: they read, write, judge and call the rooms below.
-set(MYOID_LIGHT_LAYERS osim arm beliefs page phases study intake checks design run scene results draft contents
-    identify_files opensim projects review twin cohort mat commands cli)
+set(MYOID_LIGHT_LAYERS osim arm beliefs page phases study intake checks design run scene exports results draft
+    contents identify_files opensim projects review twin cohort mat commands cli)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [TESTS_TOGETHER] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp

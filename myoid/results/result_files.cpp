@@ -12,22 +12,19 @@
 #include "myoid/page/json_values.h"
 #include "myoid/page/tables.h"
 #include "myoid/recording/tables/storage_writer.h"
+#include "myoid/results/exports/identified_osim.h"
 #include "myoid/results/methods_text.h"
 #include "myoid/results/paper_tables.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/prediction_files.h"
 #include "myoid/results/stage_files.h"
-#include "myoid/run/effort_prior.h"
-#include "myoid/run/quality_gates.h"
 #include "myoid/run/study_emg.h"
 #include "myoid/study/study_ids.h"
-#include "myoid/study/study_model.h"
 
 namespace myoid::results {
 namespace {
 
 using fit::IdentificationResult;
-using fit::ParameterEstimate;
 using nlohmann::ordered_json;
 
 /// Returns reference, literature and identified force of every muscle, on the clock of the motion.
@@ -67,31 +64,6 @@ void write_informed_forces(const run::StudyResult& result,
   recording::write_storage(folder / "EmgInformed_activation.sto",
                            {forces.time_s, std::move(activations), forces.activation},
                            {.title = "Activations informed by the EMG", .comments = comments});
-}
-
-/// Writes only numbers that are `identified`, and F_max only if EMG is relative to an MVC. Writes
-/// no model if the motion failed its gates or no number changes.
-void write_identified_model(const run::StudyResult& result, const std::filesystem::path& folder) {
-  if (result.source.study.model.is_none() || run::motion_is_unreliable(result.source.study, result.trials)) return;
-  const IdentificationResult* torque = run::torque_of(result.fit);
-  if (torque == nullptr) return;
-  const study::Study& study = result.source.study;
-  const bool from_mvc = run::from_maximal_effort(study.emg);
-  bool any = false;
-  std::vector<study::IdentifiedMuscle> muscles;
-  for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
-    const fit::MuscleSetup& setup = result.fit_input.data.muscles[m];
-    study::IdentifiedMuscle muscle{setup.name, setup.start, torque->muscles[m], {}};
-    for (const ParameterEstimate& e : torque->estimates) {
-      const bool sure = e.verdict == fit::Verdict::identified && (from_mvc || e.parameter != "max_isometric_force");
-      if (e.muscle == muscle.group && sure) muscle.changed.push_back(e.parameter);
-    }
-    any = any || !muscle.changed.empty();
-    muscles.push_back(std::move(muscle));
-  }
-  if (!any) return;
-  write_file(folder / study::identified_model_name(study),
-             study::identified_model(study, result.source.model_text, muscles));
 }
 
 ordered_json fault_json(const Remark& fault) {

@@ -89,25 +89,6 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
   EXPECT_TRUE(std::filesystem::exists(out / "parameters.json"));
 }
 
-TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
-  const ExactRun& run = ExactRun::get();
-  const auto out = run.folder / "some";
-  StudyResult none = run.result;
-  for (auto& method : none.fit.methods) {
-    for (auto& e : method.estimates) e.verdict = fit::Verdict::weak;
-  }
-  StudyResult one = none;
-  for (auto& e : one.fit.methods[1].estimates) {
-    if (e.muscle == "BIC" && e.parameter == "optimal_fiber_length") e.verdict = fit::Verdict::identified;
-  }
-  results::write_results(one, {}, out);
-  EXPECT_TRUE(std::filesystem::exists(out / (one.source.study.model.file->stem().string() + "_identified.osim")));
-  results::write_results(none, {}, run.folder / "none");
-  EXPECT_TRUE(std::filesystem::exists(run.folder / "none" / "parameters.csv"));
-  for (const auto& entry : std::filesystem::directory_iterator(run.folder / "none"))
-    EXPECT_FALSE(entry.path().string().ends_with("_identified.osim")) << entry.path();
-}
-
 TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   const StudyResult& result = ExactRun::get().result;
   study::IdentifiedMuscle muscle{

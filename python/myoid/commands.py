@@ -48,9 +48,9 @@ Report = Union[Progress, bool, None]
 
 
 def run(study: File, *, out: File | None = None, mat: File | None = None, method: Texts | None = None,
-        video: Texts | None = None, video_offset: float | None = None, threads: int | None = None,
-        seed: int | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
-        progress: Report = None) -> Result:  # fmt: skip
+        export: Texts | None = None, video: Texts | None = None, video_offset: float | None = None,
+        threads: int | None = None, seed: int | None = None, start: float | None = None, end: float | None = None,
+        overwrite: bool = False, progress: Report = None) -> Result:  # fmt: skip
     """The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.
 
     Args:
@@ -58,6 +58,7 @@ def run(study: File, *, out: File | None = None, mat: File | None = None, method
         out: Folder of the results; None: a temporary folder that lives as long as the result (`Result.save` copies it).
         mat: Parameters, series, remarks and draws also as one MATLAB file, which ends in .mat.
         method: "torque", "force", "paper"; several, in place of the study's.
+        export: Muscles for other programs: "ceinms", "ceinms-rt", "osimx"; several.
         video: Films that the report shows beside the model, each "TRIAL=FILE".
         video_offset: When these films begin, in seconds of the motion.
     """
@@ -78,9 +79,9 @@ def identify(*, from_: File | None = None, muscles: File | None = None, activati
              free: Texts | None = None, hold: Texts | None = None, beliefs: File | None = None,
              posterior_draws: int | None = None, compare_solvers: bool = False, starts: int | None = None,
              folds: str | None = None, scales: str | None = None, validate: Texts | None = None,
-             out: File | None = None, mat: File | None = None, threads: int | None = None,
-             seed: int | None = None, start: float | None = None, end: float | None = None,
-             overwrite: bool = False, progress: Report = None) -> Result:  # fmt: skip
+             export: Texts | None = None, out: File | None = None, mat: File | None = None,
+             threads: int | None = None, seed: int | None = None, start: float | None = None,
+             end: float | None = None, overwrite: bool = False, progress: Report = None) -> Result:  # fmt: skip
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
 
     Args:
@@ -107,6 +108,7 @@ def identify(*, from_: File | None = None, muscles: File | None = None, activati
         folds: The part that is left out and predicted: "trial", "block" or "none".
         scales: "electrode": muscles that share an electrode share one scale of every parameter; "muscle": each its own.
         validate: Trials that are not fitted but predicted, each by its number or its file of lengths.
+        export: Muscles for other programs: "ceinms", "ceinms-rt", "osimx"; several.
         out: Folder of the results; None: a temporary folder.
         mat: Parameters, series and draws also as one MATLAB file, which ends in .mat.
     """

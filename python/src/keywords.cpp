@@ -159,7 +159,11 @@ void Keywords::word(const char* name, std::string& value, std::initializer_list<
   take(name, value);
   for (const std::string_view word : words)
     if (value == word) return;
-  throw InvalidInput(fmt::format("{}: found '{}', expected {}", name, value, fmt::join(words, ", ")));
+  refuse_word(name, value, {words.begin(), words.size()});
+}
+
+void Keywords::refuse_word(const char* name, const std::string& word, ChoiceNames words) const {
+  throw InvalidInput(fmt::format("{}: found '{}', expected {}", name, word, fmt::join(words, ", ")));
 }
 
 }  // namespace myoid::python

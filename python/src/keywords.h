@@ -10,6 +10,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include "myoid/ground/core/choice.h"
+
 namespace myoid::python {
 
 namespace py = pybind11;
@@ -40,6 +42,17 @@ class Keywords {
   void count(const char* name, Integer& value, long lower, long upper) {
     if (const auto given = whole(name, lower, upper)) value = static_cast<Integer>(*given);
   }
+  /// Names of enumerators: one or several.
+  template <typename Enumeration>
+  void choices(const char* name, std::vector<Enumeration>& values) {
+    std::vector<std::string> words;
+    take(name, words);
+    for (const std::string& word : words) {
+      const std::optional<Enumeration> value = choice_named<Enumeration>(word);
+      if (!value) refuse_word(name, word, choice_names(Enumeration{}));
+      values.push_back(*value);
+    }
+  }
   /// One of the words.
   void word(const char* name, std::string& value, std::initializer_list<std::string_view> words);
 
@@ -51,6 +64,7 @@ class Keywords {
  private:
   [[nodiscard]] std::optional<double> number(const char* name);
   [[nodiscard]] std::optional<long> whole(const char* name, long lower, long upper);
+  [[noreturn]] void refuse_word(const char* name, const std::string& word, ChoiceNames words) const;
   [[noreturn]] void refuse_kind(const char* name, const char* expected, py::handle found) const;
 
   std::string function_;

@@ -98,6 +98,8 @@ py::dict run(py::dict given) {
   k.take("study", o.study);
   k.take("out", out);
   k.take("mat", mat);
+  k.choices("method", o.methods);
+  k.choices("export", o.exports);
   k.take("video", o.video.files);
   k.take("video_offset", o.video.offset_s);
   k.take("overwrite", overwrite);
@@ -164,6 +166,7 @@ py::dict identify(py::dict given) {
   bool overwrite = false;
   k.take("out", out);
   k.take("mat", mat);
+  k.choices("export", o.exports);
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();

@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds="${1:-60}"
 shift || true
 formats=("$@")
-[ "${#formats[@]}" -gt 0 ] || formats=(c3d edf trc sto orientations csv anc toml osim bids loads setup mesh markers info)
+[ "${#formats[@]}" -gt 0 ] || formats=(c3d edf trc sto orientations csv anc toml osim bids loads setup mesh markers info project)
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target fuzz_seeds "${formats[@]/#/fuzz_}" >&2
 [ "$seconds" != build ] || exit 0

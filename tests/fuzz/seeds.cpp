@@ -1,5 +1,6 @@
 // Small files of our own to begin from: fuzz_seeds FOLDER writes one folder for each target.
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,7 @@
 #include "myoid/ground/files/byte_source.h"
 #include "myoid/recording/c3d/c3d_writer.h"
 
+#include "fuzz.h"
 #include "info_kinds.h"
 
 namespace {
@@ -77,6 +79,97 @@ void write_info_seeds(const fs::path& root) {
       write_file(root / "info" / fmt::format("{}_{}", kind, entry.path().filename().string()),
                  static_cast<char>('a' + k) + read_bytes(entry.path()));
   }
+}
+
+/// Returns the files of a project in the order of fuzz_project; names that are not there are empty.
+std::string project_files(const std::map<std::string, std::string>& files) {
+  std::string input;
+  for (const char* name : {"setup.xml", "subject.xml", "calibration.xml", "trial.xml", "emg.sto", "walk/id.sto",
+                           "main.m", "m.osim", "muscles.csv", "a.osimx"}) {
+    if (const auto file = files.find(name); file != files.end()) input += file->second;
+    input += myoid::fuzz::kNextFile;
+  }
+  return input;
+}
+
+/// A project of each program.
+void write_project_seeds(const fs::path& folder) {
+  const std::string table = "t\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\ntime\ta\n0\t0.1\n0.1\t0.2\n";
+  const std::string model =
+      "<OpenSimDocument Version=\"40000\"><Model><ForceSet><objects><Thelen2003Muscle name=\"a\"><optimal_fiber_length>"
+      "0.1</optimal_fiber_length><tendon_slack_length>0.2</tendon_slack_length><max_isometric_force>9"
+      "</max_isometric_force></Thelen2003Muscle></objects><groups><ObjectGroup name=\"A\"><members>a</members>"
+      "</ObjectGroup></groups></ForceSet></Model></OpenSimDocument>";
+  const std::string numbers =
+      "<shapeFactor>-1</shapeFactor><pennationAngle>0.1</pennationAngle><tendonSlackLength>0.2</tendonSlackLength>"
+      "<maxIsometricForce>9</maxIsometricForce><strengthCoefficient>1</strengthCoefficient>";
+  write_file(
+      folder / "ceinms",
+      project_files(
+          {{"setup.xml",
+            "<ceinmsCalibration><subjectFile>subject.xml</subjectFile><excitationGeneratorFile>a.osimx"
+            "</excitationGeneratorFile><calibrationFile>calibration.xml</calibrationFile><outputSubjectFile>subject.xml"
+            "</outputSubjectFile></ceinmsCalibration>"},
+           {"subject.xml",
+            "<subject><mtuDefault><emDelay>0.02</emDelay><percentageChange>0.15</percentageChange><damping>0.1</"
+            "damping>"
+            "<curve><name>forceVelocity</name><xPoints>-1 0 1</xPoints><yPoints>0 1 1.4</yPoints></curve></mtuDefault>"
+            "<mtuSet><mtu><name>a</name><c1>-0.5</c1><c2>-0.5</c2><optimalFibreLength>0.1</optimalFibreLength>" +
+                numbers +
+                "</mtu></mtuSet><dofSet><dof><name>knee</name><mtuNameSet>a</mtuNameSet></dof></dofSet>"
+                "<calibrationInfo><uncalibrated/></calibrationInfo><opensimModelFile>m.osim</opensimModelFile></"
+                "subject>"},
+           {"calibration.xml",
+            "<calibration><calibrationSteps><step><dofs>knee</dofs><parameterSet><parameter><name>c1</name><single/>"
+            "<absolute><range>-0.9 "
+            "-0.1</range></absolute></parameter></parameterSet></step></calibrationSteps><trialSet>"
+            "trial.xml</trialSet></calibration>"},
+           {"trial.xml",
+            "<inputData><excitationsFile>emg.sto</excitationsFile><externalTorquesFile>walk/id.sto</"
+            "externalTorquesFile>"
+            "<startStopTime>0 0.1</startStopTime></inputData>"},
+           {"a.osimx",
+            "<excitationGenerator><inputSignals>a</inputSignals><mapping><excitation id=\"a\"><input weight=\"1\">a"
+            "</input></excitation></mapping></excitationGenerator>"},
+           {"emg.sto", table},
+           {"walk/id.sto", table},
+           {"m.osim", model}}));
+  write_file(
+      folder / "ceinms_rt",
+      project_files({{"setup.xml",
+                      "<simulatedAnnealing><osimFile>m.osim</osimFile><subjectXML>subject.xml</subjectXML>"
+                      "</simulatedAnnealing>"},
+                     {"subject.xml",
+                      "<subject><muscles><muscle><name>a</name><C1>-0.5</C1><C2>-0.5</C2><optimalFiberLength>0.1"
+                      "</optimalFiberLength>" +
+                          numbers +
+                          "</muscle></muscles><DoFs><DoF><name>knee</name><muscleSequence>a</muscleSequence></DoF>"
+                          "</DoFs><Channels><Channel><name>A</name><muscleSequence>a</muscleSequence></Channel>"
+                          "</Channels></subject>"},
+                     {"walk/id.sto", table},
+                     {"m.osim", model}}));
+  write_file(folder / "nmsm",
+             project_files({{"setup.xml",
+                             "<NMSMPipelineDocument><MuscleTendonPersonalizationTool><input_model_file>m.osim"
+                             "</input_model_file><data_directory>walk</data_directory><coordinate_list>knee"
+                             "</coordinate_list><collected_emg_channel_muscle_groups>A"
+                             "</collected_emg_channel_muscle_groups></MuscleTendonPersonalizationTool>"
+                             "</NMSMPipelineDocument>"},
+                            {"a.osimx",
+                             "<NMSMPipelineDocument><OsimxModel><RCNLMuscleSet><objects><RCNLMuscle name=\"a\">"
+                             "<electromechanical_delay>0.5</electromechanical_delay></RCNLMuscle></objects>"
+                             "</RCNLMuscleSet></OsimxModel></NMSMPipelineDocument>"},
+                            {"m.osim", model}}));
+  write_file(folder / "mrs",
+             project_files({{"main.m",
+                             "D = [pwd '\\walk'];\nMisc.IKfile = {fullfile(D,'ik.mot')};\nMisc.EMGfile = {'emg.sto'};\n"
+                             "model_path = 'm.osim'; time = [0 1;\n 2 3];\nMisc.DofNames_Input = {'knee'}; % one\n"
+                             "Misc.EMGSelection = {'a'};\nMisc.Estimate_OptFL = Misc.EMGSelection;\n"
+                             "Misc.lb_lMo_scaling = 0.5; Misc.ub_lMo_scaling = 2;\nMisc.EMGconstr = 1;\n"
+                             "for i=1:2, x(i) = i; end\nsolveMuscleRedundancy(model_path,time,'o',Misc);\n"},
+                            {"emg.sto", table},
+                            {"muscles.csv", "muscle,emg\na,a\n"},
+                            {"m.osim", model}}));
 }
 
 void write(const fs::path& folder, const std::string& name, const std::string& content) {
@@ -214,5 +307,6 @@ int main(int argc, char** argv) {
         "Number of frames:,2,Collection frequency:,100,Units:,cm\nFrame,M_1 x,M_1 y,M_1 z\n1,1,2,3\n"
         "2,,,\n");
   write_info_seeds(root);
+  write_project_seeds(root / "project");
   return 0;
 }

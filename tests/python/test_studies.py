@@ -47,8 +47,12 @@ def test_names_are_the_users(recording, tmp_path):
 def test_a_temporary_folder_goes_with_its_result(recording):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", myoid.MyoidWarning)
-        result = myoid.run(recording)
+        result = myoid.run(recording, method="torque", export=["ceinms", "osimx"])
     folder = result.path
+    assert set(result.parameters["method"]) == {"torque"}
+    assert (folder / "ceinms_calibrated.xml").is_file() and (folder / "nmsm.osimx").is_file()
+    with pytest.raises(myoid.InvalidInput, match="export"):
+        myoid.run(recording, export="osimxx")
     assert (folder / "parameters.csv").is_file() and result.report.is_file()
     del result
     assert not folder.exists()
@@ -185,7 +189,7 @@ def test_identify_from_the_files_of_the_run(result, tmp_path):
         muscles=tmp_path / "muscles.csv", activations=lift / "activation.sto",
         lengths=lift / "MuscleAnalysis_Length.sto", velocities=[lift / "MuscleAnalysis_MuscleTendonVelocity.sto"],
         moment_arms=lift / "MuscleAnalysis_MomentArm_elbow_flexion.sto", torques=lift / "id.sto",
-        coordinate="elbow_flexion", method="torque", motion=lift / "ik.mot",
+        coordinate="elbow_flexion", method="torque", motion=lift / "ik.mot", export="ceinms-rt",
     )  # fmt: skip
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", myoid.MyoidWarning)
@@ -193,6 +197,8 @@ def test_identify_from_the_files_of_the_run(result, tmp_path):
     command = [f"--{key.replace('_', '-')}={str(v[0] if isinstance(v, list) else v)}" for key, v in options.items()]
     program("identify", *command, "--out", tmp_path / "cli", "--quiet")
     assert (tmp_path / "out/parameters.csv").read_bytes() == (tmp_path / "cli/parameters.csv").read_bytes()
+    subject = "ceinms_rt_calibrated.xml"
+    assert (tmp_path / "out" / subject).read_bytes() == (tmp_path / "cli" / subject).read_bytes()
     assert {"BIC", "TRI"} <= set(fitted.parameters["muscle"]) and fitted.found["message"]
     # Both free the same numbers of the muscles; one lift is too little to tell
     # what stands beside them, and muscles.csv does not state v_max and tendon as known.

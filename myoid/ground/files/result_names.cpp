@@ -10,7 +10,8 @@ const std::vector<std::string_view>& result_names() {
       // run, identify, predict
       "figures", "tables", "report.html", "report.json", "parameters.csv", "parameters.json", "fold_parameters.csv",
       "posterior.csv", "voluntary_torque.csv", "methods.txt", "methods.bib", "run.json", "solvers.csv",
-      "predictions.csv", "predictions.json",
+      "predictions.csv", "predictions.json", "ceinms_calibrated.xml", "ceinms_uncalibrated.xml",
+      "ceinms_rt_calibrated.xml", "ceinms_rt_uncalibrated.xml", "nmsm.osimx",
       // a person of a cohort
       "study.toml", "outcome.json",
       // beside the results

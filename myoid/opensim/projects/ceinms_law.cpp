@@ -194,7 +194,8 @@ class Law {
 }  // namespace
 
 std::string missing_of_law(const Project& project) {
-  if (project.dialect == Dialect::nmsm) return "NMSM keeps the curves of its muscles in its program";
+  if (project.dialect != Dialect::ceinms && project.dialect != Dialect::ceinms_rt)
+    return fmt::format("{} keeps the curves of its muscles in its program", choice_name(project.dialect));
   for (const std::string_view name : {"activeForceLength", "passiveForceLength", "forceVelocity"})
     if (curve_of(project, name) == nullptr) return fmt::format("the subject has no curve {}", name);
   if (is_elastic(project) && curve_of(project, "tendonForceStrain") == nullptr)

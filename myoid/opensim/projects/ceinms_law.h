@@ -14,7 +14,8 @@ struct LawForces {
   TimeSeries force;       ///< Along the tendon [N].
 };
 
-/// Returns what the project's files lack of a law; empty: the law is there. NMSM keeps its curves in its program.
+/// Returns what the project's files lack of a law; empty: the law is there. Other programs than CEINMS
+/// and CEINMS-RT keep their curves to themselves.
 [[nodiscard]] std::string missing_of_law(const Project& project);
 
 /// Computes the forces of muscles by the law of CEINMS, with the project's curves and its calibrated numbers:

@@ -312,10 +312,23 @@ class CeinmsReader {
       const pugi::xml_node law = xml.root().child("execution").child("NMSmodel");
       if (project_.tendon.empty()) project_.tendon = chosen(law, "tendon");
       if (project_.activation.empty()) project_.activation = chosen(law, "activation");
-      for (const std::string& name : xml.words(law.child("type").child("hybrid"), "synthMTUs"))
-        synthesized.insert(name);
+      const pugi::xml_node hybrid = law.child("type").child("hybrid");
+      for (const std::string& name : xml.words(hybrid, "synthMTUs")) synthesized.insert(name);
+      take_weights(xml, hybrid);
     }
     project_.synthesized.assign(synthesized.begin(), synthesized.end());
+  }
+
+  /// Takes the weights of the first hybrid run, and tells if another has others.
+  void take_weights(const OsimXml& xml, pugi::xml_node hybrid) {
+    const auto torque = finite_number(xml, hybrid, "alpha"), sum = finite_number(xml, hybrid, "beta");
+    const auto emg = finite_number(xml, hybrid, "gamma");
+    if (!torque || !sum || !emg) return;
+    const HybridWeights weights{*torque, *sum, *emg};
+    if (project_.hybrid && *project_.hybrid != weights)
+      note_reading(project_.remarks, xml.path(),
+                   fmt::format("hybrid runs differ: alpha {}, beta {}, gamma {} here", *torque, *sum, *emg));
+    if (!project_.hybrid) project_.hybrid = weights;
   }
 
   const ProjectFolder& folder_;

@@ -192,6 +192,49 @@ TEST(CeinmsProject, OfVersion09HasNoStretchAndAListOfTrials) {
   EXPECT_TRUE(project.has_mapping);
 }
 
+TEST(CeinmsProject, HasTheWeightsOfItsHybridRuns) {
+  const test::TemporaryFolder folder;
+  write_project(folder);
+  const auto execution = [](const char* alpha) {
+    return std::string("<execution><NMSmodel><type><hybrid><alpha>") + alpha +
+           "</alpha><beta>2</beta><gamma>35.5</gamma><dofSet>knee_angle_r</dofSet><synthMTUs>iliacus_r</synthMTUs>"
+           "<adjustMTUs>semiten_r</adjustMTUs></hybrid></type></NMSmodel></execution>";
+  };
+  EXPECT_FALSE(read_project(folder.path())->hybrid);
+  write_file(folder / "run_a.xml", execution("1"));
+  Project project = read_project(folder.path()).value();
+  EXPECT_EQ(project.hybrid, (HybridWeights{1.0, 2.0, 35.5}));
+  EXPECT_THAT(project.synthesized, ElementsAre("iliacus_r"));
+  EXPECT_THAT(project.remarks, IsEmpty());
+  write_file(folder / "run_b.xml", execution("3"));
+  project = read_project(folder.path()).value();
+  EXPECT_EQ(project.hybrid->torque, 1.0);
+  ASSERT_EQ(project.remarks.size(), 1U);
+  EXPECT_EQ(project.remarks[0].where, "run_b.xml");
+  write_file(folder / "run_b.xml", execution("much"));
+  EXPECT_THROW((void)read_project(folder.path()), ReadError);
+}
+
+TEST(CeinmsProject, TellsTablesThatAreCutOrUnreadable) {
+  const test::TemporaryFolder folder;
+  write_project(folder);
+  const auto about = [&](const Project& project, const char* role) {
+    std::vector<RemarkCode> codes;
+    for (const Remark& remark : project.remarks)
+      if (remark.about == role && remark.severity == Severity::warning) codes.push_back(remark.code);
+    return codes;
+  };
+  // The header promises 1001 rows.
+  const std::string whole = table(0.0, 0.001, 1001);
+  write_file(folder / "trials/emg.mot", whole.substr(0, whole.find("0.500000\t")));
+  write_file(folder / "trials/id.sto", "nothing of a table\n");
+  const Project project = read_project(folder.path()).value();
+  // Both trials use both files.
+  EXPECT_THAT(about(project, "emg"), ElementsAre(RemarkCode::reading, RemarkCode::reading));
+  EXPECT_THAT(about(project, "torques"), ElementsAre(RemarkCode::refused, RemarkCode::refused));
+  EXPECT_THAT(about(project, "lengths"), IsEmpty());
+}
+
 TEST(CeinmsSubject, HasPennationInRadiansWhateverItsUnit) {
   const test::TemporaryFolder folder;
   const fs::path path = folder / "s.xml";

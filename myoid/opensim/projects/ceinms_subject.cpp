@@ -13,72 +13,13 @@
 #include "myoid/ground/core/names.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/opensim/projects/project_xml.h"
+#include "myoid/opensim/projects/subject_words.h"
 
 namespace myoid::opensim {
 namespace {
 
 using Quantity = MuscleQuantity;
 using body::OsimXml;
-
-/// The element of one number of a muscle.
-struct NumberWord {
-  const char* element;
-  Quantity quantity;
-  bool is_positive = false;  ///< Required, and above 0.
-};
-
-/// The names of the elements of a dialect's subject.
-struct SubjectWords {
-  Dialect dialect;
-  const char *defaults, *curve, *muscles, *muscle, *dofs, *dof, *dof_muscles;
-  std::vector<NumberWord> numbers;
-  double angle_unit;  ///< [rad]
-};
-
-const SubjectWords& ceinms_words() {
-  static const SubjectWords kWords{.dialect = Dialect::ceinms,
-                                   .defaults = "mtuDefault",
-                                   .curve = "curve",
-                                   .muscles = "mtuSet",
-                                   .muscle = "mtu",
-                                   .dofs = "dofSet",
-                                   .dof = "dof",
-                                   .dof_muscles = "mtuNameSet",
-                                   .numbers = {{"emDelay", Quantity::delay},
-                                               {"c1", Quantity::c1},
-                                               {"c2", Quantity::c2},
-                                               {"shapeFactor", Quantity::shape_factor},
-                                               {"activationScale", Quantity::activation_scale},
-                                               {"optimalFibreLength", Quantity::optimal_fiber_length, true},
-                                               {"pennationAngle", Quantity::pennation_angle},
-                                               {"tendonSlackLength", Quantity::tendon_slack_length, true},
-                                               {"maxContractionVelocity", Quantity::max_contraction_velocity},
-                                               {"maxIsometricForce", Quantity::max_isometric_force, true},
-                                               {"strengthCoefficient", Quantity::strength_coefficient}},
-                                   .angle_unit = 1.0};
-  return kWords;
-}
-
-const SubjectWords& ceinms_rt_words() {
-  static const SubjectWords kWords{.dialect = Dialect::ceinms_rt,
-                                   .defaults = "muscleDefault",
-                                   .curve = "Curve",
-                                   .muscles = "muscles",
-                                   .muscle = "muscle",
-                                   .dofs = "DoFs",
-                                   .dof = "DoF",
-                                   .dof_muscles = "muscleSequence",
-                                   .numbers = {{"C1", Quantity::c1},
-                                               {"C2", Quantity::c2},
-                                               {"shapeFactor", Quantity::shape_factor},
-                                               {"optimalFiberLength", Quantity::optimal_fiber_length, true},
-                                               {"pennationAngle", Quantity::pennation_angle},
-                                               {"tendonSlackLength", Quantity::tendon_slack_length, true},
-                                               {"maxIsometricForce", Quantity::max_isometric_force, true},
-                                               {"strengthCoefficient", Quantity::strength_coefficient}},
-                                   .angle_unit = std::numbers::pi / 180.0};
-  return kWords;
-}
 
 ElementTable elements_of(const SubjectWords& words) {
   std::string numbers = "name";
@@ -206,7 +147,7 @@ CeinmsSubject read_ceinms_subject(const std::filesystem::path& path) {
   const OsimXml xml = read_document(path);
   const pugi::xml_node root = xml.root().child("subject");
   if (!root) throw ReadError(path, 1, "expected <subject> as the root");
-  const SubjectWords& words = root.child("muscles") ? ceinms_rt_words() : ceinms_words();
+  const SubjectWords& words = subject_words(root.child("muscles") ? Dialect::ceinms_rt : Dialect::ceinms);
   CeinmsSubject subject{.path = path, .dialect = words.dialect};
   const pugi::xml_node defaults = root.child(words.defaults);
   subject.delay_s = finite_number(xml, defaults, "emDelay");
@@ -235,7 +176,7 @@ CeinmsSubject read_ceinms_subject(const std::filesystem::path& path) {
 }
 
 std::optional<MuscleQuantity> ceinms_quantity(std::string_view element) {
-  for (const NumberWord& word : ceinms_words().numbers)
+  for (const NumberWord& word : subject_words(Dialect::ceinms).numbers)
     if (element == word.element) return word.quantity;
   return std::nullopt;
 }

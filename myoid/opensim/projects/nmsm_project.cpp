@@ -13,6 +13,8 @@
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/opensim/projects/calibration_plan.h"
+#include "myoid/opensim/projects/model_parts.h"
+#include "myoid/opensim/projects/osimx_file.h"
 #include "myoid/opensim/projects/project_xml.h"
 #include "myoid/opensim/projects/trial_files.h"
 
@@ -22,92 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Quantity = MuscleQuantity;
 using body::OsimXml;
-
-/// A number of a muscle in .osimx, its unit, and the range of the optimizer.
-struct OsimxNumber {
-  const char* element;
-  Quantity quantity;
-  double unit;               ///< In SI.
-  const char* flag;          ///< Of a task that varies the quantity; empty: no task does.
-  CalibrationBounds bounds;  ///< In SI, or factors of the start.
-  bool is_length = false;
-};
-
-constexpr OsimxNumber kNumbers[] = {
-    {"electromechanical_delay", Quantity::delay, 0.1, "optimize_electromechanical_delays", {0.0, 0.125}},
-    {"activation_time_constant",
-     Quantity::activation_time,
-     0.01,
-     "optimize_activation_time_constants",
-     {0.0075, 0.035}},
-    {"activation_nonlinearity_constant",
-     Quantity::activation_nonlinearity,
-     1.0,
-     "optimize_activation_nonlinearity_constants",
-     {0.0, 0.35}},
-    {"emg_scale_factor", Quantity::emg_scale, 1.0, "optimize_emg_scale_factors", {0.05, 1.0}},
-    {"optimal_fiber_length", Quantity::optimal_fiber_length, 1.0, "optimize_optimal_fiber_lengths", {0.6, 1.4}, true},
-    {"tendon_slack_length", Quantity::tendon_slack_length, 1.0, "optimize_tendon_slack_lengths", {0.6, 1.4}, true},
-    {"max_isometric_force", Quantity::max_isometric_force, 1.0, "", {}, false}};
-
-const ElementTable& osimx_elements() {
-  static const ElementTable kElements{
-      {"OsimxModel", "associated_osim_model RCNLMuscleSet RCNLContactSurfaceSet RCNLSynergySet"},
-      {"RCNLMuscleSet", "objects groups"},
-      {"RCNLMuscle",
-       "electromechanical_delay activation_time_constant activation_nonlinearity_constant "
-       "emg_scale_factor optimal_fiber_length tendon_slack_length max_isometric_force"}};
-  return kElements;
-}
-
-/// The parts of a model that these projects use.
-struct ModelParts {
-  std::vector<ProjectMuscle> muscles;                      ///< Lengths and forces.
-  std::map<std::string, std::vector<std::string>> groups;  ///< Muscles of an ObjectGroup.
-};
-
-ModelParts read_model_parts(const fs::path& path) {
-  OsimXml xml(read_text_file(path), path);
-  const pugi::xml_node model = xml.root().child("Model");
-  const pugi::xml_node defaults = body::either_child(xml.root(), "defaults", "none");
-  xml.set_prototypes(defaults ? defaults : model.child("defaults"));
-  ModelParts parts;
-  const pugi::xml_node set = model.child("ForceSet");
-  for (const pugi::xml_node object : OsimXml::objects(set)) {
-    ProjectMuscle muscle{OsimXml::name_of(object), {}, {}};
-    for (const OsimxNumber& number : kNumbers)
-      if (number.is_length || number.quantity == Quantity::max_isometric_force)
-        if (const auto value = finite_number(xml, object, number.element))
-          muscle.numbers[number.quantity].value = *value;
-    if (muscle.numbers.contains(Quantity::optimal_fiber_length)) parts.muscles.push_back(std::move(muscle));
-  }
-  for (const pugi::xml_node group : set.child("groups").children("ObjectGroup"))
-    parts.groups[OsimXml::name_of(group)] = xml.words(group, "members");
-  return parts;
-}
-
-pugi::xml_node osimx_model(const OsimXml& xml) { return xml.root().child("NMSMPipelineDocument").child("OsimxModel"); }
-
-std::vector<ProjectMuscle> read_osimx(const OsimXml& xml) {
-  std::vector<ProjectMuscle> muscles;
-  std::set<std::string> names;
-  for (const pugi::xml_node node : OsimXml::objects(osimx_model(xml).child("RCNLMuscleSet"))) {
-    ProjectMuscle muscle{OsimXml::name_of(node), {}, {}};
-    if (muscle.name.empty()) xml.fail(node, "<{}>: an attribute 'name' expected, found none", node.name());
-    if (!names.insert(muscle.name).second) xml.fail(node, "two muscles have the name '{}'", muscle.name);
-    for (const OsimxNumber& number : kNumbers) {
-      const auto value = finite_number(xml, node, number.element);
-      if (!value) continue;
-      const bool is_size = number.is_length || number.quantity == Quantity::max_isometric_force;
-      if (is_size && !(*value > 0.0))
-        xml.fail(node.child(number.element), "muscle '{}': <{}>: expected a number above 0, found {}", muscle.name,
-                 number.element, *value);
-      muscle.numbers[number.quantity].value = number.unit * *value;
-    }
-    muscles.push_back(std::move(muscle));
-  }
-  return muscles;
-}
 
 /// A project while it is read.
 class NmsmReader {
@@ -231,7 +147,7 @@ class NmsmReader {
       tasks.emplace_back();
     }
     for (const pugi::xml_node task : tasks) {
-      for (const OsimxNumber& number : kNumbers) {
+      for (const OsimxNumber& number : osimx_numbers()) {
         if (*number.flag == '\0' || (task && !xml.flag(task, number.flag, false))) continue;
         const bool is_shared = number.quantity == Quantity::delay && task &&
                                !xml.flag(task, "muscle_specific_electromechanical_delays", true);

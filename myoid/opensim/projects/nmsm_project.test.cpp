@@ -106,6 +106,18 @@ TEST(NmsmProject, TakesChannelsFromTheModelsGroupsAndLeavesOtherCoordinates) {
   EXPECT_EQ(arms, 1);
 }
 
+TEST(NmsmProject, TellsTheMusclesOfAJointByTheirMomentArms) {
+  const test::TemporaryFolder folder;
+  write_nmsm_project(folder);
+  EXPECT_TRUE(read_project(folder.path())->dofs.at(0).muscles.empty());  // the arms are of no muscle
+  write_file(folder / "preprocessed/MAData/gait_1/gait_1_MomentArm_knee_angle_r.sto",
+             "t\nversion=1\nnRows=2\nnColumns=3\ninDegrees=no\nendheader\ntime\tvasmed_r\tpsoas_r\n0.0\t0\t0\n1.0\t-0."
+             "04\t0\n");
+  const Project project = read_project(folder.path()).value();
+  EXPECT_THAT(project.dofs.at(0).muscles, ElementsAre("vasmed_r"));
+  EXPECT_TRUE(knees_without_extensor(project).empty());
+}
+
 TEST(NmsmProject, IsReadFromAnOsimxAlone) {
   const test::TemporaryFolder folder;
   write_file(folder / "a.osimx", osimx("<colour>1</colour>"));

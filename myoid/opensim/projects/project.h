@@ -15,8 +15,8 @@
 namespace myoid::opensim {
 
 /// The programs whose projects are read.
-enum class Dialect { ceinms, ceinms_rt, nmsm };
-inline constexpr std::string_view kDialectNames[] = {"CEINMS", "CEINMS-RT", "NMSM"};
+enum class Dialect { ceinms, ceinms_rt, nmsm, mrs };
+inline constexpr std::string_view kDialectNames[] = {"CEINMS", "CEINMS-RT", "NMSM", "muscle redundancy solver"};
 constexpr ChoiceNames choice_names(Dialect) { return kDialectNames; }
 
 /// The numbers of a muscle that these programs calibrate, in SI.
@@ -34,7 +34,8 @@ enum class MuscleQuantity {
   delay,                     ///< From EMG to force [s].
   activation_time,           ///< Time constant of the activation [s].
   activation_nonlinearity,
-  emg_scale,  ///< Factor of the EMG.
+  emg_scale,         ///< Factor of the EMG.
+  tendon_stiffness,  ///< Factor of the tendon's stiffness.
 };
 inline constexpr std::string_view kMuscleQuantityNames[] = {
     "c1",
@@ -51,6 +52,7 @@ inline constexpr std::string_view kMuscleQuantityNames[] = {
     "activation_time_s",
     "activation_nonlinearity",
     "emg_scale",
+    "tendon_stiffness",
 };
 constexpr ChoiceNames choice_names(MuscleQuantity) { return kMuscleQuantityNames; }
 
@@ -96,9 +98,9 @@ struct ProjectDof {
 };
 
 /// The quantity that a file of a trial holds.
-enum class TrialRole { emg, lengths, moment_arms, torques, motion, loads, velocities };
+enum class TrialRole { emg, lengths, moment_arms, torques, motion, loads, velocities, ultrasound };
 inline constexpr std::string_view kTrialRoleNames[] = {"emg",    "lengths", "moment_arms", "torques",
-                                                       "motion", "loads",   "velocities"};
+                                                       "motion", "loads",   "velocities",  "ultrasound"};
 constexpr ChoiceNames choice_names(TrialRole) { return kTrialRoleNames; }
 
 struct TrialFile {
@@ -119,6 +121,14 @@ struct ProjectTrial {
   std::vector<TrialFile> files = {};
 };
 
+/// Weights of the errors that a hybrid run of CEINMS weighs against each other.
+struct HybridWeights {
+  double torque = 0.0;          ///< alpha
+  double excitation_sum = 0.0;  ///< beta: squared excitations.
+  double emg = 0.0;             ///< gamma: change of the measured excitations.
+  bool operator==(const HybridWeights&) const = default;
+};
+
 /// A calibration of another program as values, in SI.
 struct Project {
   Dialect dialect = Dialect::ceinms;
@@ -129,6 +139,7 @@ struct Project {
   std::filesystem::path model = {};    ///< The OpenSim model; empty if none is named or found.
   bool is_calibrated = false;
   std::string tendon = {}, activation = {}, objective = {};  ///< As the program names them.
+  std::optional<HybridWeights> hybrid = {};                  ///< Of the first hybrid run.
   std::vector<std::string> synthesized = {};                 ///< Muscles whose excitation a hybrid run makes up.
   std::optional<double> delay_s = {}, damping = {}, percentage_change = {};
   std::vector<ProjectCurve> curves = {};

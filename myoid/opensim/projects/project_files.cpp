@@ -85,7 +85,7 @@ std::vector<RootedFile> ProjectFolder::with_root(std::string_view name) const {
 NamedFile ProjectFolder::find(const fs::path& document, std::string_view name) const {
   NamedFile found = find_named_file(document.parent_path(), name);
   if (found.exists || trim(name).empty()) return found;
-  fs::path folder = fs::absolute(document.parent_path());
+  fs::path folder = fs::absolute(document).parent_path();
   for (int k = 0; k < kMostParents && folder.has_relative_path(); ++k) {
     folder = folder.parent_path();
     const fs::path named = native_path(folder, name);

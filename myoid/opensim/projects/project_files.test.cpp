@@ -44,6 +44,8 @@ TEST(ProjectFolder, FindsFilesFromFoldersAboveAndByTheirOnlyName) {
   EXPECT_TRUE(files.find(setup, "c:\\other\\back.osim").exists);
   EXPECT_FALSE(files.find(setup, "cfg/Back/none.osim").exists);
   EXPECT_THAT(files.documents(), SizeIs(1));
+  // A document in the working folder has no folder in its name.
+  EXPECT_FALSE(ProjectFolder("setup.xml").find("setup.xml", "none.osim").exists);
 }
 
 TEST(ProjectFolder, PassesOverLinksHiddenFoldersAndDeepOnes) {

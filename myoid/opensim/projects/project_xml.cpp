@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,6 +27,16 @@ std::string required_word(const body::OsimXml& xml, pugi::xml_node parent, const
   std::string word = xml.word(parent, name);
   if (word.empty()) xml.fail(parent, "<{}> expected in <{}>, found none", name, parent.name());
   return word;
+}
+
+void append_text(pugi::xml_node parent, const char* name, const std::string& text) {
+  parent.append_child(name).text().set(text.c_str());
+}
+
+std::string document_text(const pugi::xml_document& document) {
+  std::ostringstream out;
+  document.save(out, "  ", pugi::format_default, pugi::encoding_utf8);
+  return out.str();
 }
 
 std::string chosen(pugi::xml_node parent, const char* name) {
@@ -58,10 +69,14 @@ void note_unknown_elements(const body::OsimXml& xml,
   }
 }
 
-void note_reading(std::vector<Remark>& remarks, const std::filesystem::path& path, std::string says) {
+void note_reading(std::vector<Remark>& remarks,
+                  const std::filesystem::path& path,
+                  std::string says,
+                  std::string about) {
   remarks.push_back({.code = RemarkCode::reading,
                      .severity = Severity::note,
                      .where = path.filename().string(),
+                     .about = std::move(about),
                      .says = std::move(says)});
 }
 

@@ -23,6 +23,12 @@ namespace myoid::opensim {
 /// Returns the text of an element; throws ReadError with the line of the parent if there is none.
 [[nodiscard]] std::string required_word(const body::OsimXml& xml, pugi::xml_node parent, const char* name);
 
+/// Appends an element with this text.
+void append_text(pugi::xml_node parent, const char* name, const std::string& text);
+
+/// Returns the text of a document that is written.
+[[nodiscard]] std::string document_text(const pugi::xml_document& document);
+
 /// Returns the name of the first element inside an element: "stiff" of <tendon><stiff/></tendon>.
 [[nodiscard]] std::string chosen(pugi::xml_node parent, const char* name);
 
@@ -33,6 +39,9 @@ void note_unknown_elements(const body::OsimXml& xml,
                            std::vector<Remark>& remarks);
 
 /// Adds a remark on how a file was read.
-void note_reading(std::vector<Remark>& remarks, const std::filesystem::path& path, std::string says);
+void note_reading(std::vector<Remark>& remarks,
+                  const std::filesystem::path& path,
+                  std::string says,
+                  std::string about = {});
 
 }  // namespace myoid::opensim

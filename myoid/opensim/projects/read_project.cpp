@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/counted.h"
+#include "myoid/ground/files/file_format.h"
 #include "myoid/opensim/projects/ceinms_project.h"
 #include "myoid/opensim/projects/ceinms_rt_project.h"
+#include "myoid/opensim/projects/mrs_project.h"
 #include "myoid/opensim/projects/nmsm_project.h"
 #include "myoid/opensim/projects/project_files.h"
 #include "myoid/opensim/projects/project_xml.h"
@@ -47,6 +49,21 @@ bool leads(const RootedFile& document, const Entrance& entrance) {
          std::find(entrance.inner.begin(), entrance.inner.end(), document.roots.back()) != entrance.inner.end();
 }
 
+/// Reads the first script of the muscle redundancy solver.
+std::optional<Project> read_script(const fs::path& path, const ProjectFolder& given) {
+  std::vector<fs::path> found;
+  for (const fs::path& file : given.files())
+    if (extension_of(file) == ".m" && is_mrs_script(file)) found.push_back(file);
+  if (found.empty()) return std::nullopt;
+  const bool is_file = given.files().size() == 1 && given.files().front() == path;
+  Project project = read_mrs_project(is_file ? ProjectFolder(fs::absolute(path).parent_path()) : given, found.front());
+  if (found.size() > 1)
+    note_reading(project.remarks, found.front(),
+                 fmt::format("the folder has {} of this kind; this one is read", counted(found.size(), "script")));
+  if (given.is_cut()) note_reading(project.remarks, path, "the folder has more files than are looked at");
+  return project;
+}
+
 }  // namespace
 
 std::optional<Project> read_project(const fs::path& path) {
@@ -69,7 +86,7 @@ std::optional<Project> read_project(const fs::path& path) {
     if (given.is_cut()) note_reading(project.remarks, path, "the folder has more files than are looked at");
     return project;
   }
-  return std::nullopt;
+  return read_script(path, given);
 }
 
 }  // namespace myoid::opensim

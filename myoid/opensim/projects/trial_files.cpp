@@ -1,5 +1,10 @@
 #include "myoid/opensim/projects/trial_files.h"
 
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
@@ -20,16 +25,53 @@ void set_clock(TrialFile& file, const TimeSeries& data) {
   if (last > 0) file.rate_hz = static_cast<double>(last) / (file.time->end_s - file.time->begin_s);
 }
 
-void read_table(TrialFile& file) {
-  if (format_of(file.path) != FileFormat::storage) return set_clock(file, recording::read_series(file.path).data);
-  const recording::Storage storage = recording::read_storage(file.path);
-  if (file.role == TrialRole::motion) file.is_in_degrees = storage.in_degrees;
-  set_clock(file, storage.data);
+/// A table of a trial with the notes of its reader.
+recording::SeriesFile read_table(TrialFile& file) {
+  recording::SeriesFile table;
+  if (format_of(file.path) == FileFormat::storage) {
+    recording::Storage storage = recording::read_storage(file.path);
+    if (file.role == TrialRole::motion) file.is_in_degrees = storage.in_degrees;
+    table = {std::move(storage.data), std::move(storage.repairs)};
+  } else {
+    table = recording::read_series(file.path);
+  }
+  set_clock(file, table.data);
+  return table;
+}
+
+/// Adds the muscles with a moment arm to a joint.
+void add_muscles(const Project& project, const TimeSeries& arms, ProjectDof& dof) {
+  constexpr double kLeastArm_m = 1e-6;
+  for (Eigen::Index k = 0; k < arms.channel_count(); ++k) {
+    const std::string& name = arms.channels()[static_cast<std::size_t>(k)].name;
+    if (project.find(name) == nullptr || !((arms.values().col(k).array().abs() > kLeastArm_m).any())) continue;
+    if (std::find(dof.muscles.begin(), dof.muscles.end(), name) == dof.muscles.end()) dof.muscles.push_back(name);
+  }
+}
+
+/// Remarks on EMG below 0, which no envelope is.
+template <typename Remark>
+void note_negative_emg(const TimeSeries& emg, const Remark& remark) {
+  double least = 0.0;
+  std::string channel;
+  for (Eigen::Index k = 0; k < emg.channel_count(); ++k) {
+    for (const double value : emg.values().col(k)) {
+      if (!(value < least)) continue;
+      least = value;
+      channel = emg.channels()[static_cast<std::size_t>(k)].name;
+    }
+  }
+  if (least < 0.0)
+    remark(RemarkCode::emg_envelope, Severity::warning,
+           fmt::format("the EMG is below 0 (least {:.3g} in '{}'), which no envelope is", least, channel));
 }
 
 }  // namespace
 
 void read_trial_tables(Project& project) {
+  std::set<std::string> open;  // joints whose muscles no other file tells
+  for (const ProjectDof& dof : project.dofs)
+    if (dof.muscles.empty()) open.insert(dof.name);
   for (ProjectTrial& trial : project.trials) {
     bool counts_from_1970 = false;
     for (TrialFile& file : trial.files) {
@@ -46,7 +88,15 @@ void read_trial_tables(Project& project) {
       }
       if (file.role == TrialRole::loads) continue;
       try {
-        read_table(file);
+        const recording::SeriesFile table = read_table(file);
+        if (!table.repairs.empty())
+          remark(RemarkCode::reading, Severity::warning,
+                 fmt::format("{}: {}{}", file.path.string(), table.repairs.front().message,
+                             table.repairs.size() > 1 ? fmt::format(", and {} more", table.repairs.size() - 1) : ""));
+        if (file.role == TrialRole::emg) note_negative_emg(table.data, remark);
+        if (file.role == TrialRole::moment_arms && open.contains(file.dof))
+          for (ProjectDof& dof : project.dofs)
+            if (dof.name == file.dof) add_muscles(project, table.data, dof);
       } catch (const InvalidInput& error) {
         remark(RemarkCode::refused, Severity::warning, error.what());
       }

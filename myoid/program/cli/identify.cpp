@@ -30,10 +30,12 @@ void add_identify(CLI::App& app, Context& context) {
   for (const char* option : {"--free", "--hold"}) command.get_option(option)->delimiter(',');
   const auto out = std::make_shared<std::string>();
   command.add_option("--out", *out, "Folder of the results")->required();
+  const auto exports = std::make_shared<std::vector<results::ExportFormat>>();
+  add_export_option(command, *exports);
   const MatOption mat(command);
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);
-  command.callback([&context, &command, out, mat] {
+  command.callback([&context, &command, out, exports, mat] {
     program::IdentifyOptions o;
     OptionReader reader(command);
     visit(o, reader);
@@ -43,6 +45,7 @@ void add_identify(CLI::App& app, Context& context) {
     mat.prepare(context, {o.muscles.string()});
     context.prepare_folder(*out);
     protect_files(*out, program::kIdentifyFiles, {o.muscles.string()});
+    o.exports = *exports;
     o.call = context.call();
     program::IdentifyResult result = program::identify(o);
     program::write_identify(result, *out);

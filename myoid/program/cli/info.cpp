@@ -83,9 +83,10 @@ void add_info(CLI::App& app, Context& context) {
   add_model_page_options(command, *page, *html);
   add_compat_option(command, context);
   command
-      .add_option(
-          "files", *files,
-          program::known_endings() + "; arm4; or a project of CEINMS, CEINMS-RT or NMSM (its folder, .xml or .osimx)")
+      .add_option("files", *files,
+                  program::known_endings() +
+                      "; arm4; or a project of CEINMS, CEINMS-RT, NMSM or the muscle redundancy "
+                      "solver (its folder, .xml, .osimx or .m)")
       ->required();
   add_common_options(command, context);
   command.callback([&context, files, o, page, html] {

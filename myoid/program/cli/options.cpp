@@ -8,6 +8,7 @@
 
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/cli/command_help.h"
+#include "myoid/program/cli/option_checks.h"
 #include "myoid/program/commands/twin.h"
 #include "myoid/results/mat/results_mat.h"
 #include "myoid/study/setting_rows.h"
@@ -92,6 +93,15 @@ void add_video_options(CLI::App& command, study::VideoChoice& video) {
       .add_option("--video", video.files, "Film that the report shows beside the model, [TRIAL=]FILE; may be repeated")
       ->allow_extra_args(false);
   command.add_option("--video-offset", video.offset_s, "When these films begin, in seconds of the motion (default 0)");
+}
+
+CLI::Option* add_export_option(CLI::App& command, std::vector<results::ExportFormat>& formats) {
+  return command
+      .add_option("--export", formats,
+                  "Muscles for other programs: ceinms, ceinms-rt, osimx; osim, the identified model, is always written")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(one_of<results::ExportFormat>());
 }
 
 MatOption::MatOption(CLI::App& command) {

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "myoid/program/cli/context.h"
+#include "myoid/results/exports/law_differences.h"
 #include "myoid/study/setting.h"
 #include "myoid/study/study.h"
 
@@ -39,6 +40,9 @@ class OptionReader : public study::FlatSettingVisitor {
 
 /// Declares `--truth KEY=VALUE`, and the keys below the help.
 void add_truth_option(CLI::App& command, std::vector<std::string>& settings);
+
+/// Adds --export: forms for other programs, separated by commas.
+CLI::Option* add_export_option(CLI::App& command, std::vector<results::ExportFormat>& formats);
 
 /// Adds --video and --video-offset: films that the report shows beside the model.
 void add_video_options(CLI::App& command, study::VideoChoice& video);

@@ -57,10 +57,11 @@ void add_report(CLI::App& app, Context& context) {
   const auto wishes = std::make_shared<Wishes>();
   CLI::Option* folder = command.add_option("folder", wishes->run.folder, "Folder of a run (with run.json)");
   add_video_options(command, wishes->run.video);
+  CLI::Option* exports = add_export_option(command, wishes->run.exports);
   CLI::Option* group =
       command.add_option("--group", wishes->persons,
                          "Folders of runs, or folders that hold them (of a cohort, of a twin-study): one page of all");
-  group->excludes(folder);
+  group->excludes(folder)->excludes(exports);
   command
       .add_option("--after", wishes->after, "The second sessions of the same persons in the same order: what changed")
       ->needs(group);

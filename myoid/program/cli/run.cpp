@@ -222,6 +222,7 @@ void add_run(CLI::App& app, Context& context) {
       ->transform(one_of<fit::Method>());
   command.add_option("--out", *out, "Folder of the results")->required();
   add_video_options(command, options->video);
+  add_export_option(command, options->exports);
   const MatOption mat(command);
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);

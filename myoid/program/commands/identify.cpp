@@ -21,6 +21,7 @@ IdentifyResult run_of(study::Study study, const IdentifyOptions& o, Remarks& rem
   RunOptions options;
   options.call = o.call;
   options.call.start_s = options.call.end_s = std::nullopt;  // they are the trials' now
+  options.exports = o.exports;
   result.run = run(result.study, options);
   if (o.beliefs && o.method != fit::Method::paper)
     result.run.provenance.inputs.push_back({o.beliefs->string(), sha256(read_text_file(*o.beliefs))});

@@ -7,13 +7,14 @@
 
 #include "myoid/fit/measurement/options.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/results/exports/law_differences.h"
 #include "myoid/run/identify_files/identify_sources.h"
 #include "myoid/run/identify_files/muscles_csv.h"
 #include "myoid/study/setting.h"
 
 namespace myoid::program {
 
-/// Options of the identification of muscle parameters from files. `visit` explains each option.
+/// Options of the identification of muscle parameters from files. `visit` explains each option but `exports`.
 struct IdentifyOptions {
   Call call;
   std::string from;    ///< Project of another program, in place of muscles.csv and all files.
@@ -29,6 +30,7 @@ struct IdentifyOptions {
   bool compare_solvers = false;
   std::optional<int> starts;  ///< Method `paper`; empty: one, and three for the comparison of solvers.
   std::optional<fit::FoldKind> folds = fit::FoldKind::trial;  ///< Empty: none.
+  std::vector<results::ExportFormat> exports;                 ///< Forms for other programs.
   bool own_scales = false;  ///< Muscles that share an electrode have scales of their own.
 };
 

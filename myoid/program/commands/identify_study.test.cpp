@@ -84,10 +84,14 @@ RunResult run_of(IdentifyResult& result, const std::filesystem::path& folder) {
 }
 
 TEST(IdentifyStudy, RunFindsTheParametersOfTheStudyAmongTheResults) {
-  const Files files;
+  Files files;
+  files.options.exports = {results::ExportFormat::ceinms, results::ExportFormat::osim, results::ExportFormat::ceinms};
   IdentifyResult result = identify(files.options);
   const std::filesystem::path folder = files.folder / "results";
   const RunResult same = run_of(result, folder);
+  EXPECT_EQ(result.run.exports.size(), 1U);  // each form once, and the model by every run that has one
+  for (const char* file : {"ceinms_calibrated.xml", "ceinms_uncalibrated.xml"})
+    EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
   expect_same(result.fit(), *run::torque_of(same.study.fit));
   EXPECT_EQ(result.run.gates.size(), same.gates.size());
   for (const char* file : {"report.html", "run.json", "parameters.json", "1_t0_l/id.sto"})

@@ -1,6 +1,8 @@
 #include "myoid/program/commands/report.h"
 
 #include "myoid/page/write_report.h"
+#include "myoid/program/commands/run.h"
+#include "myoid/results/exports/export_files.h"
 #include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_workbench.h"
@@ -21,10 +23,13 @@ ReportResult report(const ReportOptions& o) {
   result.provenance.command = run.command.empty() ? o.call.command : run.command;
   result.provenance.inputs = result.study.source.files;
   result.provenance.options_json = study::study_json(result.study.source.study);
+  Remarks remarks(o.call);
+  result.exports = exported_projects(result.study, o.exports, remarks);
   return result;
 }
 
 void write_report(const ReportResult& result, const std::filesystem::path& folder) {
+  results::write_exports(result.exports, folder);
   const page::Workbench workbench = results::study_workbench(result.study, folder);
   page::write_report(results::study_report(result.study, result.provenance), folder, &workbench);
 }

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "myoid/ground/core/provenance.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/results/exports/exported_project.h"
 #include "myoid/run/study_result.h"
 
 namespace myoid::program {
@@ -12,20 +14,22 @@ namespace myoid::program {
 /// Options of the report of a finished run, which is computed again from its recordings.
 struct ReportOptions {
   Call call;
-  std::string folder;        ///< Folder of the run, with run.json.
-  study::VideoChoice video;  ///< In place of the films that the study names.
+  std::string folder;                          ///< Folder of the run, with run.json.
+  study::VideoChoice video;                    ///< In place of the films that the study names.
+  std::vector<results::ExportFormat> exports;  ///< Forms for other programs.
 };
 
 struct ReportResult {
   run::StudyResult study;
   Provenance provenance;
+  std::vector<results::ExportedProject> exports;
 };
 
 /// Runs the study of the folder with the run's settings. Throws ReadError if run.json lacks them,
 /// or a recording has changed.
 [[nodiscard]] ReportResult report(const ReportOptions& options);
 
-/// Writes report.html, figures, tables and the page with the moving model.
+/// Writes report.html, figures, tables, the page with the moving model, and the files for other programs.
 void write_report(const ReportResult& result, const std::filesystem::path& folder);
 
 }  // namespace myoid::program

@@ -6,6 +6,7 @@
 
 #include "myoid/ground/files/result_record.h"
 #include "myoid/page/write_report.h"
+#include "myoid/results/exports/export_files.h"
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"
@@ -56,6 +57,19 @@ bool RunResult::failed(bool strict) const {
   return failed;
 }
 
+std::vector<results::ExportedProject> exported_projects(const run::StudyResult& study,
+                                                        const std::vector<results::ExportFormat>& formats,
+                                                        Remarks& remarks) {
+  std::vector<results::ExportedProject> exported;
+  for (const results::ExportFormat format : formats) {
+    if (format == results::ExportFormat::osim) continue;
+    if (std::ranges::find(exported, format, &results::ExportedProject::format) != exported.end()) continue;
+    exported.push_back(results::exported_project(study, format));
+    for (const Remark& remark : exported.back().remarks) remarks.add(remark);
+  }
+  return exported;
+}
+
 RunResult run(const RunOptions& o) {
   study::Study study = study::read_filmed_study(o.study, o.video);
   if (!o.methods.empty()) study.identify.methods = o.methods;
@@ -79,6 +93,7 @@ RunResult run(const study::Study& study, const RunOptions& o) {
   result.provenance.inputs = result.study.source.files;
   result.provenance.options_json = study::study_json(result.study.source.study);
   result.reading_remarks = tell_trials(result.study, remarks);
+  result.exports = exported_projects(result.study, o.exports, remarks);
   if (result.study.fit_input.nuisances_held) remarks.note(std::string(run::kFewRows));
   result.remarks = remarks.list();
   return result;
@@ -87,6 +102,7 @@ RunResult run(const study::Study& study, const RunOptions& o) {
 void write_run(const RunResult& result, const std::filesystem::path& folder) {
   remove_earlier_results(folder);
   results::write_results(result.study, result.provenance, folder);
+  results::write_exports(result.exports, folder);
   const page::Workbench workbench = results::study_workbench(result.study, folder);
   page::write_report(results::study_report(result.study, result.provenance), folder, &workbench);
 }

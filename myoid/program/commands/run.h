@@ -10,6 +10,7 @@
 #include "myoid/ground/core/provenance.h"
 #include "myoid/page/report.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/results/exports/exported_project.h"
 #include "myoid/run/study_result.h"
 
 namespace myoid::program {
@@ -19,7 +20,8 @@ inline constexpr const char* kStageFolder = ".stages";
 
 /// Names of the results beside the folders of trials, figures and tables.
 inline const std::vector<std::string_view> kRunFiles{"report.",          "run.json",   "methods.",     "parameters.",
-                                                     "fold_parameters.", "posterior.", "predictions.", "solvers."};
+                                                     "fold_parameters.", "posterior.", "predictions.", "solvers.",
+                                                     "ceinms_",          "nmsm."};
 
 /// Options of the whole pipeline, from a study's recordings to muscle parameters.
 struct RunOptions {
@@ -27,13 +29,15 @@ struct RunOptions {
   std::string study;                           ///< study.toml
   std::vector<fit::Method> methods;            ///< In place of the study's; empty: the study's.
   study::VideoChoice video;                    ///< In place of the study's films.
+  std::vector<results::ExportFormat> exports;  ///< Forms for other programs, beside the model.
   std::optional<std::filesystem::path> store;  ///< Keeps stages between runs; empty: none.
 };
 
 struct RunResult {
   run::StudyResult study;
   std::vector<page::Gate> gates;
-  std::size_t reading_remarks = 0;  ///< Remarks of the kind `detail`.
+  std::vector<results::ExportedProject> exports;  ///< Without `osim`.
+  std::size_t reading_remarks = 0;                ///< Remarks of the kind `detail`.
   Provenance provenance;
   std::vector<Remark> remarks;
 
@@ -43,6 +47,12 @@ struct RunResult {
 };
 
 [[nodiscard]] RunResult run(const RunOptions& options);
+
+/// Returns the muscles of a run for other programs, each form once, and adds their remarks; none for `osim`, which
+/// every run writes.
+[[nodiscard]] std::vector<results::ExportedProject> exported_projects(const run::StudyResult& study,
+                                                                      const std::vector<results::ExportFormat>& formats,
+                                                                      Remarks& remarks);
 
 /// Runs a study that no file holds yet; `options.study` is not read.
 [[nodiscard]] RunResult run(const study::Study& study, const RunOptions& options);

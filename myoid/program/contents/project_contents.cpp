@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/ground/core/names.h"
 #include "myoid/ground/core/remark.h"
 #include "myoid/opensim/projects/read_project.h"
 
@@ -34,6 +35,9 @@ void tell_law(const Project& project, ordered_json& j) {
   if (project.delay_s) j["delay_s"] = *project.delay_s;
   if (project.damping) j["damping"] = *project.damping;
   if (project.percentage_change) j["percentage_change"] = *project.percentage_change;
+  if (project.hybrid)
+    j["hybrid"] = {
+        {"alpha", project.hybrid->torque}, {"beta", project.hybrid->excitation_sum}, {"gamma", project.hybrid->emg}};
   for (const opensim::ProjectCurve& curve : project.curves)
     j["curves"].push_back({{"name", curve.name}, {"points", curve.x.size()}});
 }
@@ -60,13 +64,18 @@ void tell_trials(const Project& project, ordered_json& j) {
       told["from_s"] = trial.used->begin_s;
       told["to_s"] = trial.used->end_s;
     }
+    std::vector<std::string> not_read;
     for (const opensim::TrialFile& file : trial.files) {
       if (file.role != opensim::TrialRole::emg && file.role != opensim::TrialRole::torques) continue;
-      if (!file.time) continue;
       const std::string role(choice_name(file.role));
+      if (!file.time) {
+        not_read.push_back(role);
+        continue;
+      }
       told[role + "_duration_s"] = file.time->end_s - file.time->begin_s;
       told[role + "_rate_hz"] = file.rate_hz;
     }
+    if (!not_read.empty()) told["not_read"] = name_list(not_read);
     j["trials"].push_back(std::move(told));
   }
 }
@@ -123,7 +132,9 @@ std::optional<ordered_json> project_contents(const std::filesystem::path& path) 
   tell("muscles_without_emg", muscles_without_emg(project));
   tell("synthesized_muscles", project.synthesized);
   tell("knees_without_extensor", knees_without_extensor(project));
-  tell("notes", sentences(project.remarks));
+  std::vector<Remark> remarks = project.remarks;
+  sort_by_severity(remarks);
+  tell("notes", sentences(remarks));
   return j;
 }
 
