@@ -143,10 +143,11 @@ double barrier_of(const body::BodyModel& model) {
 
 MarkerSeries markers_of(const ToolRun& run, const std::filesystem::path& file) {
   recording::MarkerFile markers = recording::read_markers(file);
-  auto& notes = run.result.notes;
+  std::vector<Remark>& remarks = run.result.remarks;
   for (const Repair& repair : markers.repairs) {
-    const std::string note = recording::to_string(file, repair);
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    const std::string says = recording::to_string(file, repair);
+    if (std::ranges::find(remarks, says, &Remark::says) == remarks.end())
+      remarks.push_back({.code = RemarkCode::reading, .says = says});
   }
   return std::move(markers.markers);
 }
@@ -179,7 +180,7 @@ void place_markers(const ToolRun& run, pugi::xml_node placer, body::OsimEditor& 
              counted(removed.size(), "marker"), removed.size() == 1 ? "it" : "them", join_names(removed));
   }
   body::BodyModel model = body::parse_osim(editor.text(), editor.path(), {.compat = run.options.compat});
-  body::IkOptions ik = read_ik_tasks(run.setup, placer, model, pose, run.result.notes);
+  body::IkOptions ik = read_ik_tasks(run.setup, placer, model, pose, run.result.remarks);
   body::IkResult solved = body::inverse_kinematics(model, pose, ik);
   ik.range_barrier = barrier_of(model);
   const bool held_inside = ik.range_barrier > 0.0;

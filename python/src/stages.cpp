@@ -314,7 +314,7 @@ py::dict run_tool(py::dict given) {
   d["frames"] = result.tool.frames;
   d["frames_failed"] = result.tool.frames_failed;
   d["good"] = result.good();
-  d["notes"] = result.tool.notes;
+  d["notes"] = sentences(result.tool.remarks);
   d["remarks"] = to_python(result.remarks);
   return d;
 }

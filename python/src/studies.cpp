@@ -226,7 +226,7 @@ py::dict compare(py::dict given) {
   py::dict d;
   d["parameters"] = rows;
   d["unlike"] = result.comparison.unlike;
-  d["notes"] = result.comparison.remarks;
+  d["notes"] = sentences(result.comparison.remarks);
   d["remarks"] = to_python(result.remarks);
   return d;
 }

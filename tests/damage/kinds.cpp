@@ -169,7 +169,7 @@ Content run_setup(const fs::path& path) {
   };
   const opensim::ToolResult result = opensim::run_tool(path, {.claim = stays});
   Content content;
-  content.notes = result.notes;
+  content.notes = sentences(result.remarks);
   for (const fs::path& file : result.files) {
     content.texts[file.filename().string()] = "written";
     if (file.extension() != ".mot") continue;

@@ -17,7 +17,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   const run::MuscleTable table = run::read_muscles_csv(o.muscles, o.method != fit::Method::paper);
   refuse_impossible(o, table);
   for (const std::string& text : without_effect(o)) remarks.warn(text);
-  for (const std::string& note : table.notes) remarks.warn(note);
+  for (const Remark& remark : table.remarks) remarks.add(remark);
   IdentifyResult result{.study = identify_study(o, table, remarks), .run = {}};
   RunOptions options;
   options.call = o.call;
