@@ -191,7 +191,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
     result.next = stages.run("next recording", "looks for the next recording", 0.95, 1.0,
                              [&](const Progress& progress) { return next_recording(result.source, fit, progress); });
   for (IdentificationResult& method : fit.methods) {
-    if (&method == best) std::ranges::move(sentences(validation.remarks), std::back_inserter(method.warnings));
+    if (&method == best) std::ranges::move(validation.remarks, std::back_inserter(method.warnings));
   }
   input.options.drives.reset();
   result.fit = std::move(fit);

@@ -70,7 +70,7 @@ StudyValidation study_validation(const FitSource& source,
   if (!why_not.empty())
     found.remarks.push_back({.says = "nothing was left out of the fit to be predicted: " + why_not});
   if (std::string bad = fit::generalises_badly(found.folds); !bad.empty())
-    found.remarks.push_back({.says = std::move(bad)});
+    found.remarks.push_back({.code = RemarkCode::not_predicted, .says = std::move(bad)});
   return found;
 }
 

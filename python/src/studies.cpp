@@ -176,8 +176,8 @@ py::dict identify(py::dict given) {
   });
   py::dict d = run_values(done.run);
   const fit::IdentificationResult& fit = done.fit();
-  d["undetermined"] = fit.undetermined;
-  d["diagnoses"] = fit.diagnoses;
+  d["undetermined"] = fit.open_sums;
+  d["diagnoses"] = sentences(fit.diagnoses);
   d["message"] = fit.message;
   d["converged"] = fit.termination == math::Termination::converged;
   d["r2"] = fit.r2;

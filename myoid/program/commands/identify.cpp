@@ -25,7 +25,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   result.run = run(result.study, options);
   if (o.beliefs && o.method != fit::Method::paper)
     result.run.provenance.inputs.push_back({o.beliefs->string(), sha256(read_text_file(*o.beliefs))});
-  for (const std::string& text : result.fit().warnings) remarks.warn(text);
+  for (const Remark& remark : result.fit().warnings) remarks.add(remark);
   std::vector<Remark> all = remarks.list();
   all.insert(all.end(), result.run.remarks.begin(), result.run.remarks.end());
   result.run.remarks = std::move(all);
