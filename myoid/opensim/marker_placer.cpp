@@ -185,7 +185,7 @@ void place_markers(const ToolRun& run, pugi::xml_node placer, body::OsimEditor& 
   ik.range_barrier = barrier_of(model);
   const bool held_inside = ik.range_barrier > 0.0;
   note_limits(run, model, solved.q.values().row(0).transpose(), held_inside);
-  note_undetermined(run, model, solved.undetermined, ik, held_inside);
+  note_undetermined(run, model, solved.open_coordinates, ik, held_inside);
   if (held_inside) solved = body::inverse_kinematics(model, pose, ik);
   if (solved.frames_not_converged > 0) ++run.result.frames_failed;
   const body::MarkerMisfit misfit = body::marker_misfit(model, pose, solved);

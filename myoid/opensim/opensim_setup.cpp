@@ -280,7 +280,7 @@ body::BodyModel setup_model(const OpensimSetup& setup,
     for (const auto& file : setup.files(setup.tool(), element)) model = body::with_force_set(std::move(model), file);
   }
   for (std::size_t k = noted; k < model.notes.size(); ++k)
-    remarks.push_back({.code = RemarkCode::reading, .says = model.notes[k]});
+    remarks.push_back({.code = model.notes[k].code, .says = sentence(model.notes[k])});
   for (const std::string& name : excluded) {
     const bool all = equal_ignoring_case(name, "all");
     const bool muscles = all || equal_ignoring_case(name, "muscles");

@@ -90,8 +90,8 @@ void note_unsolved(const ToolRun& run, const body::IkResult& solved) {
     if (solved.status[i] == body::FrameStatus::not_converged)
       run.note("no converged solution at {} s", solved.q.time_s()[static_cast<Eigen::Index>(i)]);
   }
-  if (!solved.undetermined.empty()) {
-    run.note("not determined by the markers: {}", fmt::join(solved.undetermined, ", "));
+  if (!solved.open_coordinates.empty()) {
+    run.note("not determined by the markers: {}", fmt::join(solved.open_coordinates, ", "));
   }
 }
 

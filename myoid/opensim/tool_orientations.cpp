@@ -172,8 +172,8 @@ std::filesystem::path motion_file(const OpensimSetup& setup, const std::filesyst
 }
 
 void note_fit(const ToolRun& run, const body::OrientationFit& fit) {
-  if (!fit.undetermined.empty()) {
-    run.note("the sensors do not determine {}; they stay where they are", fmt::join(fit.undetermined, ", "));
+  if (!fit.open_coordinates.empty()) {
+    run.note("the sensors do not determine {}; they stay where they are", fmt::join(fit.open_coordinates, ", "));
   }
   if (fit.frames_without_sensors > 0) {
     run.note("{} frames without any orientation keep the pose of the one before", fit.frames_without_sensors);

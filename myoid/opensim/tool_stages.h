@@ -27,6 +27,7 @@ struct ToolRun {
   }
   /// Adds what a reader chose, left out or repaired, as warnings.
   void add_notes(const std::vector<std::string>& texts) const;
+  void add_notes(std::vector<Remark> notes) const;
   /// Adds the findings of a check on a file or a result; its name goes before each.
   void add_remarks(std::vector<Remark> found, const std::string& where) const;
   /// Remembers the file of a result. Throws InvalidInput if it is an input or stands outside the folder of the set-up,

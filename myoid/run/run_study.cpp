@@ -106,7 +106,7 @@ std::vector<TrialResult> joined(const study::Study& study,
     remarks = trial.input.remarks;
     std::ranges::copy_if(findings.dynamometers, std::back_inserter(remarks),
                          [&](const Remark& remark) { return remark.where == trial.spec.name; });
-    if (trial.emg.stages) study::add_notes(trial.emg.stages->findings, remarks);
+    if (trial.emg.stages) std::ranges::copy(trial.emg.stages->findings, std::back_inserter(remarks));
     remarks.insert(remarks.end(), trial.motion.remarks.begin(), trial.motion.remarks.end());
     remarks.insert(remarks.end(), trial.forces.remarks.begin(), trial.forces.remarks.end());
   }

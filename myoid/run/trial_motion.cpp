@@ -89,7 +89,7 @@ void add_joint_motion(const study::Study& study, const study::GivenStages& given
   if (options.time_s && !given.lengths && !smoothed_away && q.is_uniform()) q = recording::anti_aliased(q, wanted);
   body::MotionResult result = body::joint_motion(*motion.model, q, options);
   motion.joints = std::move(result.motion);
-  study::add_notes(result.notes, motion.remarks);
+  std::ranges::move(result.notes, std::back_inserter(motion.remarks));
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ TrialMotion trial_motion(const StudySource& source,
   motion.model = trial_model(source, spec, input);
   if (input.markers) {
     solve_ik(source, *input.markers, store, motion);
-    study::add_notes(motion.ik->notes, motion.remarks);
+    std::ranges::copy(motion.ik->notes, std::back_inserter(motion.remarks));
     add_joint_motion(source.study, input.given, motion.ik->q, motion);
     std::vector<Remark> found = body::implausible_motion(motion.ik->q);
     std::ranges::move(body::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(found));

@@ -108,7 +108,7 @@ Content read_orientations(const fs::path& path) {
 Content read_model(const fs::path& path) {
   const body::BodyModel m = body::read_osim(path);
   Content content;
-  content.notes = m.notes;
+  content.notes = sentences(m.notes);
   content.notes.insert(content.notes.end(), m.unsupported.begin(), m.unsupported.end());
   const auto list = [](const auto& v) { return std::vector<double>(v.begin(), v.end()); };
   content.numbers["gravity"] = list(m.gravity_G);

@@ -354,7 +354,7 @@ void write_updated(const ConvertOptions& o, ConvertResult& result, Remarks& rema
   check_output(o.out, {o.in}, o.overwrite);
   const body::UpdatedOsim updated =
       body::updated_osim(read_text_file(o.in), o.in, {.six_digits = body::parse_compat(o.compat).six_digit_offsets});
-  for (const std::string& note : updated.notes) remarks.warn(note);
+  for (const Remark& note : updated.notes) remarks.add(note);
   write_file(o.out, updated.text);
   result.files = {o.out};
   result.old_version = updated.old_version;
