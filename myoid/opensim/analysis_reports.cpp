@@ -235,10 +235,12 @@ void write_result(AnalysisRun& run, const std::string& name, const TimeSeries& t
 std::optional<TimeSeries> read_speeds(const body::BodyModel& model,
                                       const std::filesystem::path& path,
                                       bool only_speeds,
-                                      std::vector<std::string>& notes) {
+                                      std::vector<Remark>& remarks) {
   const recording::Storage file = recording::read_storage(path);
   for (const Repair& repair : file.repairs) {
-    if (only_speeds) notes.push_back(recording::to_string(path, repair));  // else with the states
+    if (only_speeds)
+      remarks.push_back(
+          {.code = RemarkCode::reading, .says = recording::to_string(path, repair)});  // else with the states
   }
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(file.data.sample_count(), count);

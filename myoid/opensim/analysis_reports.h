@@ -82,7 +82,7 @@ void write_result(AnalysisRun& run, const std::string& name, const TimeSeries& t
 [[nodiscard]] std::optional<TimeSeries> read_speeds(const body::BodyModel& model,
                                                     const std::filesystem::path& path,
                                                     bool only_speeds,
-                                                    std::vector<std::string>& notes);
+                                                    std::vector<Remark>& remarks);
 /// Fills `activation` and `fiber_length_m` from a states file that has them.
 void read_muscle_states(AnalysisRun& run, const std::filesystem::path& path);
 

@@ -78,8 +78,8 @@ class ForeignSetups : public test::ToolFolder {
       ASSERT_TRUE(fs::exists(beside)) << beside;
       EXPECT_EQ(text_of(beside), text_of(file)) << file;
     }
-    EXPECT_THAT(foreign.notes, Contains(HasSubstr("is not on this computer")));
-    EXPECT_THAT(native.notes, ::testing::Not(Contains(HasSubstr("is not on this computer"))));
+    EXPECT_THAT(sentences(foreign.remarks), Contains(HasSubstr("is not on this computer")));
+    EXPECT_THAT(sentences(native.remarks), ::testing::Not(Contains(HasSubstr("is not on this computer"))));
   }
 };
 
@@ -136,7 +136,7 @@ TEST_F(ForeignSetups, FilesOfTheCommandLineStandInForTheSetUps) {
                                     .out = folder_ / "results"});
   // As in OpenSim: a folder in the name does not count, the extension is .sto.
   EXPECT_EQ(result.files, std::vector{folder_ / "results/id.sto"});
-  EXPECT_THAT(result.notes, Contains(HasSubstr("only the name of the file counts")));
+  EXPECT_THAT(sentences(result.remarks), Contains(HasSubstr("only the name of the file counts")));
   EXPECT_EQ(read("results/id.sto").sample_count(), 60);
   EXPECT_THROW((void)run_as(true, "<InverseKinematicsTool/>", {.external_loads = folder_ / "setups/native_loads.xml"}),
                InvalidInput);
@@ -181,7 +181,7 @@ TEST_F(ForeignSetups, TasksOfMarkersThatAreNamedOtherwiseAreNamed) {
   const ToolResult result = run("<InverseKinematicsTool><model_file>arm.osim</model_file><IKTaskSet><objects>" + tasks +
                                 "</objects></IKTaskSet><marker_file>m.trc</marker_file><output_motion_file>ik.mot"
                                 "</output_motion_file></InverseKinematicsTool>");
-  EXPECT_THAT(result.notes, Contains(HasSubstr("is it 'subject:" + renamed + "' there?")));
+  EXPECT_THAT(sentences(result.remarks), Contains(HasSubstr("is it 'subject:" + renamed + "' there?")));
 }
 
 TEST_F(ForeignSetups, AResultNeverReplacesTheModelThatIsScaled) {

@@ -23,7 +23,7 @@ void add_coordinate_task(const OpensimSetup& setup,
                          const body::BodyModel& model,
                          const MarkerSeries& markers,
                          body::IkOptions& ik,
-                         std::vector<std::string>& notes) {
+                         std::vector<Remark>& remarks) {
   const OsimXml& xml = setup.xml();
   const std::string name = OsimXml::name_of(node);
   const auto found = model.find_coordinate(name);
@@ -39,7 +39,7 @@ void add_coordinate_task(const OpensimSetup& setup,
     if (!file)
       xml.fail(node, "IKCoordinateTask '{}' takes its values from a file, but the set-up has no <coordinate_file>",
                name);
-    const TimeSeries wished = read_coordinates(model, *file, MissingCoordinate::default_value, notes);
+    const TimeSeries wished = read_coordinates(model, *file, MissingCoordinate::default_value, remarks);
     task.values = math::Spline::interpolate(wished.time_s(), wished.column(name)).evaluate(markers.time_s).value;
   } else if (!source.empty() && source != "default_value") {
     xml.fail(node, "IKCoordinateTask '{}': <value_type> '{}', expected default_value, manual_value or from_file", name,
@@ -53,7 +53,7 @@ void add_coordinate_task(const OpensimSetup& setup,
 void note_unseen_markers(const body::BodyModel& model,
                          const body::IkOptions& ik,
                          const MarkerSeries& markers,
-                         std::vector<std::string>& notes) {
+                         std::vector<Remark>& remarks) {
   std::vector<std::string> wanted;
   for (const auto& [name, weight] : ik.marker_weights) wanted.push_back(name);
   const LabelMatch match = match_labels(markers.names, wanted);
@@ -67,7 +67,8 @@ void note_unseen_markers(const body::BodyModel& model,
     unseen += fmt::format("{}'{}'{}", unseen.empty() ? "" : ", ", name,
                           other == called.end() ? "" : fmt::format(" (is it '{}' there?)", other->second));
   }
-  if (!unseen.empty()) notes.push_back(fmt::format("tasks of markers that the recording does not have: {}", unseen));
+  if (!unseen.empty())
+    remarks.push_back({.says = fmt::format("tasks of markers that the recording does not have: {}", unseen)});
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ body::IkOptions read_ik_tasks(const OpensimSetup& setup,
                               pugi::xml_node owner,
                               const body::BodyModel& model,
                               const MarkerSeries& markers,
-                              std::vector<std::string>& notes) {
+                              std::vector<Remark>& remarks) {
   body::IkOptions ik;
   const OsimXml& xml = setup.xml();
   std::set<std::string> named;
@@ -94,10 +95,10 @@ body::IkOptions read_ik_tasks(const OpensimSetup& setup,
       }
       const std::string name = OsimXml::name_of(node);
       if (!named.insert(name).second)
-        notes.push_back(fmt::format("two tasks for marker '{}': the last one counts", name));
+        remarks.push_back({.says = fmt::format("two tasks for marker '{}': the last one counts", name)});
       if (weight > 0.0) ik.marker_weights[name] = weight;
     } else {
-      add_coordinate_task(setup, owner, node, model, markers, ik, notes);
+      add_coordinate_task(setup, owner, node, model, markers, ik, remarks);
     }
   }
   std::string unknown;
@@ -106,8 +107,9 @@ body::IkOptions read_ik_tasks(const OpensimSetup& setup,
     unknown += fmt::format("{}'{}'", unknown.empty() ? "" : ", ", task.first);
     return true;
   });
-  if (!unknown.empty()) notes.push_back(fmt::format("tasks of markers that the model does not have: {}", unknown));
-  note_unseen_markers(model, ik, markers, notes);
+  if (!unknown.empty())
+    remarks.push_back({.says = fmt::format("tasks of markers that the model does not have: {}", unknown)});
+  note_unseen_markers(model, ik, markers, remarks);
   return ik;
 }
 

@@ -143,10 +143,11 @@ double barrier_of(const body::BodyModel& model) {
 
 MarkerSeries markers_of(const ToolRun& run, const std::filesystem::path& file) {
   recording::MarkerFile markers = recording::read_markers(file);
-  auto& notes = run.result.notes;
+  std::vector<Remark>& remarks = run.result.remarks;
   for (const Repair& repair : markers.repairs) {
-    const std::string note = recording::to_string(file, repair);
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    const std::string says = recording::to_string(file, repair);
+    if (std::ranges::find(remarks, says, &Remark::says) == remarks.end())
+      remarks.push_back({.code = RemarkCode::reading, .says = says});
   }
   return std::move(markers.markers);
 }
@@ -179,12 +180,12 @@ void place_markers(const ToolRun& run, pugi::xml_node placer, body::OsimEditor& 
              counted(removed.size(), "marker"), removed.size() == 1 ? "it" : "them", join_names(removed));
   }
   body::BodyModel model = body::parse_osim(editor.text(), editor.path(), {.compat = run.options.compat});
-  body::IkOptions ik = read_ik_tasks(run.setup, placer, model, pose, run.result.notes);
+  body::IkOptions ik = read_ik_tasks(run.setup, placer, model, pose, run.result.remarks);
   body::IkResult solved = body::inverse_kinematics(model, pose, ik);
   ik.range_barrier = barrier_of(model);
   const bool held_inside = ik.range_barrier > 0.0;
   note_limits(run, model, solved.q.values().row(0).transpose(), held_inside);
-  note_undetermined(run, model, solved.undetermined, ik, held_inside);
+  note_undetermined(run, model, solved.open_coordinates, ik, held_inside);
   if (held_inside) solved = body::inverse_kinematics(model, pose, ik);
   if (solved.frames_not_converged > 0) ++run.result.frames_failed;
   const body::MarkerMisfit misfit = body::marker_misfit(model, pose, solved);

@@ -72,7 +72,7 @@ void read_control_set(const std::filesystem::path& path, ModelControls& controls
 
 }  // namespace
 
-ModelControls read_model_controls(const OpensimSetup& setup, std::vector<std::string>* notes) {
+ModelControls read_model_controls(const OpensimSetup& setup, std::vector<Remark>* remarks) {
   const auto& xml = setup.xml();
   ModelControls controls;
   for (const auto node : OsimXml::objects(xml.property(setup.tool(), "ControllerSet"))) {
@@ -82,8 +82,8 @@ ModelControls read_model_controls(const OpensimSetup& setup, std::vector<std::st
           "controller '{}' of kind {} is not run; give its controls as a table to a ControlSetController "
           "(<controls_file>)",
           OsimXml::name_of(node), node.name());
-      if (notes == nullptr) xml.fail(node, message);
-      notes->push_back(message);
+      if (remarks == nullptr) xml.fail(node, message);
+      remarks->push_back({.says = message});
       continue;
     }
     const auto path = setup.required_file(node, "controls_file");

@@ -14,8 +14,8 @@ using ModelControls = std::map<std::string, body::Signal>;
 
 /// Reads the controls in the set-up's <ControllerSet>: of ControlSetControllers with a <controls_file>, a table (.sto)
 /// or a <ControlSet> (.xml) of ControlLinear and ControlConstant. "<name>.excitation" and ".../<name>" control the
-/// muscle of that name. An enabled controller of another class is named in `notes` or, without `notes`, throws
+/// muscle of that name. An enabled controller of another class is named in `remarks` or, without `remarks`, throws
 /// ReadError. A file without controls throws ReadError.
-[[nodiscard]] ModelControls read_model_controls(const OpensimSetup& setup, std::vector<std::string>* notes = nullptr);
+[[nodiscard]] ModelControls read_model_controls(const OpensimSetup& setup, std::vector<Remark>* remarks = nullptr);
 
 }  // namespace myoid::opensim

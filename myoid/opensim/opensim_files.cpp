@@ -37,9 +37,10 @@ int coordinate_of(const body::BodyModel& model, const std::string& column) {
 TimeSeries read_coordinates(const body::BodyModel& model,
                             const std::filesystem::path& path,
                             MissingCoordinate missing,
-                            std::vector<std::string>& notes) {
+                            std::vector<Remark>& remarks) {
   const recording::Storage file = recording::read_storage(path);
-  for (const Repair& repair : file.repairs) notes.push_back(recording::to_string(path, repair));
+  for (const Repair& repair : file.repairs)
+    remarks.push_back({.code = RemarkCode::reading, .says = recording::to_string(path, repair)});
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd q(file.data.sample_count(), count);
   std::vector<Channel> channels;
@@ -72,14 +73,14 @@ TimeSeries read_coordinates(const body::BodyModel& model,
     if (!found[k] && !is_given[k]) absent += (absent.empty() ? "" : ", ") + model.coordinates[k].name;
   }
   if (!absent.empty()) {
-    notes.push_back(
-        fmt::format("{}: no column for {}; they stay at {}", path.string(), absent,
-                    missing == MissingCoordinate::zero ? "0, as in OpenSim's analyses" : "their default values"));
+    remarks.push_back({.says = fmt::format("{}: no column for {}; they stay at {}", path.string(), absent,
+                                           missing == MissingCoordinate::zero ? "0, as in OpenSim's analyses"
+                                                                              : "their default values")});
   }
   TimeSeries result(file.data.time_s(), std::move(channels), std::move(q));
   require_finite(result, path.string());
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, result); !doubt.empty())
-    notes.push_back(fmt::format("{}: {}", path.filename().string(), doubt));
+    remarks.push_back({.says = fmt::format("{}: {}", path.filename().string(), doubt)});
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "myoid/body/kinematics/joint_motion.h"
 #include "myoid/body/model/body_model.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
 
 namespace myoid::opensim {
@@ -21,7 +22,7 @@ enum class MissingCoordinate { default_value, zero };
 [[nodiscard]] TimeSeries read_coordinates(const body::BodyModel& model,
                                           const std::filesystem::path& path,
                                           MissingCoordinate missing,
-                                          std::vector<std::string>& notes);
+                                          std::vector<Remark>& remarks);
 
 /// Returns the row of the greatest time that is not after `time_s`; the first row if all times are later.
 [[nodiscard]] Eigen::Index row_at(const Eigen::VectorXd& times_s, double time_s);

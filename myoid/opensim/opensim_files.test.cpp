@@ -44,12 +44,12 @@ TEST(OpensimFiles, CoordinatesAreFoundByNameAndByPath) {
   const auto path = scratch("states.sto");
   std::ofstream(path) << "states\nversion=1\nnRows=1\nnColumns=3\ninDegrees=no\nendheader\n"
                          "time\t/jointset/elbow/elbow_flexion/value\tother\n0\t0.5\t7\n";
-  std::vector<std::string> notes;
-  const TimeSeries q = read_coordinates(m, path, MissingCoordinate::zero, notes);
+  std::vector<Remark> remarks;
+  const TimeSeries q = read_coordinates(m, path, MissingCoordinate::zero, remarks);
   EXPECT_DOUBLE_EQ(q.column("elbow_flexion")[0], 0.5);
   EXPECT_EQ(q.channel_count(), static_cast<Eigen::Index>(m.coordinates.size()));
   std::ofstream(path) << "x\nversion=1\nnRows=1\nnColumns=2\ninDegrees=no\nendheader\ntime\tother\n0\t1\n";
-  EXPECT_THROW((void)read_coordinates(m, path, MissingCoordinate::zero, notes), InvalidInput);
+  EXPECT_THROW((void)read_coordinates(m, path, MissingCoordinate::zero, remarks), InvalidInput);
   std::filesystem::remove(path);
 }
 

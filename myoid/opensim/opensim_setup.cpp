@@ -240,7 +240,7 @@ std::pair<double, double> OpensimSetup::time_range(pugi::xml_node object, const 
 void OpensimSetup::check_range(std::pair<double, double> asked_s,
                                const Eigen::VectorXd& recorded_s,
                                const std::filesystem::path& file,
-                               std::vector<std::string>& notes) const {
+                               std::vector<Remark>& remarks) const {
   const auto [start_s, end_s] = asked_s;
   const Eigen::Index count = recorded_s.size();
   const double first_s = recorded_s[0], last_s = recorded_s[count - 1];
@@ -252,16 +252,17 @@ void OpensimSetup::check_range(std::pair<double, double> asked_s,
   const bool early = start_s < first_s - interval_s && std::isfinite(start_s);
   const bool late = end_s > last_s + interval_s && std::isfinite(end_s);
   if (early || late) {
-    notes.push_back(
-        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and these times are used, as in OpenSim",
-                    start_s, end_s, file.string(), first_s, last_s));
+    remarks.push_back(
+        {.says =
+             fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and these times are used, as in OpenSim",
+                         start_s, end_s, file.string(), first_s, last_s)});
   }
 }
 
 body::BodyModel setup_model(const OpensimSetup& setup,
                             const body::Compat& compat,
                             const std::vector<std::string>& excluded,
-                            std::vector<std::string>& notes) {
+                            std::vector<Remark>& remarks) {
   const auto& xml = setup.xml();
   const auto path = setup.required_file(setup.tool(), "model_file");
   body::BodyModel model = body::read_osim(path, {.compat = compat});
@@ -278,7 +279,8 @@ body::BodyModel setup_model(const OpensimSetup& setup,
   for (const char* element : {"force_set_files", "actuator_set_files"}) {
     for (const auto& file : setup.files(setup.tool(), element)) model = body::with_force_set(std::move(model), file);
   }
-  notes.insert(notes.end(), model.notes.begin() + static_cast<std::ptrdiff_t>(noted), model.notes.end());
+  for (std::size_t k = noted; k < model.notes.size(); ++k)
+    remarks.push_back({.code = model.notes[k].code, .says = sentence(model.notes[k])});
   for (const std::string& name : excluded) {
     const bool all = equal_ignoring_case(name, "all");
     const bool muscles = all || equal_ignoring_case(name, "muscles");
@@ -290,7 +292,8 @@ body::BodyModel setup_model(const OpensimSetup& setup,
     body::visit_actuators(model, [&](auto& list) { std::erase_if(list, actuator); });
     std::erase_if(model.passive_forces, named);
   }
-  for (const std::string& text : model.unsupported) notes.push_back(fmt::format("{}: {}", path.string(), text));
+  for (const std::string& text : model.unsupported)
+    remarks.push_back({.code = RemarkCode::model_unsupported, .says = fmt::format("{}: {}", path.string(), text)});
   return model;
 }
 

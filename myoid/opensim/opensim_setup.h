@@ -8,6 +8,7 @@
 
 #include "myoid/body/model/body_model.h"
 #include "myoid/body/osim/osim_xml.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/files/named_file.h"
 
 namespace myoid::opensim {
@@ -70,7 +71,7 @@ class OpensimSetup {
   void check_range(std::pair<double, double> asked_s,
                    const Eigen::VectorXd& recorded_s,
                    const std::filesystem::path& file,
-                   std::vector<std::string>& notes) const;
+                   std::vector<Remark>& remarks) const;
 
  private:
   /// Returns the option that replaces the file of an element ("--model"); empty if none does.
@@ -91,10 +92,10 @@ class OpensimSetup {
 
 /// Returns the model that a set-up names, with the actuators of its <force_set_files>; without the
 /// forces named in `excluded` ("all", "muscles", "actuators", or names; case does not matter).
-/// Unsupported parts of the model are added to `notes`.
+/// Unsupported parts of the model are added to `remarks`.
 [[nodiscard]] body::BodyModel setup_model(const OpensimSetup& setup,
                                           const body::Compat& compat,
                                           const std::vector<std::string>& excluded,
-                                          std::vector<std::string>& notes);
+                                          std::vector<Remark>& remarks);
 
 }  // namespace myoid::opensim

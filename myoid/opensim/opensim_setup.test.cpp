@@ -66,15 +66,15 @@ TEST_F(Setup, ForcesAreLeftOutByGroupOrName) {
   const OpensimSetup setup(
       write("<OpenSimDocument Version=\"40000\"><InverseDynamicsTool>"
             "<model_file>arm.osim</model_file></InverseDynamicsTool></OpenSimDocument>"));
-  std::vector<std::string> notes;
+  std::vector<Remark> remarks;
   const auto count = [&](const std::vector<std::string>& excluded) {
-    return setup_model(setup, {}, excluded, notes).muscles.size();
+    return setup_model(setup, {}, excluded, remarks).muscles.size();
   };
   const std::size_t all = count({});
   EXPECT_GT(all, 1U);
   EXPECT_EQ(count({"Muscles"}), 0U);
   EXPECT_EQ(count({"ALL"}), 0U);
-  EXPECT_EQ(count({setup_model(setup, {}, {}, notes).muscles[0].name}), all - 1);
+  EXPECT_EQ(count({setup_model(setup, {}, {}, remarks).muscles[0].name}), all - 1);
 }
 
 }  // namespace

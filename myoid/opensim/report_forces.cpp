@@ -118,7 +118,7 @@ const TimeSeries& forces_of_states(AnalysisRun& run) {
       }
     }
   }
-  const ModelControls controls = read_model_controls(run.setup, &run.result.notes);
+  const ModelControls controls = read_model_controls(run.setup, &run.result.remarks);
   for (std::size_t k = 0; k < actuators.size(); ++k) {
     const auto control = controls.find(actuators[k].name);
     if (actuators[k].kind == body::Actuator::Kind::muscle || control == controls.end()) continue;

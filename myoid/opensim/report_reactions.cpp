@@ -106,7 +106,7 @@ TimeSeries linear_at(const TimeSeries& file, const Eigen::VectorXd& times) {
 /// Returns the actuators' forces at the motion's times: from the file or, where the file lacks an
 /// actuator, from the states of the muscles, with the other actuators at rest.
 TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
-  auto& notes = run.result.notes;
+  std::vector<Remark>& remarks = run.result.remarks;
   const Eigen::VectorXd& times = run.motion.q.time_s();
   if (const auto path = run.setup.file(node, "forces_file")) {
     const TimeSeries file = recording::read_storage(*path).data;
@@ -114,15 +114,16 @@ TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
     for (const body::Actuator& a : body::actuators_of(run.model))
       if (!file.find(a.name)) missing += (missing.empty() ? "" : ", ") + a.name;
     if (missing.empty()) {
-      run.setup.check_range({times[0], times[times.size() - 1]}, file.time_s(), *path, notes);
+      run.setup.check_range({times[0], times[times.size() - 1]}, file.time_s(), *path, remarks);
       return linear_at(file, times);
     }
-    notes.push_back(
-        fmt::format("{}: no column for {}; as in OpenSim all forces follow from the muscles' states, and other "
-                    "actuators exert nothing",
-                    path->string(), missing));
+    remarks.push_back({.says = fmt::format(
+                           "{}: no column for {}; as in OpenSim all forces follow from the muscles' states, and other "
+                           "actuators exert nothing",
+                           path->string(), missing)});
   } else {
-    notes.push_back("JointReaction without <forces_file>: muscles pull by their states, other actuators do nothing");
+    remarks.push_back(
+        {.says = "JointReaction without <forces_file>: muscles pull by their states, other actuators do nothing"});
   }
   return forces_of_states(run);
 }

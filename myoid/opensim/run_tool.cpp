@@ -29,11 +29,11 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
   const OpensimSetup setup(path, options.files);
   ToolResult result;
   result.inputs = setup.inputs();
-  result.notes = setup.notes();
   const std::vector<std::string> unknown = unknown_elements(setup.xml(), setup.tool());
   ToolFolders own;
   ToolFolders& folders = options.folders != nullptr ? *options.folders : own;
   const ToolRun run{setup, options, result, folders};
+  run.add_notes(setup.notes());
   run.add_notes(unknown);
   run.add_notes(setup.xml().ignored());
   result.tool = setup.kind();

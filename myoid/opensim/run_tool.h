@@ -18,7 +18,7 @@ namespace myoid::opensim {
 ///   ForwardTool
 ///   IMUPlacer, IMUInverseKinematicsTool
 ///
-/// `notes` names every request of the set-up that is not done, and elements unknown to OpenSim.
+/// `remarks` name every request of the set-up that is not done, and elements unknown to OpenSim.
 /// Throws ReadError with the line for a set-up that cannot be read or run.
 [[nodiscard]] ToolResult run_tool(const std::filesystem::path& setup, const ToolOptions& options = {});
 

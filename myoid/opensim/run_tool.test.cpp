@@ -50,14 +50,14 @@ TEST_F(RunTool, ATimeRangeBeyondTheDataIsWhatThereIsAndSaid) {
           "<coordinates_file>motion.mot</coordinates_file>"
           "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
   EXPECT_EQ(read("id.sto").sample_count(), 60);
-  EXPECT_THAT(id.notes, says_so);
+  EXPECT_THAT(sentences(id.remarks), says_so);
   write_markers(20);
   const ToolResult ik =
       run("<InverseKinematicsTool><model_file>.\\arm.osim</model_file><time_range>-5 99"
           "</time_range><marker_file> m.trc </marker_file><output_motion_file>sub\\ik.mot"
           "</output_motion_file></InverseKinematicsTool>");
   EXPECT_EQ(ik.frames, 20);
-  EXPECT_THAT(ik.notes, says_so);
+  EXPECT_THAT(sentences(ik.remarks), says_so);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "sub/ik.mot"));
 }
 

@@ -79,7 +79,7 @@ TEST_F(ToolAccelerations, AreThoseOfAFreePendulum) {
   ASSERT_EQ(rows.size(), 60U);
   for (std::size_t i = 0; i < rows.size(); ++i)
     EXPECT_NEAR(acceleration.values()(static_cast<Eigen::Index>(i), 0), rows[i].acceleration, kDecimals);
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("differ from the motion's second")));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("differ from the motion's second")));
   std::ignore = analyze("<Kinematics name=\"k\"/>");
   EXPECT_NEAR(kDegree * read("a_k_dudt.sto").values()(7, 0), rows[7].acceleration, kDecimals);
 }
@@ -178,7 +178,7 @@ TEST_F(ToolAccelerations, AreLeftOutWithWordsWhereNothingHasMass) {
   const ToolResult result = analyze(kKinematics);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a_k_q.sto"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a_k_dudt.sto"));
-  EXPECT_THAT(result.notes,
+  EXPECT_THAT(sentences(result.remarks),
               ::testing::Contains(::testing::AllOf(::testing::HasSubstr("'swing'"),
                                                    ::testing::HasSubstr("accelerations are not written"))));
 }

@@ -74,29 +74,29 @@ body::JointMotion motion_of(AnalysisRun& run, TimeSeries q, std::optional<TimeSe
 body::JointMotion read_motion(AnalysisRun& run, std::pair<double, double> range_s, bool with_accelerations) {
   const OpensimSetup& setup = run.setup;
   const auto tool = setup.tool();
-  auto& notes = run.result.notes;
+  std::vector<Remark>& remarks = run.result.remarks;
   if (const auto states = setup.file(tool, "states_file")) {
     for (const char* other : {"coordinates_file", "speeds_file"}) {
       if (setup.names_file(tool, other)) run.note("<{}> is not read: there is a <states_file>", other);
     }
-    TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
-    setup.check_range(range_s, q.time_s(), *states, notes);
+    TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, remarks);
+    setup.check_range(range_s, q.time_s(), *states, remarks);
     run.add_remarks(body::implausible_motion(q), states->string());
     read_muscle_states(run, *states);
-    return motion_of(run, std::move(q), read_speeds(run.model, *states, false, notes), with_accelerations);
+    return motion_of(run, std::move(q), read_speeds(run.model, *states, false, remarks), with_accelerations);
   }
   const auto path = setup.file(tool, "coordinates_file");
   if (!path) {
     setup.xml().fail(tool, "expected a <states_file> or a <coordinates_file>: the motion to analyze");
   }
-  TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::zero, notes);
-  setup.check_range(range_s, q.time_s(), *path, notes);
+  TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::zero, remarks);
+  setup.check_range(range_s, q.time_s(), *path, remarks);
   run.add_remarks(body::implausible_motion(q), path->string());
   const double cutoff_hz = setup.xml().number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = recording::opensim_lowpass(q, cutoff_hz);
   std::optional<TimeSeries> speeds;
   if (const auto file = setup.file(tool, "speeds_file")) {
-    speeds = read_speeds(run.model, *file, true, notes);
+    speeds = read_speeds(run.model, *file, true, remarks);
     if (!speeds) {
       throw InvalidInput(fmt::format("{}: no column is the speed of a coordinate", file->string()));
     }
@@ -172,7 +172,7 @@ void run_analyses(const ToolRun& tool_run) {
   AnalysisRun run{tool_run};
   const auto& xml = run.setup.xml();
   const auto tool = run.setup.tool();
-  run.model = setup_model(run.setup, run.options.compat, {}, run.result.notes);
+  run.model = setup_model(run.setup, run.options.compat, {}, run.result.remarks);
   run.add_remarks(body::implausible(run.model), run.setup.required_file(tool, "model_file").string());
   run.decimals = static_cast<int>(xml.number(tool, "output_precision", 8.0));
   if (run.decimals < 1 || run.decimals > 30) {

@@ -31,7 +31,7 @@ TEST_F(ToolAnalyses, AnalysesShareAMotion) {
           arm_.muscles[0].name +
           "/path|length</output_paths></OutputReporter><InducedAccelerations name=\"ia\"/>"
           "</objects></AnalysisSet></AnalyzeTool>");
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("InducedAccelerations")));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("InducedAccelerations")));
   for (const char* name : {"r/a_MuscleAnalysis_Length.sto", "r/a_MuscleAnalysis_MomentArm_elbow_flexion.sto",
                            "r/a_StaticOptimization_activation.sto", "r/a_StaticOptimization_force.sto",
                            "r/a_StaticOptimization_controls.xml", "r/a_Kinematics_q.sto", "r/a_Outputs.sto"})
@@ -227,8 +227,8 @@ TEST_F(ToolAnalyses, AnUnknownAnalysisDoesNotStopTheOthers) {
   write_motion(40);
   const ToolResult result = run(analyses_of("<MyPlugin name=\"p\"/><Kinematics name=\"k\"/><MuscleAnalisis/>"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a_k_q.sto"));
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("MyPlugin")));
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("did you mean MuscleAnalysis")));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("MyPlugin")));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("did you mean MuscleAnalysis")));
   // Nothing to run is an error, also for analyses of OpenSim itself.
   EXPECT_THROW((void)run(analyses_of("<MyPlugin/>")), ReadError);
   EXPECT_THROW((void)run(analyses_of("<StatesReporter/>")), ReadError);
@@ -257,9 +257,10 @@ TEST_F(ToolAnalyses, LocksAndPrescribedFunctionsHold) {
     EXPECT_NEAR(q.column(locked)[i], lock, 1e-7);
     EXPECT_NEAR(q.column("elbow_flexion")[i], 1.0 + 0.5 * q.time_s()[i], 1e-7);
   }
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("'" + locked + "' is locked"),
-                                                                 ::testing::HasSubstr("the model's values count"))));
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("'elbow_flexion' is prescribed")));
+  EXPECT_THAT(sentences(result.remarks),
+              ::testing::Contains(::testing::AllOf(::testing::HasSubstr("'" + locked + "' is locked"),
+                                                   ::testing::HasSubstr("the model's values count"))));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("'elbow_flexion' is prescribed")));
 }
 
 }  // namespace

@@ -21,17 +21,17 @@ using body::SimulationStart;
 
 /// Returns the row of a states file that the motion starts from: posture, speeds, activations and fibers.
 SimulationStart start_of(AnalysisRun& run, const SimulationModel& model, double& start_s) {
-  auto& notes = run.result.notes;
+  std::vector<Remark>& remarks = run.result.remarks;
   const auto path = run.setup.file(run.setup.tool(), "states_file");
   if (!path) {
-    notes.push_back("there is no <states_file>: the motion starts from the model's default state");
+    remarks.push_back({.says = "there is no <states_file>: the motion starts from the model's default state"});
     return body::default_start(model, start_s);
   }
-  const TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::default_value, notes);
+  const TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::default_value, remarks);
   const Eigen::Index row = row_at(q.time_s(), start_s);
   start_s = q.time_s()[row];
   SimulationStart start = body::default_start(model, start_s);
-  const auto speeds = read_speeds(run.model, *path, false, notes);
+  const auto speeds = read_speeds(run.model, *path, false, remarks);
   for (std::size_t c = 0; c < start.q.size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
     const body::Coordinate& k = model.body.coordinates[c];
@@ -170,7 +170,7 @@ void run_forward(const ToolRun& tool_run) {
   const auto& xml = setup.xml();
   const auto tool = setup.tool();
   refuse_and_note(run);
-  run.model = setup_model(setup, run.options.compat, {}, result.notes);
+  run.model = setup_model(setup, run.options.compat, {}, result.remarks);
   run.add_remarks(body::implausible(run.model), setup.required_file(tool, "model_file").string());
   run.decimals = std::clamp(static_cast<int>(xml.number(tool, "output_precision", 8.0)), 1, 30);
   run.equilibrium = xml.flag(tool, "solve_for_equilibrium_for_auxiliary_states", false);

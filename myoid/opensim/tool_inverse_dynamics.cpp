@@ -94,23 +94,24 @@ void run_inverse_dynamics(const ToolRun& run) {
   const auto out = force_file(run);
   run.claim(out);
   const auto excluded = xml.words(tool, "forces_to_exclude");
-  const body::BodyModel model = setup_model(setup, options.compat, excluded, result.notes);
+  const body::BodyModel model = setup_model(setup, options.compat, excluded, result.remarks);
   if (!model.muscles.empty()) {
-    result.notes.push_back(
-        options.compat.class_fiber_length
-            ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with their default activations and "
-              "fiber lengths (0.1 m where the model gives none)"
-            : "forces_to_exclude does not name the muscles: they pull with their default activations and fiber lengths "
-              "(optimal ones where the model gives none; OpenSim takes 0.1 m)");
+    result.remarks.push_back({.says = options.compat.class_fiber_length
+                                          ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with "
+                                            "their default activations and "
+                                            "fiber lengths (0.1 m where the model gives none)"
+                                          : "forces_to_exclude does not name the muscles: they pull with their default "
+                                            "activations and fiber lengths "
+                                            "(optimal ones where the model gives none; OpenSim takes 0.1 m)"});
   }
   if (!xml.words(tool, "joints_to_report_body_forces").empty())
     run.note("joints_to_report_body_forces: body forces at joints are not written");
   const auto motion_file = setup.required_file(tool, "coordinates_file");
-  TimeSeries q = read_coordinates(model, motion_file, MissingCoordinate::default_value, result.notes);
+  TimeSeries q = read_coordinates(model, motion_file, MissingCoordinate::default_value, result.remarks);
   run.add_remarks(body::implausible(model), setup.required_file(tool, "model_file").string());
   run.add_remarks(body::implausible_motion(q), motion_file.string());
   const auto [start_s, end_s] = setup.time_range(tool, "time_range");
-  setup.check_range({start_s, end_s}, q.time_s(), motion_file, result.notes);
+  setup.check_range({start_s, end_s}, q.time_s(), motion_file, result.remarks);
   const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = recording::opensim_lowpass(q, cutoff_hz);
   body::JointMotion motion = body::joint_motion(model, q).motion;

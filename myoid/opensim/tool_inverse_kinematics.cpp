@@ -90,8 +90,8 @@ void note_unsolved(const ToolRun& run, const body::IkResult& solved) {
     if (solved.status[i] == body::FrameStatus::not_converged)
       run.note("no converged solution at {} s", solved.q.time_s()[static_cast<Eigen::Index>(i)]);
   }
-  if (!solved.undetermined.empty()) {
-    run.note("not determined by the markers: {}", fmt::join(solved.undetermined, ", "));
+  if (!solved.open_coordinates.empty()) {
+    run.note("not determined by the markers: {}", fmt::join(solved.open_coordinates, ", "));
   }
 }
 
@@ -102,15 +102,16 @@ void run_inverse_kinematics(const ToolRun& run) {
   ToolResult& result = run.result;
   const auto trial = trial_of(run);
   const IkFiles files = claimed_files(run, trial);
-  const body::BodyModel model = setup_model(setup, run.options.compat, {}, result.notes);
+  const body::BodyModel model = setup_model(setup, run.options.compat, {}, result.remarks);
   const auto marker_path = setup.required_file(trial, "marker_file");
   recording::MarkerFile file = recording::read_markers(marker_path);
-  for (const Repair& repair : file.repairs) result.notes.push_back(recording::to_string(marker_path, repair));
+  for (const Repair& repair : file.repairs)
+    result.remarks.push_back({.code = RemarkCode::reading, .says = recording::to_string(marker_path, repair)});
   const auto range_s = setup.time_range(trial, "time_range");
-  setup.check_range(range_s, file.markers.time_s, marker_path, result.notes);
+  setup.check_range(range_s, file.markers.time_s, marker_path, result.remarks);
   const MarkerSeries markers = within(std::move(file.markers), range_s.first, range_s.second);
 
-  body::IkOptions ik = read_ik_tasks(setup, setup.tool(), model, markers, result.notes);
+  body::IkOptions ik = read_ik_tasks(setup, setup.tool(), model, markers, result.remarks);
   ik.progress = run.options.progress;
   const body::IkResult solved = body::inverse_kinematics(model, markers, ik);
   // Tasks name the markers that count: markers without counterpart are no news then.
@@ -121,9 +122,10 @@ void run_inverse_kinematics(const ToolRun& run) {
   result.frames = static_cast<int>(solved.status.size());
   result.frames_failed = solved.frames_not_converged;
   note_unsolved(run, solved);
-  for (const Remark& remark : body::remarks_on_ends(model, solved.q)) result.notes.push_back(sentence(remark));
+  for (const Remark& remark : body::remarks_on_ends(model, solved.q))
+    result.remarks.push_back({.says = sentence(remark)});
   const body::MarkerMisfit misfit = body::marker_misfit(model, markers, solved);
-  if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
+  if (!misfit.warning.empty()) result.remarks.push_back({.says = misfit.warning});
   result.wrong_unit = misfit.wrong_unit;
   result.summary = fmt::format("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}",
                                result.frames, solved.frames_not_converged, solved.frames_without_markers,

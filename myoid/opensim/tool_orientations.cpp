@@ -61,7 +61,8 @@ OrientationSeries rows_between(const OrientationSeries& series,
 /// Reads orientations; notes the repairs of the reader.
 OrientationSeries orientations_of(const ToolRun& run, const std::filesystem::path& path) {
   OrientationSeries series = recording::read_orientations(path);
-  for (const Repair& repair : series.repairs) run.result.notes.push_back(recording::to_string(path, repair));
+  for (const Repair& repair : series.repairs)
+    run.result.remarks.push_back({.code = RemarkCode::reading, .says = recording::to_string(path, repair)});
   return series;
 }
 
@@ -171,8 +172,8 @@ std::filesystem::path motion_file(const OpensimSetup& setup, const std::filesyst
 }
 
 void note_fit(const ToolRun& run, const body::OrientationFit& fit) {
-  if (!fit.undetermined.empty()) {
-    run.note("the sensors do not determine {}; they stay where they are", fmt::join(fit.undetermined, ", "));
+  if (!fit.open_coordinates.empty()) {
+    run.note("the sensors do not determine {}; they stay where they are", fmt::join(fit.open_coordinates, ", "));
   }
   if (fit.frames_without_sensors > 0) {
     run.note("{} frames without any orientation keep the pose of the one before", fit.frames_without_sensors);
@@ -223,11 +224,11 @@ void run_imu_inverse_kinematics(const ToolRun& run) {
   const bool report_errors = setup.xml().flag(tool, "report_errors", true);
   run.claim(motion_path);
   if (report_errors) run.claim(errors_path);
-  const body::BodyModel model = setup_model(setup, run.options.compat, {}, result.notes);
+  const body::BodyModel model = setup_model(setup, run.options.compat, {}, result.remarks);
   run.add_remarks(body::implausible(model), setup.required_file(tool, "model_file").string());
   OrientationSeries series = orientations_of(run, path);
   const auto range_s = setup.time_range(tool, "time_range");
-  setup.check_range(range_s, series.time_s, path, result.notes);
+  setup.check_range(range_s, series.time_s, path, result.remarks);
   series = turned(rows_between(series, range_s, setup), sensor_to_ground(setup));
   const auto model_path = setup.required_file(tool, "model_file");
   const Sensors sensors = sensors_of(setup, model, series, body::named_frames(read_text_file(model_path), model_path));

@@ -146,8 +146,8 @@ TEST_F(ToolOrientations, GiveTheMotionOfPublicModelsBack) {
     const Eigen::VectorXd rest = body::assemble(model, model.default_q()).q;
     write_orientations("calibration.sto", model, rest.transpose(), Eigen::VectorXd::Zero(1), z_up());
     std::ignore = run(place("model.osim", kUp));
-    std::vector<std::string> notes;
-    const TimeSeries motion = read_coordinates(model, folder / "smooth.mot", MissingCoordinate::default_value, notes);
+    std::vector<Remark> remarks;
+    const TimeSeries motion = read_coordinates(model, folder / "smooth.mot", MissingCoordinate::default_value, remarks);
     Eigen::MatrixXd q = motion.values().topRows(40);
     for (Eigen::Index i = 0; i < q.rows(); ++i) {
       Eigen::VectorXd row = q.row(i).transpose();

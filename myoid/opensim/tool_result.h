@@ -31,9 +31,9 @@ struct ToolResult {
   std::string tool;                           ///< "InverseKinematicsTool", ...
   std::vector<std::filesystem::path> files;   ///< Written, in order.
   int replaced = 0;                           ///< Number of files that replaced earlier results.
-  std::vector<std::string> notes;             ///< Repairs and omissions, a sentence each.
-  std::vector<Remark> remarks;                ///< What model, motion, torques and forces cannot be.
-  std::string summary;                        ///< One line.
+  /// Repairs and omissions, and what model, motion, torques and forces cannot be.
+  std::vector<Remark> remarks;
+  std::string summary;  ///< One line.
   int frames = 0;
   int frames_failed = 0;    ///< Without a converged or certified solution.
   bool wrong_unit = false;  ///< The markers are not in the unit that their file says.

@@ -29,7 +29,7 @@ TEST_F(ToolScale, MarkersFarFromTheModelsAreSaidSo) {
   const ToolResult result =
       run("<InverseKinematicsTool><model_file>arm.osim</model_file><marker_file>m.trc"
           "</marker_file><output_motion_file>ik.mot</output_motion_file></InverseKinematicsTool>");
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("times as far apart")));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("times as far apart")));
 }
 
 TEST_F(ToolScale, ScalingByHandMakesALargerModelOfTheGivenMass) {
@@ -64,14 +64,14 @@ TEST_F(ToolScale, AStaticPoseAtTheEndOfARangeIsSaidSo) {
     std::string tasks;
     for (const body::Marker& marker : arm_.markers)
       tasks += "<IKMarkerTask name=\"" + marker.name + "\"><weight>1</weight></IKMarkerTask>";
-    return run("<ScaleTool name=\"s\"><GenericModelMaker><model_file>arm.osim</model_file>"
-               "</GenericModelMaker><ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer>"
-               "<IKTaskSet><objects>" +
-               tasks +
-               "</objects></IKTaskSet><marker_file>m.trc"
-               "</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer>"
-               "</ScaleTool>")
-        .notes;
+    return sentences(run("<ScaleTool name=\"s\"><GenericModelMaker><model_file>arm.osim</model_file>"
+                         "</GenericModelMaker><ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer>"
+                         "<IKTaskSet><objects>" +
+                         tasks +
+                         "</objects></IKTaskSet><marker_file>m.trc"
+                         "</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer>"
+                         "</ScaleTool>")
+                         .remarks);
   };
   const auto said = ::testing::Contains(::testing::HasSubstr("'elbow_flexion' at its limit of 57.3 degrees"));
   EXPECT_THAT(placed_with_range("0 1"), said);
@@ -149,9 +149,9 @@ TEST_F(ToolScale, AStaticPoseSaysWhatNoMarkerDetermines) {
           tasks +
           "</objects></IKTaskSet><marker_file>m.trc</marker_file><output_model_file>placed.osim"
           "</output_model_file></MarkerPlacer></ScaleTool>");
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("determines"),
-                                                                 ::testing::HasSubstr("elbow_flexion"),
-                                                                 ::testing::HasSubstr(forearm))));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::AllOf(::testing::HasSubstr("determines"),
+                                                                              ::testing::HasSubstr("elbow_flexion"),
+                                                                              ::testing::HasSubstr(forearm))));
 }
 
 // MeasurementSet, ScaleSet and IKTaskSet in files give the scaled model of the same sets inside the set-up, to the last
@@ -190,7 +190,7 @@ TEST_F(ToolScale, MarkersThatTheStaticTrialLacksAreNamed) {
   const ToolResult result = run(
       "<ScaleTool><GenericModelMaker><model_file>arm.osim</model_file></GenericModelMaker><MarkerPlacer>"
       "<marker_file>m.trc</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer></ScaleTool>");
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("as in OpenSim: " + name)));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("as in OpenSim: " + name)));
 }
 
 TEST_F(ToolScale, FactorsThatNobodyGivesAreSaidSo) {
@@ -198,9 +198,9 @@ TEST_F(ToolScale, FactorsThatNobodyGivesAreSaidSo) {
       run("<ScaleTool><GenericModelMaker><model_file>arm.osim</model_file></GenericModelMaker><ModelScaler>"
           "<scaling_order>measurements manualScale</scaling_order><MeasurementSet fle=\"m.xml\"/>"
           "<output_model_file>scaled.osim</output_model_file></ModelScaler></ScaleTool>");
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("no measurement is used")));
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("no factor that applies")));
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("did you mean 'file'")));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("no measurement is used")));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("no factor that applies")));
+  EXPECT_THAT(sentences(result.remarks), ::testing::Contains(::testing::HasSubstr("did you mean 'file'")));
 }
 
 }  // namespace

@@ -7,8 +7,15 @@
 
 namespace myoid::opensim {
 
-void ToolRun::add_notes(const std::vector<std::string>& notes) const {
-  result.notes.insert(result.notes.end(), notes.begin(), notes.end());
+void ToolRun::add_notes(const std::vector<std::string>& texts) const {
+  for (const std::string& text : texts) result.remarks.push_back({.code = RemarkCode::reading, .says = text});
+}
+
+void ToolRun::add_notes(std::vector<Remark> notes) const {
+  for (Remark& note : notes) {
+    note.severity = Severity::warning;
+    result.remarks.push_back(std::move(note));
+  }
 }
 
 void ToolRun::add_remarks(std::vector<Remark> found, const std::string& where) const {

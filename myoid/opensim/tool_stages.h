@@ -23,9 +23,11 @@ struct ToolRun {
 
   template <typename... T>
   void note(fmt::format_string<T...> text, T&&... values) const {
-    result.notes.push_back(fmt::format(text, std::forward<T>(values)...));
+    result.remarks.push_back({.says = fmt::format(text, std::forward<T>(values)...)});
   }
-  void add_notes(const std::vector<std::string>& notes) const;
+  /// Adds what a reader chose, left out or repaired, as warnings.
+  void add_notes(const std::vector<std::string>& texts) const;
+  void add_notes(std::vector<Remark> notes) const;
   /// Adds the findings of a check on a file or a result; its name goes before each.
   void add_remarks(std::vector<Remark> found, const std::string& where) const;
   /// Remembers the file of a result. Throws InvalidInput if it is an input or stands outside the folder of the set-up,
@@ -55,7 +57,7 @@ void run_imu_inverse_kinematics(const ToolRun& run);
                                             pugi::xml_node owner,
                                             const body::BodyModel& model,
                                             const MarkerSeries& markers,
-                                            std::vector<std::string>& notes);
+                                            std::vector<Remark>& remarks);
 
 /// Adds a note if the loads of `file` do not cover all of these times.
 void note_missing_loads(const ToolRun& run,

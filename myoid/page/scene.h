@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "myoid/ground/core/geometry.h"
+#include "myoid/ground/core/remark.h"
 
 namespace myoid::page {
 
@@ -79,10 +80,10 @@ struct SceneLoad {
 
 /// A model in one trial, or in one posture (a single frame), as plain values.
 struct Scene {
-  std::string name;                     ///< Name of the trial.
-  std::vector<std::string> notes = {};  ///< Sentences: frames left out, columns not found.
-  Vec3 up = Vec3::UnitY();              ///< Unit, in ground.
-  std::vector<SceneBody> bodies = {};   ///< [0] is ground.
+  std::string name;                    ///< Name of the trial.
+  std::vector<Remark> notes = {};      ///< Sentences: frames left out, columns not found.
+  Vec3 up = Vec3::UnitY();             ///< Unit, in ground.
+  std::vector<SceneBody> bodies = {};  ///< [0] is ground.
   std::vector<SceneMarker> markers = {};
   std::vector<SceneSurface> surfaces = {};
   std::vector<SceneMuscle> muscles = {};

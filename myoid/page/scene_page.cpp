@@ -164,7 +164,7 @@ ordered_json scene_json(const Scene& scene, std::size_t model) {
     }
   }
   const std::size_t bodies = scene.bodies.size();
-  ordered_json j{{"name", scene.name}, {"notes", scene.notes}, {"model", model}};
+  ordered_json j{{"name", scene.name}, {"notes", sentences(scene.notes)}, {"model", model}};
   j.update({{"frames", scene.time_s.size()},
             {"times", clock_json(scene.time_s)},
             {"origin", {box.origin.x(), box.origin.y(), box.origin.z()}},

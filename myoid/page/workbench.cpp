@@ -59,7 +59,7 @@ ordered_json trial_json(const WorkbenchTrial& trial) {
                  {"use", trial.use},
                  {"scene", trial.scene},
                  {"badge", name(trial.badge)},
-                 {"remarks", trial.remarks},
+                 {"remarks", sentences(trial.remarks)},
                  {"clocks", array_of(trial.clocks, clock_json)},
                  {"plots", array_of(trial.plots, plot_json)},
                  {"carpet",

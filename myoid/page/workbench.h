@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/stretch.h"
 #include "myoid/page/report.h"
 #include "myoid/page/scene_page.h"
@@ -60,7 +61,7 @@ struct WorkbenchTrial {
   std::string use;
   int scene = -1;                         ///< Number in Workbench::scenes; -1: none.
   Badge badge = Badge::none;              ///< The worst that is known about the trial.
-  std::vector<std::string> remarks{};     ///< The reasons, and facts about the trial.
+  std::vector<Remark> remarks{};          ///< The reasons, and facts about the trial.
   std::vector<Eigen::VectorXd> clocks{};  ///< Times [s].
   std::vector<TimePlot> plots{};
   Stretch carpet_when{};

@@ -186,6 +186,12 @@ std::string text_of(const Key& key) {
   return fmt::format("{} {} (method {}{})", muscle, parameter, name(method), branch_text(fit_case, ", "));
 }
 
+Remark in_one_session(const std::string& number, const char* session) {
+  return {.severity = Severity::note,
+          .about = number,
+          .says = fmt::format("{} is in the {} session only", number, session)};
+}
+
 /// Returns the day on which a folder's result was written.
 std::string day_of(const std::filesystem::path& folder) {
   using namespace std::chrono;
@@ -263,12 +269,12 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   for (const Key& key : a.order) {
     const auto other = b.estimates.find(key);
     if (other == b.estimates.end())
-      comparison.remarks.push_back(text_of(key) + " is in the first session only");
+      comparison.remarks.push_back(in_one_session(text_of(key), "first"));
     else
       comparison.parameters.push_back(compared(a, key, other->second, comparison.failed.empty()));
   }
   for (const Key& key : b.order) {
-    if (!a.estimates.contains(key)) comparison.remarks.push_back(text_of(key) + " is in the second session only");
+    if (!a.estimates.contains(key)) comparison.remarks.push_back(in_one_session(text_of(key), "second"));
   }
   for (const fit::Method method : methods_of(comparison)) {
     std::vector<ComparedParameter*> torques, others;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "myoid/fit/intervals/result.h"
+#include "myoid/ground/core/remark.h"
 
 namespace myoid::results {
 
@@ -46,9 +47,9 @@ struct RunComparison {
   std::string first_date, second_date;  ///< Days on which the results were written, as "2026-03-01" (UTC).
   std::vector<ComparedParameter> parameters;
   std::vector<ComparedTrial> trials;
-  std::vector<std::string> failed;   ///< Sessions with a failed gate, in sentences: their numbers are not compared.
-  std::vector<std::string> unlike;   ///< Differences of model, person, muscles or estimator.
-  std::vector<std::string> remarks;  ///< Numbers that only one session has.
+  std::vector<std::string> failed;  ///< Sessions with a failed gate, in sentences: their numbers are not compared.
+  std::vector<std::string> unlike;  ///< Differences of model, person, muscles or estimator.
+  std::vector<Remark> remarks;      ///< Numbers that only one session has; `about` names them.
 };
 
 /// Returns the methods of the compared numbers, in order of appearance.

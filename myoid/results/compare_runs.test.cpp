@@ -185,7 +185,7 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
   EXPECT_EQ(c.parameters[3].change, Change::no_change);
   EXPECT_NEAR(*c.parameters[3].p_value, 2.0 * 0.0423, 1e-3);
   ASSERT_EQ(c.remarks.size(), 1u);
-  EXPECT_NE(c.remarks[0].find("ANC"), std::string::npos);
+  EXPECT_NE(c.remarks[0].about.find("ANC"), std::string::npos);
   EXPECT_EQ(*c.trials[0].rmse_second_nm, 2.0);
   page::validate(comparison_report(c));
   // 180 N of 600 N, 1.96 standard errors 98 N; 11 % are 1.96 * sqrt(40^2 + 40^2) of 900 N.

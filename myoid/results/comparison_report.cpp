@@ -110,7 +110,7 @@ page::Section errors_section(const RunComparison& comparison) {
     errors.rows.push_back(page::text_row({t.trial, t.method, cell(t.rmse_first_nm), cell(t.rmse_second_nm)}));
   return {.id = "trials",
           .heading = "How well the trials are predicted",
-          .paragraphs = comparison.remarks,
+          .paragraphs = sentences(comparison.remarks),
           .tables = {std::move(errors)}};
 }
 

@@ -34,7 +34,7 @@ using page::Section;
 using page::Table;
 
 std::vector<std::string> assumptions(const run::StudyResult& result) {
-  std::vector<std::string> list = result.source.study.subject.notes;
+  std::vector<std::string> list = result.source.study.subject.assumptions;
   if (std::string assumed = study::assumed_starts(result.source.study); !assumed.empty())
     list.push_back(std::move(assumed));
   list.push_back(

@@ -299,19 +299,21 @@ void add_remarks(const run::StudyResult& result,
   };
   if (!trial.failure().empty()) {
     worse(Badge::bad);
-    shown.remarks.push_back("Could not be computed: " + trial.failure());
+    shown.remarks.push_back({.severity = Severity::error, .says = "Could not be computed: " + trial.failure()});
   }
   for (const run::OutlyingFold& fold : outlying) {
     if (fold.trial != trial.spec.name) continue;
     worse(Badge::bad);
-    shown.remarks.push_back(
-        fmt::format("Predicted worse than the other trials: {:.2f} N m rms, where {:.2f} is usual. Look at its files, "
-                    "labels, held mass and clock.",
-                    fold.rms_nm, fold.usual_rms_nm));
+    std::string says = fmt::format(
+        "Predicted worse than the other trials: {:.2f} N m rms, where {:.2f} is usual. Look at its files, labels, held "
+        "mass and clock.",
+        fold.rms_nm, fold.usual_rms_nm);
+    shown.remarks.push_back({.code = RemarkCode::not_predicted, .says = std::move(says)});
   }
-  for (std::string& text : sentences(trial.remarks, Severity::warning)) {
+  for (const Remark& remark : trial.remarks) {
+    if (remark.severity != Severity::warning) continue;
     worse(Badge::weak);
-    shown.remarks.push_back(std::move(text));
+    shown.remarks.push_back(remark);
   }
   for (const Remark& fault : trial.faults) {
     if (fault.severity != Severity::warning && fault.severity != Severity::error) continue;
@@ -322,14 +324,17 @@ void add_remarks(const run::StudyResult& result,
   for (const fit::TrialFit& t : fit->trials) {
     if (t.trial != trial.spec.name || t.torque_fit_nm.size() == 0) continue;
     if (is_missed(t.score)) worse(Badge::weak);
-    shown.remarks.push_back(fmt::format("{}: torque {} within {:.2f} N m rms (R² {:.2f}).", page::spelled(t.joint),
-                                        t.calibration ? "described" : "predicted", t.score.rmse_nm(), t.score.r2()));
+    shown.remarks.push_back(
+        {.severity = Severity::note,
+         .says = fmt::format("{}: torque {} within {:.2f} N m rms (R² {:.2f}).", page::spelled(t.joint),
+                             t.calibration ? "described" : "predicted", t.score.rmse_nm(), t.score.r2())});
   }
   for (const fit::Fold& fold : result.folds) {
     if (fold.trial != trial.spec.name) continue;
     if (is_missed(fold.identified)) worse(Badge::weak);
-    shown.remarks.push_back(fmt::format("Left out, it is predicted within {:.2f} N m rms (R² {:.2f}).",
-                                        fold.identified.rmse_nm(), fold.identified.r2()));
+    shown.remarks.push_back({.severity = Severity::note,
+                             .says = fmt::format("Left out, it is predicted within {:.2f} N m rms (R² {:.2f}).",
+                                                 fold.identified.rmse_nm(), fold.identified.r2())});
   }
 }
 

@@ -86,7 +86,7 @@ TEST(StudyWorkbench, AWarningAboutTheFilesMarksTheTrialAndANoteDoesNot) {
       {.code = RemarkCode::body_unsupported, .severity = Severity::warning, .says = "nothing carries the body"});
   const page::WorkbenchTrial trial = study_workbench(result, "results").trials[0];
   EXPECT_EQ(trial.badge, page::Badge::weak);
-  EXPECT_THAT(trial.remarks, testing::ElementsAre(testing::HasSubstr("nothing carries the body")));
+  EXPECT_THAT(sentences(trial.remarks), testing::ElementsAre(testing::HasSubstr("nothing carries the body")));
 }
 
 TEST(StudyWorkbench, ATrialThatFailedIsListedWithItsReason) {
@@ -97,7 +97,7 @@ TEST(StudyWorkbench, ATrialThatFailedIsListedWithItsReason) {
   const page::WorkbenchTrial trial = study_workbench(result, "results").trials.at(0);
   EXPECT_EQ(trial.badge, page::Badge::bad);
   EXPECT_EQ(trial.scene, -1);
-  EXPECT_THAT(trial.remarks.at(0), testing::HasSubstr("no markers"));
+  EXPECT_THAT(trial.remarks.at(0).says, testing::HasSubstr("no markers"));
 }
 
 TEST(StudyWorkbench, AFilmHasItsPathFromTheReport) {

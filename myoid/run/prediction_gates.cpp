@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/fit/intervals/estimate_rows.h"
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/study/intake/limits.h"
@@ -183,12 +181,11 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   }
   if (!fit.prior_distances.empty()) gates.push_back(distance_gate(fit));
   // The distances have a gate of their own.
-  std::vector<std::string> distances, others;
-  add_distances_to(distances, fit.prior_distances);
-  std::ranges::copy_if(fit.warnings, std::back_inserter(others),
-                       [&](const std::string& text) { return std::ranges::find(distances, text) == distances.end(); });
+  std::vector<Remark> others = fit.warnings;
+  std::erase_if(others, [](const Remark& remark) { return remark.code == RemarkCode::far_from_prior; });
   if (!others.empty())
-    gates.push_back({"Fit without reservations", GateStatus::warn, fmt::format("{}", fmt::join(others, "; ")), "none",
+    gates.push_back({"Fit without reservations", GateStatus::warn,
+                     fmt::format("{}", fmt::join(sentences(others), "; ")), "none",
                      "Every number of the fit rests on it."});
   return gates;
 }

@@ -107,10 +107,10 @@ TEST(FitGates, AReservationOfTheFitIsAWarningButForDistancesThatHaveAGate) {
   fit::add_distances_to(fit.warnings, fit.prior_distances);
   ASSERT_EQ(fit.warnings.size(), 1U);
   EXPECT_EQ(fit_gates(fit).size(), 1U);
-  fit.warnings.emplace_back("the posterior has 2 modes");
+  fit.warnings.push_back({.code = RemarkCode::several_modes, .says = "two modes"});
   const std::vector<Gate> gates = fit_gates(fit);
   ASSERT_EQ(gates.size(), 2U);
-  EXPECT_EQ(gates[1].value, "the posterior has 2 modes");
+  EXPECT_EQ(gates[1].value, "two modes");
   EXPECT_EQ(status_of(gates, "Fit without reservations"), GateStatus::warn);
 }
 

@@ -53,10 +53,11 @@ std::vector<TrialData> other_trials(const PredictionChoice& choice, PredictionIn
   study::Study study = study::read_study(choice.study);
   study.identify.methods = {fit::Method::torque};
   if (!from_maximal_effort(study.emg))
-    input.warnings.push_back(
-        fmt::format("{}: its EMG is not relative to a maximal contraction of its own; the prediction takes the "
-                    "greatest effort of both studies for the same",
-                    choice.study));
+    input.remarks.push_back(
+        {.code = RemarkCode::no_maximal_contraction,
+         .says = fmt::format("{}: its EMG is not relative to a maximal contraction of its own; the prediction takes "
+                             "the greatest effort of both studies for the same",
+                             choice.study)});
   StudyResult other = study_data(
       study, {.start_s = choice.start_s, .end_s = choice.end_s, .progress = choice.progress, .share_forces = false});
   input.files.insert(input.files.end(), other.source.files.begin(), other.source.files.end());
@@ -103,7 +104,7 @@ PredictionInput prediction_input(const std::filesystem::path& folder, const Pred
                         .fit = std::move(base.fit_input),
                         .trials = {},
                         .files = std::move(base.source.files),
-                        .warnings = {}};
+                        .remarks = {}};
   const std::vector<TrialData> all = choice.study.empty() ? input.fit.data.trials : other_trials(choice, input);
   input.trials = chosen(all, choice.trials);
   return input;

@@ -7,6 +7,7 @@
 
 #include "myoid/ground/core/progress.h"
 #include "myoid/ground/core/provenance.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/study/study.h"
 
@@ -26,7 +27,7 @@ struct PredictionInput {
   FitInput fit;                        ///< Data of the run's fit: its calibration trials.
   std::vector<fit::TrialData> trials;  ///< Trials to predict.
   std::vector<InputFile> files;
-  std::vector<std::string> warnings;
+  std::vector<Remark> remarks;
 };
 
 /// Computes motion, torque and activation as the run in `folder` did. The trials of the run keep

@@ -197,7 +197,7 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
       sum_of_squares += v * v;
       ++frames_with_markers;
     }
-    open.insert(ik.undetermined.begin(), ik.undetermined.end());
+    open.insert(ik.open_coordinates.begin(), ik.open_coordinates.end());
   }
   std::vector<Gate> list;
   if (!any_ik) return list;

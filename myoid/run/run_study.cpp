@@ -106,8 +106,7 @@ std::vector<TrialResult> joined(const study::Study& study,
     remarks = trial.input.remarks;
     std::ranges::copy_if(findings.dynamometers, std::back_inserter(remarks),
                          [&](const Remark& remark) { return remark.where == trial.spec.name; });
-    if (trial.emg.stages) study::add_notes(trial.emg.stages->findings, remarks);
-    study::add_notes(trial.motion.notes, remarks);
+    if (trial.emg.stages) std::ranges::copy(trial.emg.stages->findings, std::back_inserter(remarks));
     remarks.insert(remarks.end(), trial.motion.remarks.begin(), trial.motion.remarks.end());
     remarks.insert(remarks.end(), trial.forces.remarks.begin(), trial.forces.remarks.end());
   }
@@ -192,8 +191,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
     result.next = stages.run("next recording", "looks for the next recording", 0.95, 1.0,
                              [&](const Progress& progress) { return next_recording(result.source, fit, progress); });
   for (IdentificationResult& method : fit.methods) {
-    if (&method == best)
-      method.warnings.insert(method.warnings.end(), validation.warnings.begin(), validation.warnings.end());
+    if (&method == best) std::ranges::move(validation.remarks, std::back_inserter(method.warnings));
   }
   input.options.drives.reset();
   result.fit = std::move(fit);

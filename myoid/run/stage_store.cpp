@@ -82,8 +82,9 @@ std::optional<body::IkResult> StageStore::find(const std::string& key) {
     result.objective.assign(objective.data(), objective.data() + objective.size());
     result.frames_not_converged = stored.at("frames_not_converged");
     result.frames_without_markers = stored.at("frames_without_markers");
-    result.undetermined = stored.at("undetermined");
-    result.notes = stored.at("notes");
+    result.open_coordinates = stored.at("undetermined");
+    for (std::string text : stored.at("notes").get<std::vector<std::string>>())
+      result.notes.push_back({.code = RemarkCode::reading, .severity = Severity::note, .says = std::move(text)});
     mark_used(key);
     return result;
   } catch (const json::exception&) {
@@ -106,8 +107,8 @@ void StageStore::keep(const std::string& key, const body::IkResult& result) {
       {"objective", packed(result.objective.data(), static_cast<Eigen::Index>(result.objective.size()))},
       {"frames_not_converged", result.frames_not_converged},
       {"frames_without_markers", result.frames_without_markers},
-      {"undetermined", result.undetermined},
-      {"notes", result.notes},
+      {"undetermined", result.open_coordinates},
+      {"notes", sentences(result.notes)},
   };
   const Bytes bytes = json::to_cbor(stored);
   try {

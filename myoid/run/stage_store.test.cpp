@@ -24,8 +24,8 @@ body::IkResult some_result() {
   result.objective = {1e-300, 2.0, 3.0};
   result.frames_not_converged = 1;
   result.frames_without_markers = 1;
-  result.undetermined = {"shoulder_rotation"};
-  result.notes = {"marker 'x' is not in the model"};
+  result.open_coordinates = {"shoulder_rotation"};
+  result.notes = {{.code = RemarkCode::reading, .severity = Severity::note, .says = "marker 'x' is not there"}};
   return result;
 }
 
@@ -53,8 +53,10 @@ TEST(StageStore, WhatWasKeptComesBackToTheLastBit) {
   EXPECT_EQ(found->objective, kept.objective);
   EXPECT_EQ(found->frames_not_converged, 1);
   EXPECT_EQ(found->frames_without_markers, 1);
-  EXPECT_EQ(found->undetermined, kept.undetermined);
-  EXPECT_EQ(found->notes, kept.notes);
+  EXPECT_EQ(found->open_coordinates, kept.open_coordinates);
+  EXPECT_EQ(sentences(found->notes), sentences(kept.notes));
+  EXPECT_EQ(found->notes.front().code, RemarkCode::reading);
+  EXPECT_EQ(found->notes.front().severity, Severity::note);
 }
 
 TEST(StageStore, ADamagedOrAbsentEntryIsAsGoodAsNone) {

@@ -180,7 +180,7 @@ body::MuscleForces shared_forces(const study::Study& study,
       input.given.torques ? body::sharing_input(*motion.model, torques.generalized, torques.muscles, coordinates)
                           : body::sharing_input(*motion.model, motion.joints, torques.muscles, coordinates,
                                                 input.loads ? &*input.loads : nullptr);
-  study::add_notes(sharing.notes, remarks);
+  remarks.insert(remarks.end(), sharing.notes.begin(), sharing.notes.end());
   Eigen::MatrixXd torque = sharing.torques.values();
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
     const auto index = static_cast<std::size_t>(motion.model->coordinate_index(coordinates[j]));

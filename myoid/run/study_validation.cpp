@@ -67,8 +67,10 @@ StudyValidation study_validation(const FitSource& source,
                     : fit::cross_validate(input.data, fit, beginning_at(whole, input.options), how);
   std::string why_not;
   (void)fit::splits(input.data, how, &why_not);
-  if (!why_not.empty()) found.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);
-  if (std::string bad = fit::generalises_badly(found.folds); !bad.empty()) found.warnings.push_back(std::move(bad));
+  if (!why_not.empty())
+    found.remarks.push_back({.says = "nothing was left out of the fit to be predicted: " + why_not});
+  if (std::string bad = fit::generalises_badly(found.folds); !bad.empty())
+    found.remarks.push_back({.code = RemarkCode::not_predicted, .says = std::move(bad)});
   return found;
 }
 

@@ -5,6 +5,7 @@
 
 #include "myoid/fit/methods/cross_validation.h"
 #include "myoid/ground/core/progress.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/run/fit_input.h"
 
 namespace myoid::run {
@@ -12,7 +13,7 @@ namespace myoid::run {
 /// The predictions of trials outside the fit.
 struct StudyValidation {
   std::vector<fit::Fold> folds;
-  std::vector<std::string> warnings;  ///< About the method that predicts.
+  std::vector<Remark> remarks;  ///< About the method that predicts.
 };
 
 /// Leaves trials, conditions or blocks out (`[identify] folds`) and predicts them by the reported

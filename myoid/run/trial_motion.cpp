@@ -13,6 +13,7 @@
 #include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/recording/signals/resample.h"
+#include "myoid/study/intake/trial_input.h"
 #include "myoid/study/intake/trial_markers.h"
 #include "myoid/study/study_model.h"
 
@@ -72,8 +73,9 @@ void add_joint_motion(const study::Study& study, const study::GivenStages& given
   const double rate = q.mean_rate_hz();
   const double wanted = options.cutoff_hz ? study.motion.rate_hz : rate;
   if (options.cutoff_hz && *options.cutoff_hz >= 0.45 * rate) {
-    motion.notes.push_back(fmt::format("motion at {:.0f} Hz is too slow to be smoothed at {:.3g} Hz: not smoothed",
-                                       rate, *options.cutoff_hz));
+    study::add_notes({fmt::format("motion at {:.0f} Hz is too slow to be smoothed at {:.3g} Hz: not smoothed", rate,
+                                  *options.cutoff_hz)},
+                     motion.remarks);
     options.cutoff_hz.reset();
   }
   const Eigen::VectorXd& clock = q.time_s();
@@ -87,7 +89,7 @@ void add_joint_motion(const study::Study& study, const study::GivenStages& given
   if (options.time_s && !given.lengths && !smoothed_away && q.is_uniform()) q = recording::anti_aliased(q, wanted);
   body::MotionResult result = body::joint_motion(*motion.model, q, options);
   motion.joints = std::move(result.motion);
-  motion.notes.insert(motion.notes.end(), result.notes.begin(), result.notes.end());
+  std::ranges::move(result.notes, std::back_inserter(motion.remarks));
 }
 
 }  // namespace
@@ -100,11 +102,12 @@ TrialMotion trial_motion(const StudySource& source,
   motion.model = trial_model(source, spec, input);
   if (input.markers) {
     solve_ik(source, *input.markers, store, motion);
-    motion.notes = motion.ik->notes;
-    motion.remarks = body::implausible_motion(motion.ik->q);
-    std::ranges::move(body::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(motion.remarks));
-    for (Remark& remark : motion.remarks) remark.where = spec.name;
+    std::ranges::copy(motion.ik->notes, std::back_inserter(motion.remarks));
     add_joint_motion(source.study, input.given, motion.ik->q, motion);
+    std::vector<Remark> found = body::implausible_motion(motion.ik->q);
+    std::ranges::move(body::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(found));
+    for (Remark& remark : found) remark.where = spec.name;
+    std::ranges::move(found, std::back_inserter(motion.remarks));
   } else if (input.motion && input.motion->channel_count() == 0) {
     const TimeSeries times(input.given.lengths->time_s(), {}, Eigen::MatrixXd(input.given.lengths->sample_count(), 0));
     motion.joints = {times, times, times};

@@ -24,9 +24,8 @@ struct TrialMotion {
   bool ik_was_damaged = false;       ///< An earlier run kept it, and its bytes changed since.
   body::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
                                      ///< motion, without columns where lengths are given and no angles.
-  std::vector<std::string> notes;
-  std::vector<Remark> remarks;  ///< What no movement does, in the solution of inverse kinematics.
-  std::string failure;          ///< Reason why the motion is missing; empty: none.
+  std::vector<Remark> remarks;       ///< On the markers and coordinates, and what no movement does.
+  std::string failure;               ///< Reason why the motion is missing; empty: none.
 };
 
 /// Computes the motion of one trial from its markers or coordinates. Reads inverse kinematics of the same input from

@@ -30,7 +30,7 @@ struct SubjectSpec {
   std::string name = "subject";
   std::optional<double> mass_kg;
   Sex sex = Sex::unstated;
-  std::vector<std::string> notes;  ///< Assumptions of the user, printed in the report.
+  std::vector<std::string> assumptions;  ///< The user's own, printed in the report.
   bool operator==(const SubjectSpec&) const = default;
 };
 

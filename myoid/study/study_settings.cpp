@@ -21,7 +21,7 @@ void visit(SubjectSpec& subject, SettingVisitor& v) {
             .limits = within(10.0, 350.0, "kg"),
             .otherwise = "the literature's person"});
   v.choice("sex", subject.sex, {.says = "Selects the literature's segment masses.", .otherwise = "not stated"});
-  v.texts("notes", subject.notes, {.says = "Assumptions of your own, printed among the report's."});
+  v.texts("notes", subject.assumptions, {.says = "Assumptions of your own, printed among the report's."});
 }
 
 void visit(HeldMassSpec& held, SettingVisitor& v) {

@@ -813,13 +813,14 @@ def info(file: File, *, compare_compat: bool = False, postures: int | None = Non
 def convert(source: File, out: File, *, what: str | None = None, up: str | None = None, rotate: Texts | None = None,
             body: Texts | None = None, least_force: float | None = None, unit: str | None = None,
             channel: Texts | None = None, analog: File | None = None, rate: float | None = None,
-            subject: str | None = None, start: float | None = None, end: float | None = None,
-            overwrite: bool = False, progress: Report = None) -> list[Path]:  # fmt: skip
-    """Writes a recording in another format: C3D, TRC, STO/MOT, CSV. Returns the files.
+            subject: str | None = None, compat: str | None = None, start: float | None = None,
+            end: float | None = None, overwrite: bool = False, progress: Report = None) -> list[Path]:  # fmt: skip
+    """Writes a recording in another format (C3D, TRC, STO/MOT, CSV), or an OpenSim file in the newest form. Returns the
+    files.
 
     Args:
-        source: A recording, or the folder of a finished run.
-        out: .c3d, .trc, .sto, .mot, .csv, or a folder for everything in it.
+        source: A recording, an OpenSim file (.osim, .xml), or the folder of a finished run.
+        out: .c3d, .trc, .sto, .mot, .csv, or a folder for everything in it; .osim, .xml of an OpenSim file.
         what: "markers", "channels", "emg" or "plates".
         up: Vertical axis of the laboratory, turned to y.
         rotate: "AXIS:DEGREES", further turns.
@@ -830,5 +831,6 @@ def convert(source: File, out: File, *, what: str | None = None, up: str | None 
         analog: Channels to go with the markers of a .trc into a .c3d.
         rate: Everything on an even clock of this rate [Hz].
         subject: Label of the person in a BIDS derivative.
+        compat: Of an OpenSim file: "exact" (default), or "opensim", which rounds offsets to six digits.
     """
     return [Path(file) for file in call("convert", locals())]

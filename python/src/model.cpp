@@ -172,7 +172,7 @@ void bind_model(py::module_& module) {
       .def("bodies", &bodies)
       .def("markers", &marker_names)
       .def("unsupported", [](const ReadModel& read) { return read.model.unsupported; })
-      .def("notes", [](const ReadModel& read) { return read.model.notes; })
+      .def("notes", [](const ReadModel& read) { return sentences(read.model.notes); })
       .def("muscle_kinematics", &muscle_kinematics);
   module.def("read_model", &read_model);
 }

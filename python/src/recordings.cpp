@@ -113,6 +113,7 @@ py::object convert(py::dict given) {
   k.above_zero("least_force", o.least_force_n);
   k.above_zero("rate", o.rate_hz);
   k.take("subject", o.subject);
+  k.take("compat", o.compat);
   k.take("overwrite", o.overwrite);
   k.refuse_others();
   o.call = work.call();

@@ -127,7 +127,7 @@ py::dict ik(py::dict given) {
   d["frames_not_converged"] = result.solved.frames_not_converged;
   d["frames_without_markers"] = result.solved.frames_without_markers;
   d["not_converged"] = result.not_converged;
-  d["undetermined"] = result.solved.undetermined;
+  d["undetermined"] = result.solved.open_coordinates;
   d["remarks"] = to_python(result.remarks);
   return d;
 }
@@ -314,7 +314,7 @@ py::dict run_tool(py::dict given) {
   d["frames"] = result.tool.frames;
   d["frames_failed"] = result.tool.frames_failed;
   d["good"] = result.good();
-  d["notes"] = result.tool.notes;
+  d["notes"] = sentences(result.tool.remarks);
   d["remarks"] = to_python(result.remarks);
   return d;
 }

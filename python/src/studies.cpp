@@ -183,8 +183,8 @@ py::dict identify(py::dict given) {
   });
   py::dict d = run_values(done.run);
   const fit::IdentificationResult& fit = done.fit();
-  d["undetermined"] = fit.undetermined;
-  d["diagnoses"] = fit.diagnoses;
+  d["undetermined"] = fit.open_sums;
+  d["diagnoses"] = sentences(fit.diagnoses);
   d["message"] = fit.message;
   d["converged"] = fit.termination == math::Termination::converged;
   d["r2"] = fit.r2;
@@ -233,7 +233,7 @@ py::dict compare(py::dict given) {
   py::dict d;
   d["parameters"] = rows;
   d["unlike"] = result.comparison.unlike;
-  d["notes"] = result.comparison.remarks;
+  d["notes"] = sentences(result.comparison.remarks);
   d["remarks"] = to_python(result.remarks);
   return d;
 }

@@ -93,7 +93,7 @@ def virtual_person(run, folder):
         "paths --model rec/model.osim --motion ik.mot --out paths",
         "emg rec/lift_emg.sto --out activation.sto",
         "convert rec/lift.trc lift.c3d", "convert rec/lift_emg.sto emg.csv", "convert ik.mot ik.csv",
-        "update-file rec/model.osim new.osim",
+        "convert rec/model.osim new.osim",
     ):
         code, _, err = run(arguments.split(), folder)
         if code not in (0, 4):
@@ -128,9 +128,9 @@ def own_cases():
         Case("run", ["run", "rec/study.toml", "--out", "out"], study),
         Case("run again", ["run", "rec/study.toml", "--out", "res", "--overwrite"], ["rec", "res"], ["res"],
              renews="res"),
-        Case("settings", ["settings", "rec/study.toml"], study, ["rec/study.toml"]),
+        Case("check defaults", ["check", "rec/study.toml", "--defaults"], study, ["rec/study.toml"]),
         Case("cohort", ["cohort", "persons.csv", "--out", "out"], [*study, "persons.csv"], ["persons.csv"]),
-        Case("bids", ["bids", "bids", "out", "participant"], ["bids"],
+        Case("bids", ["cohort", "bids", "out", "participant"], ["bids"],
              ["bids/code", "bids/participants.tsv", "bids/dataset_description.json"]),
         Case("init", ["init", "out", "--from", "rec"], study),
         Case("ik", ["ik", "--model", model, "--markers", markers, "--out", "out.mot"], [model, markers]),
@@ -151,7 +151,7 @@ def own_cases():
         Case("design", ["design", "rec/study.toml", "--movements", "1", "--persons", "1"], study,
              ["rec/study.toml", model]),
         Case("run-tool", ["run-tool", "ik.xml"], ["ik.xml", model, markers]),
-        Case("update-file", ["update-file", model, "out.osim"], [model]),
+        Case("convert model", ["convert", model, "out.osim"], [model]),
         Case("report", ["report", "res"], ["res", "rec"], ["res"], renews="res"),
         Case("predict", ["predict", "res", "--trials", "lift", "--out", "out"], ["res", "rec"], ["res"],
              sealed=("res/parameters.json", "res/run.json")),
@@ -182,7 +182,7 @@ def shared_cases(folder):
         name, short, kind = str(place), str(file.relative_to(DATA)), file.suffix.lower()
         commands = [("info", ["--json"])]
         if kind == ".osim":
-            commands += [("update-file", ["out.osim"])]
+            commands += [("convert", ["out.osim"])]
         elif kind != ".xml":
             commands += [("convert", ["out"]), ("check", [])]
         if kind not in (".osim", ".xml", ".trc"):

@@ -108,7 +108,7 @@ Content read_orientations(const fs::path& path) {
 Content read_model(const fs::path& path) {
   const body::BodyModel m = body::read_osim(path);
   Content content;
-  content.notes = m.notes;
+  content.notes = sentences(m.notes);
   content.notes.insert(content.notes.end(), m.unsupported.begin(), m.unsupported.end());
   const auto list = [](const auto& v) { return std::vector<double>(v.begin(), v.end()); };
   content.numbers["gravity"] = list(m.gravity_G);
@@ -169,7 +169,7 @@ Content run_setup(const fs::path& path) {
   };
   const opensim::ToolResult result = opensim::run_tool(path, {.claim = stays});
   Content content;
-  content.notes = result.notes;
+  content.notes = sentences(result.remarks);
   for (const fs::path& file : result.files) {
     content.texts[file.filename().string()] = "written";
     if (file.extension() != ".mot") continue;

@@ -43,11 +43,11 @@ namespace fs = std::filesystem;
 /// J of inverse kinematics at the postures of a motion, frame by frame.
 Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {
   const opensim::OpensimSetup setup(setup_file);
-  std::vector<std::string> notes;
-  const body::BodyModel model = opensim::setup_model(setup, body::kOpenSim452, {}, notes);
+  std::vector<Remark> remarks;
+  const body::BodyModel model = opensim::setup_model(setup, body::kOpenSim452, {}, remarks);
   const MarkerSeries markers = recording::read_markers(setup.required_file(setup.tool(), "marker_file")).markers;
-  const TimeSeries q = opensim::read_coordinates(model, motion, opensim::MissingCoordinate::default_value, notes);
-  const body::IkOptions ik = opensim::read_ik_tasks(setup, setup.tool(), model, markers, notes);
+  const TimeSeries q = opensim::read_coordinates(model, motion, opensim::MissingCoordinate::default_value, remarks);
+  const body::IkOptions ik = opensim::read_ik_tasks(setup, setup.tool(), model, markers, remarks);
   body::BodyState state = body::make_state(model);
   Eigen::VectorXd result(q.sample_count());
   for (Eigen::Index i = 0; i < q.sample_count(); ++i) {
@@ -184,7 +184,7 @@ void run_setup(const fs::path& setup, const fs::path& reference, const Options& 
   if (result.frames_failed > 0)
     rows.add("frames that failed", fmt::format("{} of {}", result.frames_failed, result.frames), "");
   if (options.columns)
-    for (const std::string& note : result.notes) rows.add("note: " + note, "", "");
+    for (const std::string& note : sentences(result.remarks)) rows.add("note: " + note, "", "");
   for (const fs::path& file : result.files) {
     const fs::path theirs = reference / file.filename();
     if (result.tool == "ScaleTool") {

@@ -1,4 +1,4 @@
-// The commands `cohort` and `bids` as a user runs them, with three small virtual persons.
+// The command `cohort` as a user runs it, with a table and as a BIDS App, with three small virtual persons.
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -45,8 +45,13 @@ class Cohort : public testing::Test {
 
   [[nodiscard]] std::string manifest() const { return folder / "persons.csv"; }
 
-  [[nodiscard]] Finished cohort(const std::string& out, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"cohort", manifest(), "--out", folder / out});
+  [[nodiscard]] Finished cohort(const std::string& out, const std::vector<std::string>& more = {}) const {
+    return cohort_of(manifest(), out, more);
+  }
+  [[nodiscard]] Finished cohort_of(const std::string& persons,
+                                   const std::string& out,
+                                   std::vector<std::string> more) const {
+    more.insert(more.begin(), {"cohort", persons, "--out", folder / out});
     return myoid(more);
   }
 
@@ -165,7 +170,7 @@ TEST_F(Cohort, ABidsDataSetIsAnsweredInTheFormOfABidsApp) {
   write_text(data / "participants.tsv", "participant_id\tweight\nsub-01\t73.0\nsub-03\t73.0\n");
 
   const auto bids = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"bids", data, folder / "derivative"});
+    more.insert(more.begin(), {"cohort", data, folder / "derivative"});
     return myoid(more);
   };
   const Finished some = bids({"participant", "--participant-label", "01", "02"});
@@ -184,6 +189,26 @@ TEST_F(Cohort, ABidsDataSetIsAnsweredInTheFormOfABidsApp) {
   // The filled template is the person's own study: the same numbers.
   ASSERT_NE(myoid({"run", data / "sub-03/study.toml", "--out", folder / "run"}).exit_code, 3);
   EXPECT_EQ(read_text(folder / "derivative/persons/sub-03/parameters.csv"), read_text(folder / "run/parameters.csv"));
+
+  // `bids` is another name of the command, which says so, and asks for the level as a BIDS App must. The options of
+  // `cohort` name the same steps.
+  const auto results = files("derivative");
+  fs::remove_all(folder / "derivative");
+  ASSERT_EQ(
+      myoid({"bids", data, folder / "derivative", "participant", "--participant_label", "01", "02", "03"}).exit_code,
+      5);
+  const Finished other = myoid({"bids", data, folder / "derivative", "group"});
+  EXPECT_EQ(other.exit_code, group.exit_code);
+  EXPECT_EQ(other.out, group.out);
+  EXPECT_THAT(other.err, HasSubstr("myoid cohort "));
+  expect_same(results, files("derivative"));
+  EXPECT_EQ(myoid({"bids", data, folder / "none"}).exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder / "none"));
+  fs::remove_all(folder / "derivative");
+  ASSERT_EQ(cohort_of(data, "derivative", {"--person", "01", "02", "03"}).exit_code, 5);
+  EXPECT_FALSE(fs::exists(folder / "derivative/cohort.csv"));
+  EXPECT_EQ(cohort_of(data, "derivative", {"--group"}).exit_code, group.exit_code);
+  expect_same(results, files("derivative"));
 }
 
 }  // namespace

@@ -29,10 +29,10 @@ using testing::Not;
 
 const std::string kProtocols = myoid::test::source_dir() / "examples/protocols/";
 
-constexpr const char* kCommands[] = {"run",        "check",   "info",        "emg",     "ik",       "id",
-                                     "muscle",     "paths",   "so",          "predict", "identify", "twin",
-                                     "report",     "convert", "simulate",    "compare", "design",   "run-tool",
-                                     "twin-study", "init",    "update-file", "settings"};
+constexpr const char* kCommands[] = {"run",        "check",   "info",     "emg",     "ik",       "id",
+                                     "muscle",     "paths",   "so",       "predict", "identify", "twin",
+                                     "report",     "convert", "simulate", "compare", "design",   "run-tool",
+                                     "twin-study", "init",    "cohort",   "demo"};
 
 /// One second of elbow flexion from 0 to 90 degrees, written in degrees under this header value.
 std::string ramp_motion(const std::string& in_degrees) {
@@ -58,12 +58,64 @@ TEST(CommandLine, PrintedSettingsAreAStudyOfTheSameSettings) {
   write_text(folder / "study.toml",
              "[emg]\nlowpass_hz = 5\n[[muscle]]\nname = \"BIC\"\nemg = \"b\"\n[[trial]]\nname = "
              "\"t\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n");
-  const Finished first = myoid({"settings", folder / "study.toml"});
+  const Finished first = myoid({"check", folder / "study.toml", "--defaults"});
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_THAT(first.out, AllOf(HasSubstr("lowpass_hz = 5.0"), HasSubstr("markers = \"t.trc\"")));
   write_text(folder / "again.toml", first.out);
-  EXPECT_EQ(myoid({"settings", folder / "again.toml"}).out, first.out);
-  EXPECT_THAT(myoid({"settings"}).out, HasSubstr("  rate_hz: 10 to 2000 Hz; default 100\n"));
+  EXPECT_EQ(myoid({"check", folder / "again.toml", "--defaults"}).out, first.out);
+}
+
+TEST(CommandLine, TheSettingsOfAStudyAreExplainedAllOrByTable) {
+  const std::string all = myoid({"check", "--settings"}).out;
+  EXPECT_THAT(all, HasSubstr("  rate_hz: 10 to 2000 Hz; default 100\n"));
+  const std::size_t begin = all.find("\n[emg] ") + 1, end = all.find("\n[sync] ", begin) + 1;
+  ASSERT_LT(begin, end);
+  EXPECT_EQ(myoid({"check", "--settings", "emg"}).out, all.substr(begin, end - begin));
+  const Finished unknown = myoid({"check", "--settings", "emgs"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("'emg'"));
+}
+
+/// Expects that two command lines print the same and write the same into a file of their own, apart from a note on
+/// stderr that names the command of the second.
+void expect_same_command(const TemporaryFolder& folder,
+                         const std::vector<std::string>& other_name,
+                         const std::vector<std::string>& command) {
+  const auto finished = [&](std::vector<std::string> words) {
+    std::filesystem::remove(folder / "out.osim");
+    words.emplace_back("--json");
+    const Finished done = myoid(words);
+    return std::pair(done, std::filesystem::exists(folder / "out.osim") ? read_text(folder / "out.osim") : "");
+  };
+  const auto [first, first_file] = finished(other_name);
+  const auto [second, second_file] = finished(command);
+  EXPECT_EQ(first.exit_code, second.exit_code) << other_name[0];
+  EXPECT_EQ(first.out, second.out) << other_name[0];
+  EXPECT_EQ(first_file, second_file) << other_name[0];
+  EXPECT_EQ(std::ranges::count(first.err, '\n'), std::ranges::count(second.err, '\n') + 1) << first.err;
+  EXPECT_THAT(first.err, testing::EndsWith(second.err));
+  EXPECT_THAT(first.err, AllOf(HasSubstr("myoid " + command[0] + " "), HasSubstr(other_name[0])));
+}
+
+TEST(CommandLine, AnotherNameOfACommandDoesTheSameAndSaysSo) {
+  const TemporaryFolder folder;
+  const std::filesystem::path rec = recording_in(folder);
+  const std::string study = rec / "study.toml", model = rec / "model.osim";
+  const std::string out = folder / "out.osim";
+  expect_same_command(folder, {"settings"}, {"check", "--settings"});
+  expect_same_command(folder, {"settings", study}, {"check", study, "--defaults"});
+  expect_same_command(folder, {"settings", folder / "none.toml"}, {"check", folder / "none.toml", "--defaults"});
+  expect_same_command(folder, {"update-file", model, out}, {"convert", model, out});
+  expect_same_command(folder, {"update-file", model, out, "--compat", "opensim"},
+                      {"convert", model, out, "--compat", "opensim"});
+  expect_same_command(folder, {"update-file", study, out}, {"convert", study, out});
+  EXPECT_EQ(myoid({"settings", "--quiet"}).err, "");
+  // The lists of commands name each job once.
+  const std::string listed = myoid({"--help"}).out;
+  for (const std::string other_name : {"bids", "settings", "update-file"}) {
+    EXPECT_THAT(listed, Not(HasSubstr("\n  " + other_name + " "))) << other_name;
+    EXPECT_EQ(myoid({other_name, "--help"}).exit_code, 0) << other_name;
+  }
 }
 
 TEST(CommandLine, InitPrintsEachQuestionWithItsLine) {
@@ -167,7 +219,10 @@ TEST(CommandLine, AWrongLineIsToldInTheProgramsOwnWords) {
        "--seed: found '99999999999999999999', expected a whole number from 0 to 18446744073709551615"},
       {{"run", "s.toml", "--out", "x", "--method", "papr"},
        "--method: found \"papr\" (did you mean 'paper'?), expected one of paper, force, torque"},
-      {{"bids", "d", "o", "all"}, "ANALYSIS_LEVEL: found \"all\", expected one of participant, group"},
+      {{"cohort", "d", "o", "all"}, "ANALYSIS_LEVEL: found \"all\", expected one of participant, group"},
+      {{"bids", "d", "o"}, "cohort needs ANALYSIS_LEVEL; myoid cohort --help explains it"},
+      {{"check"}, "check needs STUDY, or --settings; myoid check --help explains them"},
+      {{"check", "s.toml", "--settings"}, "STUDY and --settings exclude each other"},
       {{"id", "--model", "arm4", "--motion", "m", "--out", "x", "--held-at", "1", "2"},
        "--held-at takes 3 values; found 2: 1, 2"},
       {{"info", "arm4", "--motion", "m.mot"}, "--motion has a use only with --html"},

@@ -1,6 +1,7 @@
 // Recordings there and back again through the program.
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,6 +50,34 @@ TEST(Convert, MarkersAndEmgGoIntoAC3dAndComeBack) {
   const Finished again = myoid({"convert", c3d, (folder / "b.csv").string()});
   EXPECT_EQ(again.exit_code, 3);
   EXPECT_THAT(again.err, HasSubstr("--overwrite"));
+}
+
+/// A set of OpenSim 2.3.2: its present form has <appliesForce> in place of <isDisabled>.
+const std::string kOldSet =
+    "<OpenSimDocument Version=\"20302\"><ForceSet><objects><CoordinateActuator name=\"r\"><isDisabled>false"
+    "</isDisabled><coordinate>q</coordinate></CoordinateActuator></objects></ForceSet></OpenSimDocument>";
+
+TEST(Convert, AnOpenSimFileIsToldByItsEndingOrItsContent) {
+  const TemporaryFolder folder;
+  for (const auto& [from, to] : {std::pair{"old.osim", "a.osim"}, {"old.xml", "b.xml"}, {"old.bak", "c"}}) {
+    write_text(folder / from, kOldSet);
+    const Finished done = myoid({"convert", folder / from, folder / to, "--json"});
+    EXPECT_EQ(done.exit_code, 0) << from << done.err;
+    EXPECT_THAT(done.out, HasSubstr("\"old_version\": 20302")) << from;
+    EXPECT_THAT(read_text(folder / to), HasSubstr("<appliesForce>true</appliesForce>")) << from;
+    EXPECT_THAT(read_text(folder / to), HasSubstr("<OpenSimDocument Version=\"40500\">")) << from;
+    EXPECT_EQ(myoid({"convert", folder / from, folder / to}).exit_code, 3) << "it is there already";
+    EXPECT_EQ(myoid({"convert", folder / from, folder / from, "--overwrite"}).exit_code, 3) << "it is the input";
+    EXPECT_EQ(read_text(folder / from), kOldSet);
+  }
+  write_text(folder / "a.trc", kTrc);
+  EXPECT_EQ(myoid({"convert", folder / "old.osim", folder / "a.mot"}).exit_code, 3) << "the name of a recording";
+  EXPECT_EQ(myoid({"convert", folder / "a.trc", folder / "new.osim"}).exit_code, 3) << "markers make no model";
+  EXPECT_EQ(myoid({"convert", folder.path(), folder / "new.osim"}).exit_code, 3) << "a folder makes no model";
+  EXPECT_FALSE(std::filesystem::exists(folder / "new.osim") || std::filesystem::exists(folder / "a.mot"));
+  const Finished idle = myoid({"convert", folder / "old.osim", folder / "d.osim", "--what", "emg", "--end", "1"});
+  EXPECT_EQ(idle.exit_code, 0);
+  EXPECT_THAT(idle.err, testing::MatchesRegex("warning: --what [^\n]*\nwarning: --end [^\n]*\n"));
 }
 
 TEST(Convert, TurnsTheLaboratory) {

@@ -101,8 +101,10 @@ TEST_F(HelpFiles, BashCompletesCommandsOptionsAndWords) {
                                         "\n_myoid\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n");
     return said(folder, "bash " + (folder / "ask.bash").string());
   };
-  EXPECT_EQ(completed("myoid upd", 1), "update-file\n");
-  EXPECT_EQ(completed("myoid help upd", 2), "update-file\n");
+  EXPECT_EQ(completed("myoid twin-", 1), "twin-study\n");
+  EXPECT_EQ(completed("myoid help twin-", 2), "twin-study\n");
+  EXPECT_EQ(completed("myoid update-f", 1), "\n") << "each job is listed once";
+  EXPECT_EQ(completed("myoid update-file --comp", 2), "--compat\n");
   EXPECT_EQ(completed("myoid run --met", 2), "--method\n");
   EXPECT_EQ(completed("myoid run --method p", 3), "paper\n");
   EXPECT_EQ(completed("myoid run --method ''", 3), "paper\nforce\ntorque\n");

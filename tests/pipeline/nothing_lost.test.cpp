@@ -83,9 +83,9 @@ std::vector<Recipe> recipes() {
        "",
        false,
        true},
-      {"bids",
+      {"cohort",
        [](auto& in, auto& out) {
-         return Words{"bids", in, out, "participant"};
+         return Words{"cohort", in, out, "participant"};
        },
        "code/study.toml",
        true,
@@ -93,9 +93,9 @@ std::vector<Recipe> recipes() {
        "",
        false,
        true},
-      {"bids",
+      {"cohort",
        [](auto& in, auto& out) {
-         return Words{"bids", in, out, "group"};
+         return Words{"cohort", in, out, "group"};
        },
        "code/study.toml"},
       {"info",
@@ -249,9 +249,9 @@ std::vector<Recipe> recipes() {
          return Words{"run-tool", in + "/setup.xml", "--out", out};
        },
        "lift.trc"},
-      {"update-file",
+      {"convert",
        [=](auto& in, auto& out) {
-         return Words{"update-file", model(in), out};
+         return Words{"convert", model(in), out};
        },
        "model.osim",
        false,
@@ -268,9 +268,9 @@ std::vector<Recipe> recipes() {
        "",
        false,
        true},
-      {"settings",
+      {"check",
        [](auto& in, auto&) {
-         return Words{"settings", in + "/study.toml"};
+         return Words{"check", in + "/study.toml", "--defaults"};
        },
        typo,
        true,
@@ -513,7 +513,7 @@ TEST_F(NothingIsLost, EveryCommandOfTheProgramHasARecipe) {
   const std::vector<Recipe> all = recipes();
   for (const Recipe& recipe : all) known.insert(recipe.command);
   known.insert("demo");  // it has no input, and writes as twin and run do
-  EXPECT_THAT(commands_of_the_program(), testing::SizeIs(testing::Ge(24U)));
+  EXPECT_THAT(commands_of_the_program(), testing::SizeIs(testing::Ge(22U)));
   EXPECT_EQ(known, commands_of_the_program());
 }
 

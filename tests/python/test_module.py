@@ -13,7 +13,8 @@ from conftest import SOURCE, program
 import myoid
 
 # Options of the program that belong to a terminal: what it prints and which exit code it has.
-TERMINAL = {"help", "json", "quiet", "verbose", "strict", "each_muscle", "paper_figures", "help_files"}
+TERMINAL = {"help", "json", "quiet", "verbose", "strict", "each_muscle", "paper_figures", "help_files", "settings",
+            "defaults"}  # fmt: skip
 PAGE = {"html", "motion", "forces", "activations", "markers", "meshes", "up", "start", "end", "overwrite"}
 COMMANDS = [
     "run", "identify", "predict", "check", "compare", "design", "emg", "ik", "id", "paths", "so", "muscle", "simulate",

@@ -95,6 +95,10 @@ def test_convert_writes_what_the_program_writes(recording, tmp_path):
     assert files == [tmp_path / "a.csv"] and files[0].read_bytes() == (tmp_path / "b.csv").read_bytes()
     with pytest.raises(myoid.InvalidInput, match="exists"):
         myoid.convert(source, tmp_path / "a.csv")
+    model = recording.parent / "model.osim"
+    files = myoid.convert(model, tmp_path / "a.osim", compat="opensim")
+    program("convert", model, tmp_path / "b.osim", "--compat", "opensim", "--quiet")
+    assert files == [tmp_path / "a.osim"] and files[0].read_bytes() == (tmp_path / "b.osim").read_bytes()
 
 
 def test_info_of_the_arm():

@@ -10,7 +10,7 @@ namespace myoid::test {
 inline page::Scene small_scene() {
   page::Scene scene;
   scene.name = "flex <slow>";
-  scene.notes = {"A note."};
+  scene.notes = {{.says = "A note."}};
   scene.bodies = {{.name = "ground"},
                   {.name = "forearm",
                    .mass_kg = 1.5,

@@ -39,7 +39,7 @@ double polygon_m(const BodyModel& arm, const BodyState& state, const MusclePath&
 TEST(Arm4, IsReadWithoutAnyRemark) {
   for (const bool rotations : {false, true}) {
     const BodyModel arm = read({.forearm_rotations = rotations});
-    EXPECT_TRUE(arm.notes.empty()) << arm.notes.front();
+    EXPECT_TRUE(arm.notes.empty()) << arm.notes.front().says;
     EXPECT_TRUE(arm.unsupported.empty()) << arm.unsupported.front();
     EXPECT_EQ(arm.muscles.size(), 4U);
     EXPECT_EQ(arm.coordinates.size(), rotations ? 10U : 4U);

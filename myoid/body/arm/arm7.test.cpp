@@ -36,7 +36,7 @@ TEST(Arm7, RigidTendonsLeaveEveryFiberOptimalAtTheAngleOfItsLump) {
 
 TEST(Arm7, ItsFileIsReadWithoutRemarkAndHasTheHeads) {
   const BodyModel arm = parse_osim(arm7_osim(), "arm7.osim");
-  EXPECT_TRUE(arm.notes.empty()) << arm.notes.front();
+  EXPECT_TRUE(arm.notes.empty()) << arm.notes.front().says;
   EXPECT_TRUE(arm.unsupported.empty()) << arm.unsupported.front();
   ASSERT_EQ(arm.muscles.size(), kArm7Heads.size());
   for (std::size_t i = 0; i < kArm7Heads.size(); ++i) EXPECT_EQ(arm.muscles[i].name, kArm7Heads[i]);

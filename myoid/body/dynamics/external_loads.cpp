@@ -141,7 +141,7 @@ ExternalForce read_force(const OsimXml& xml,
                          const TimeSeries& data,
                          const Clock& clock,
                          const std::filesystem::path& file,
-                         std::vector<std::string>& notes) {
+                         std::vector<Remark>& notes) {
   ExternalForce force;
   force.name = OsimXml::name_of(node);
   const bool is_old = std::string_view(node.name()) == "PrescribedForce";
@@ -159,7 +159,9 @@ ExternalForce read_force(const OsimXml& xml,
   check_finite(f, data, "force of '" + force.name + "'", file);
   check_finite(t, data, "torque of '" + force.name + "'", file);
   for (const std::string& said : mend_load_units(f, p, t))
-    notes.push_back(fmt::format("{}: '{}': {}", file.string(), force.name, said));
+    notes.push_back({.code = RemarkCode::reading,
+                     .severity = Severity::note,
+                     .says = fmt::format("{}: '{}': {}", file.string(), force.name, said)});
   if (p.rows() > 0) {
     std::vector<bool> is_loaded(static_cast<std::size_t>(p.rows()), false);
     if (f.rows() > 0) {
@@ -176,17 +178,23 @@ ExternalForce read_force(const OsimXml& xml,
     }
     if (const Eigen::Index mended = mend_points(p, is_loaded); mended > 0) {
       notes.push_back(
-          fmt::format("{}: the point of '{}' means nothing in {} rows where no force acts; straight lines between the "
-                      "others stand there",
-                      file.string(), force.name, mended));
+          {.code = RemarkCode::reading,
+           .severity = Severity::note,
+           .says = fmt::format(
+               "{}: the point of '{}' means nothing in {} rows where no force acts; straight lines between the "
+               "others stand there",
+               file.string(), force.name, mended)});
     }
     force.point = fit(clock, p);
   }
   if (p.rows() == 0 && f.rows() > 0 && !f.isZero(0.0) && force.body != 0) {
-    notes.push_back(fmt::format(
-        "{}: {}: '{}' names no point: its force acts at the origin of body '{}', as in OpenSim; "
-        "<point_identifier> names the columns of its point",
-        xml.path().string(), xml.place_of(node), force.name, model.bodies[static_cast<std::size_t>(force.body)].name));
+    notes.push_back(
+        {.code = RemarkCode::reading,
+         .severity = Severity::note,
+         .says = fmt::format("{}: {}: '{}' names no point: its force acts at the origin of body '{}', as in OpenSim; "
+                             "<point_identifier> names the columns of its point",
+                             xml.path().string(), xml.place_of(node), force.name,
+                             model.bodies[static_cast<std::size_t>(force.body)].name)});
   }
   if (f.rows() > 0) force.force = fit(clock, f);
   if (t.rows() > 0) force.torque = fit(clock, t);
@@ -264,9 +272,16 @@ ExternalLoads read_external_loads(const body::BodyModel& model, const std::files
   ExternalLoads loads;
   for (const auto* sentences : {&xml.repairs(), &xml.ignored()})
     for (const std::string& sentence : *sentences)
-      loads.notes.push_back(fmt::format("{}: {}", path.string(), sentence));
-  if (!named.note.empty()) loads.notes.push_back(fmt::format("{}: <datafile>: {}", path.string(), named.note));
-  for (const Repair& repair : table.repairs) loads.notes.push_back(recording::to_string(file, repair));
+      loads.notes.push_back({.code = RemarkCode::reading,
+                             .severity = Severity::note,
+                             .says = fmt::format("{}: {}", path.string(), sentence)});
+  if (!named.note.empty())
+    loads.notes.push_back({.code = RemarkCode::reading,
+                           .severity = Severity::note,
+                           .says = fmt::format("{}: <datafile>: {}", path.string(), named.note)});
+  for (const Repair& repair : table.repairs)
+    loads.notes.push_back(
+        {.code = RemarkCode::reading, .severity = Severity::note, .says = recording::to_string(file, repair)});
   loads.start_s = data.time_s()[0];
   loads.end_s = data.time_s()[data.sample_count() - 1];
   Clock clock;
@@ -277,19 +292,27 @@ ExternalLoads read_external_loads(const body::BodyModel& model, const std::files
     const bool is_old = kind == "PrescribedForce";
     if (kind != "ExternalForce" && !is_old) xml.fail(node, fmt::format("expected <ExternalForce>, found <{}>", kind));
     if (xml.flag(node, "isDisabled", false) || !xml.flag(node, "appliesForce", true)) {
-      loads.notes.push_back(fmt::format("{}: '{}' is switched off", path.string(), OsimXml::name_of(node)));
+      loads.notes.push_back({.code = RemarkCode::reading,
+                             .severity = Severity::note,
+                             .says = fmt::format("{}: '{}' is switched off", path.string(), OsimXml::name_of(node))});
       continue;
     }
     constexpr int kFirstOfExternalForces = 20301;
     if (is_old && xml.version() >= kFirstOfExternalForces) {
       loads.notes.push_back(
-          fmt::format("{}: '{}' is a PrescribedForce, as in documents before {}, and acts as there; OpenSim converts "
-                      "it only where the document's version ({}) is before that",
-                      path.string(), OsimXml::name_of(node), kFirstOfExternalForces, xml.version()));
+          {.code = RemarkCode::reading,
+           .severity = Severity::note,
+           .says = fmt::format(
+               "{}: '{}' is a PrescribedForce, as in documents before {}, and acts as there; OpenSim converts "
+               "it only where the document's version ({}) is before that",
+               path.string(), OsimXml::name_of(node), kFirstOfExternalForces, xml.version())});
     }
     loads.forces.push_back(read_force(xml, node, model, data, clock, file, loads.notes));
   }
-  if (loads.forces.empty()) loads.notes.push_back(fmt::format("{}: no external force acts", path.string()));
+  if (loads.forces.empty())
+    loads.notes.push_back({.code = RemarkCode::reading,
+                           .severity = Severity::note,
+                           .says = fmt::format("{}: no external force acts", path.string())});
   return loads;
 }
 

@@ -7,6 +7,7 @@
 
 #include "myoid/body/model/body_model.h"
 #include "myoid/body/model/kinematic_tree.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
 #include "myoid/ground/math/spline.h"
 
@@ -41,7 +42,7 @@ struct ExternalLoads {
   /// Time of the motion = time of the data + offset_s + 1e-6 drift_ppm x time of the data.
   /// `start_s` and `end_s` are times of the motion.
   double offset_s = 0.0, drift_ppm = 0.0;
-  std::vector<std::string> notes;  ///< Repairs and omissions, a sentence each.
+  std::vector<Remark> notes;  ///< Repairs and omissions, a sentence each.
 
   /// Returns the time of the data at a time of the motion.
   [[nodiscard]] double data_time_s(double motion_time_s) const;

@@ -108,8 +108,8 @@ TEST_F(Loads, APointThatIsNoNumberWhileUnloadedIsMendedAndSaid) {
   const ExternalLoads loads = read();
   // What the table's reader says, and what became of it.
   ASSERT_EQ(loads.notes.size(), 2U);
-  EXPECT_THAT(loads.notes[0], ::testing::HasSubstr("loads.mot"));
-  EXPECT_THAT(loads.notes[1], ::testing::HasSubstr("2 rows"));
+  EXPECT_THAT(loads.notes[0].says, ::testing::HasSubstr("loads.mot"));
+  EXPECT_THAT(loads.notes[1].says, ::testing::HasSubstr("2 rows"));
   EXPECT_NEAR(loads.forces[0].point->at(0.1)[0], 0.2, 1e-12);
   EXPECT_NEAR(loads.forces[0].point->at(0.2)[0], 0.3, 1e-12);
 }

@@ -83,14 +83,16 @@ void check_states(const MuscleAnalysisOptions& options, Eigen::Index frames, con
 
 /// Adds a sentence for each muscle whose path or balance fails in some frames.
 void note_failures(
-    const std::string& muscle, int pathless, int unbalanced, Eigen::Index frames, std::vector<std::string>& notes) {
+    const std::string& muscle, int pathless, int unbalanced, Eigen::Index frames, std::vector<Remark>& notes) {
   if (pathless > 0) {
-    notes.push_back(fmt::format("muscle '{}': its path has no length in {} of {} frames (NaN stands there)", muscle,
-                                pathless, frames));
+    notes.push_back({.severity = Severity::note,
+                     .says = fmt::format("muscle '{}': its path has no length in {} of {} frames (NaN stands there)",
+                                         muscle, pathless, frames)});
   }
   if (unbalanced > 0) {
-    notes.push_back(fmt::format("muscle '{}': fiber and tendon could not be balanced in {} of {} frames", muscle,
-                                unbalanced, frames));
+    notes.push_back({.severity = Severity::note,
+                     .says = fmt::format("muscle '{}': fiber and tendon could not be balanced in {} of {} frames",
+                                         muscle, unbalanced, frames)});
   }
 }
 
@@ -112,8 +114,10 @@ MuscleAnalysis muscle_analysis(const body::BodyModel& model,
     const body::Muscle& muscle = model.muscles.at(static_cast<std::size_t>(m));
     muscles.emplace_back(muscle, model.compat);
     if (!muscles.back().has_own_curves()) {
-      result.notes.push_back(fmt::format("muscle '{}' of class {}: its fiber and tendon follow Thelen's curves",
-                                         muscle.name, muscle.class_name));
+      result.notes.push_back(
+          {.severity = Severity::note,
+           .says = fmt::format("muscle '{}' of class {}: its fiber and tendon follow Thelen's curves", muscle.name,
+                               muscle.class_name)});
     }
   }
   const Eigen::Index frames = motion.sample_count();

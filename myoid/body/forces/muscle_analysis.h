@@ -7,6 +7,7 @@
 #include "myoid/body/kinematics/joint_motion.h"
 #include "myoid/body/model/body_model.h"
 #include "myoid/ground/core/progress.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
 
 namespace myoid::body {
@@ -25,7 +26,7 @@ struct MuscleAnalysis {
   /// Table by OpenSim's name: "MomentArm_<coordinate>", "Moment_<coordinate>", "PennationAngle", "Length",
   /// "FiberLength", ... in the order in which its analysis writes them; channels are the muscles.
   std::vector<std::pair<std::string, TimeSeries>> tables;
-  std::vector<std::string> notes;
+  std::vector<Remark> notes;
 };
 
 /// Computes the tables of OpenSim's MuscleAnalysis along a motion [m, m/s, rad, rad/s, N, N m, W; fractions of the

@@ -43,8 +43,9 @@ void add_muscles(const body::BodyModel& model, body::MuscleKinematics muscles, S
   for (Eigen::Index m = 0; m < count; ++m) {
     const OpensimMuscle muscle(model.muscles[at(m)], model.compat);
     if (!muscle.has_own_curves()) {
-      input.notes.push_back(fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
-                                        model.muscles[at(m)].name, model.muscles[at(m)].class_name));
+      input.notes.push_back({.severity = Severity::note,
+                             .says = fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
+                                                 model.muscles[at(m)].name, model.muscles[at(m)].class_name)});
     }
     input.min_activation = std::min(input.min_activation, model.muscles[at(m)].properties.min_control);
     input.max_isometric_force_n[m] = muscle.properties().max_isometric_force_n;
@@ -77,8 +78,9 @@ SharingInput sharing_input(const body::BodyModel& model,
   const std::vector<Eigen::Index> chosen = balanced(model, coordinates);
   if (!model.constraints.empty()) {
     input.notes.push_back(
-        "joints form closed loops: the forces of their constraints are not known here; run-tool's "
-        "static optimization projects them out");
+        {.severity = Severity::note,
+         .says = "joints form closed loops: the forces of their constraints are not known here; run-tool's "
+                 "static optimization projects them out"});
   }
   const TimeSeries tau = body::inverse_dynamics(model, motion, {.loads = loads, .passive_forces = true});
   const Eigen::Index frames = motion.sample_count();

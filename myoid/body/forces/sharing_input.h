@@ -10,6 +10,7 @@
 #include "myoid/body/kinematics/joint_motion.h"
 #include "myoid/body/kinematics/muscle_kinematics.h"
 #include "myoid/body/model/body_model.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
 
 namespace myoid::body {
@@ -22,7 +23,7 @@ struct SharingInput {
   Eigen::VectorXd max_isometric_force_n;
   double min_activation = 0.0;  ///< The least control that a muscle of the model allows.
   body::MuscleKinematics muscles;
-  std::vector<std::string> notes;  ///< Remarks to the user, a sentence each.
+  std::vector<Remark> notes;  ///< Remarks to the user, a sentence each.
 };
 
 /// Computes the input from the muscles' paths along the motion: torques of inverse dynamics (with passive forces of the

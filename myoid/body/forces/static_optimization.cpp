@@ -133,8 +133,9 @@ StaticOptimizationResult static_optimization(const body::BodyModel& model,
     muscles.emplace_back(muscle, model.compat);
     if (!muscles.back().has_own_curves() && muscle.applies_force && options.muscle_physiology) {
       result.notes.push_back(
-          fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves with a rigid tendon",
-                      muscle.name, muscle.class_name));
+          {.severity = Severity::note,
+           .says = fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves with a rigid tendon",
+                               muscle.name, muscle.class_name)});
     }
   }
   const Eigen::Index frames = motion.sample_count();

@@ -8,6 +8,7 @@
 #include "myoid/body/kinematics/joint_motion.h"
 #include "myoid/body/model/body_model.h"
 #include "myoid/ground/core/progress.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
 
 namespace myoid::body {
@@ -34,7 +35,7 @@ struct StaticOptimizationResult {
   std::vector<bool> is_feasible;   ///< Per frame: the actuators can make the accelerations.
   std::vector<bool> is_certified;  ///< Per frame: optimal, by its KKT residual.
   int frames_failed = 0;           ///< Not certified.
-  std::vector<std::string> notes;
+  std::vector<Remark> notes;
 };
 
 /// Computes OpenSim's static optimization, frame by frame: the controls of least sum |x|^p of all

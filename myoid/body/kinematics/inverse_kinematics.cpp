@@ -25,7 +25,7 @@ constexpr double kManyFrames = 0.25;  // a coordinate that lies longer at an end
 std::vector<Pair> pair_markers(const body::BodyModel& model,
                                const MarkerSeries& markers,
                                const IkOptions& options,
-                               std::vector<std::string>& notes) {
+                               std::vector<Remark>& notes) {
   std::vector<Pair> pairs;
   std::vector<std::string> names, unseen, unknown;
   for (std::size_t i = 0; i < model.markers.size(); ++i) {
@@ -50,9 +50,15 @@ std::vector<Pair> pair_markers(const body::BodyModel& model,
     if (!model.find_marker(name)) unknown.push_back(name);
   }
   if (!unseen.empty())
-    notes.push_back(fmt::format("markers of the model that are not in the recording: {}", fmt::join(unseen, ", ")));
+    notes.push_back(
+        {.code = RemarkCode::reading,
+         .severity = Severity::note,
+         .says = fmt::format("markers of the model that are not in the recording: {}", fmt::join(unseen, ", "))});
   if (!unknown.empty())
-    notes.push_back(fmt::format("markers of the recording that are not in the model: {}", fmt::join(unknown, ", ")));
+    notes.push_back(
+        {.code = RemarkCode::reading,
+         .severity = Severity::note,
+         .says = fmt::format("markers of the recording that are not in the model: {}", fmt::join(unknown, ", "))});
   if (pairs.empty()) {
     const auto some = [](const std::vector<std::string>& all) {
       const std::vector<std::string> head(
@@ -171,7 +177,7 @@ std::vector<Remark> remarks_on_ends(const body::BodyModel& model, const TimeSeri
 std::vector<std::string> undetermined_coordinates(const body::BodyModel& model,
                                                   const MarkerSeries& markers,
                                                   const IkOptions& options) {
-  std::vector<std::string> notes;
+  std::vector<Remark> notes;
   PoseFit fit(model, options, pair_markers(model, markers, options, notes));
   // One frame with every marker that is ever seen; only the markers' places on the bodies matter.
   MarkerSeries ever{Eigen::VectorXd::Zero(1), markers.names, Eigen::MatrixXd(1, markers.positions_m.cols())};
@@ -237,7 +243,7 @@ IkResult inverse_kinematics(const body::BodyModel& model, const MarkerSeries& ma
   result.errors = TimeSeries(markers.time_s, error_channels(model, fit.pairs()), std::move(errors));
   result.marker_locations = TimeSeries(markers.time_s, location_channels(model, fit.pairs()), std::move(locations));
   for (std::size_t k = 0; k < undetermined.size(); ++k) {
-    if (undetermined[k]) result.undetermined.push_back(model.coordinates[at(fit.free()[k])].name);
+    if (undetermined[k]) result.open_coordinates.push_back(model.coordinates[at(fit.free()[k])].name);
   }
   return result;
 }

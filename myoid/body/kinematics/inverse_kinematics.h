@@ -31,8 +31,8 @@ struct IkResult {
   int frames_not_converged = 0;
   int frames_without_markers = 0;
   /// Free coordinates that the markers leave open in the frames seen.
-  std::vector<std::string> undetermined;
-  std::vector<std::string> notes;  ///< Markers without counterpart.
+  std::vector<std::string> open_coordinates;
+  std::vector<Remark> notes;  ///< Markers without counterpart.
 };
 
 /// Fits the pose of the model to the measured markers, frame by frame from the previous solution:

@@ -43,9 +43,9 @@ Eigen::VectorXd held_values(const body::Coordinate& coordinate, const Eigen::Vec
   return values;
 }
 
-std::vector<std::string> held_notes(const body::BodyModel& model, const TimeSeries& q, HeldValues held) {
+std::vector<Remark> held_notes(const body::BodyModel& model, const TimeSeries& q, HeldValues held) {
   constexpr double kRounding = 1e-4;  // [rad, m]: files round angles to a few digits
-  std::vector<std::string> notes;
+  std::vector<Remark> notes;
   for (const body::Coordinate& coordinate : model.coordinates) {
     const auto column = is_held(coordinate) ? q.find(coordinate.name) : std::nullopt;
     if (!column || q.sample_count() == 0) continue;
@@ -60,11 +60,13 @@ std::vector<std::string> held_notes(const body::BodyModel& model, const TimeSeri
       return high - low > 1e-9 ? fmt::format("from {:.4g} to {:.4g} {}", low, high, name)
                                : fmt::format("at {:.4g} {}", low, name);
     };
-    notes.push_back(fmt::format("coordinate '{}' is {} {} by the model, and the motion has it {}; {}", coordinate.name,
-                                coordinate.locked ? "locked" : "prescribed", range(own), range(recorded),
-                                held == HeldValues::of_model
-                                    ? "the model's values count, as in OpenSim's analyses"
-                                    : "the motion's values count, as in OpenSim's inverse dynamics"));
+    notes.push_back(
+        {.severity = Severity::note,
+         .says = fmt::format("coordinate '{}' is {} {} by the model, and the motion has it {}; {}", coordinate.name,
+                             coordinate.locked ? "locked" : "prescribed", range(own), range(recorded),
+                             held == HeldValues::of_model
+                                 ? "the model's values count, as in OpenSim's analyses"
+                                 : "the motion's values count, as in OpenSim's inverse dynamics")});
   }
   return notes;
 }
@@ -129,12 +131,13 @@ MotionResult joint_motion(const body::BodyModel& model, const TimeSeries& q, con
   for (const Channel& channel : q.channels()) {
     if (!model.find_coordinate(channel.name)) {
       result.notes.push_back(
-          fmt::format("column '{}' of the motion is no coordinate of the model; ignored", channel.name));
+          {.severity = Severity::note,
+           .says = fmt::format("column '{}' of the motion is no coordinate of the model; ignored", channel.name)});
     }
   }
   result.motion = {TimeSeries(time, channels[0], std::move(value)), TimeSeries(time, channels[1], std::move(first)),
                    TimeSeries(time, channels[2], std::move(second))};
-  for (std::string& note : held_notes(model, q, options.held)) result.notes.push_back(std::move(note));
+  for (Remark& note : held_notes(model, q, options.held)) result.notes.push_back(std::move(note));
   if (options.held == HeldValues::of_model) result.motion = with_held_values(model, std::move(result.motion), true);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "myoid/body/model/body_model.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
 
 namespace myoid::body {
@@ -34,7 +35,7 @@ struct MotionResult {
   JointMotion motion;
   /// Columns that are no coordinate; locked and prescribed coordinates whose values differ from the model's.
   /// `implausible` (motion_plausibility.h) names missing coordinates.
-  std::vector<std::string> notes;
+  std::vector<Remark> notes;
 };
 
 /// Computes values and two derivatives of every coordinate by a quintic spline. `q` has radians and
@@ -49,9 +50,9 @@ struct MotionResult {
 /// Returns true for a locked or prescribed coordinate.
 [[nodiscard]] bool is_held(const body::Coordinate& coordinate);
 
-/// Returns a sentence for each locked or prescribed coordinate whose values in `q` differ from those of the model by
+/// Returns a remark on each locked or prescribed coordinate whose values in `q` differ from those of the model by
 /// more than rounding: its name, both ranges, and which values count.
-[[nodiscard]] std::vector<std::string> held_notes(const body::BodyModel& model, const TimeSeries& q, HeldValues held);
+[[nodiscard]] std::vector<Remark> held_notes(const body::BodyModel& model, const TimeSeries& q, HeldValues held);
 
 /// Returns the motion with the values and accelerations of locked and prescribed coordinates that the model gives, and
 /// with their rates if `rates_too`: OpenSim's analyses keep the rates of the motion.

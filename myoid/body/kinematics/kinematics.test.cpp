@@ -51,7 +51,7 @@ TEST(InverseKinematics, GivesBackTheAnglesThatMadeTheMarkers) {
   const IkResult result = inverse_kinematics(m, markers_of(m, q));
   EXPECT_LT((result.q.values() - q).cwiseAbs().maxCoeff(), 1e-10);
   EXPECT_EQ(result.frames_not_converged, 0);
-  EXPECT_TRUE(result.undetermined.empty());
+  EXPECT_TRUE(result.open_coordinates.empty());
 }
 
 TEST(InverseKinematics, AnUnclampedCoordinateThatBeginsATurnAwayComesBackIntoItsRange) {
@@ -99,7 +99,7 @@ TEST(InverseKinematics, NamesTheCoordinatesThatTheMarkersLeaveOpen) {
     }
   }
   const IkResult result = inverse_kinematics(m, markers);
-  EXPECT_EQ(result.undetermined, std::vector<std::string>{"elbow_flexion"});
+  EXPECT_EQ(result.open_coordinates, std::vector<std::string>{"elbow_flexion"});
 }
 
 TEST(InverseKinematics, RefusesARecordingWithoutAnyMarkerOfTheModel) {

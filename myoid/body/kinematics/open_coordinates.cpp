@@ -48,7 +48,7 @@ std::vector<std::string> open_coordinates(const body::BodyModel& model,
             model,
             MarkerSeries{markers.time_s.segment(frame, 1), markers.names, markers.positions_m.middleRows(frame, 1)},
             options)
-            .undetermined;
+            .open_coordinates;
     if (first) open = here;
     std::erase_if(open, [&](const std::string& name) { return std::ranges::find(here, name) == here.end(); });
     first = false;
@@ -63,7 +63,7 @@ std::vector<std::string> open_coordinates(const body::BodyModel& model,
           bent(model),
           MarkerSeries{markers.time_s.segment(frame, 1), markers.names, markers.positions_m.middleRows(frame, 1)},
           posed)
-          .undetermined;
+          .open_coordinates;
   std::erase_if(open, [&](const std::string& name) { return std::ranges::find(always, name) == always.end(); });
   return open;
 }

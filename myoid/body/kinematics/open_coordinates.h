@@ -9,9 +9,9 @@
 
 namespace myoid::body {
 
-/// Returns the free coordinates that the markers leave open (IkResult::undetermined) in each of three frames, solved
-/// for themselves: the first, the middle and the last of those that show most markers; and in a posture with bent
-/// limbs. Throws as inverse_kinematics.
+/// Returns the free coordinates that the markers leave open (IkResult::open_coordinates) in each of three frames,
+/// solved for themselves: the first, the middle and the last of those that show most markers; and in a posture with
+/// bent limbs. Throws as inverse_kinematics.
 [[nodiscard]] std::vector<std::string> open_coordinates(const body::BodyModel& model,
                                                         const MarkerSeries& markers,
                                                         const IkOptions& options = {});

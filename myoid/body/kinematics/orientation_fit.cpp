@@ -235,7 +235,7 @@ OrientationFit fit_orientations(const body::BodyModel& model,
   fit.q = TimeSeries(series.time_s, solved.q.channels(), std::move(postures));
   fit.errors_rad = TimeSeries(series.time_s, std::move(channels), angles_between(turning, fit.q, series, sensors));
   fit.frames_without_sensors = solved.frames_without_markers;
-  fit.undetermined = std::move(solved.undetermined);
+  fit.open_coordinates = std::move(solved.open_coordinates);
   return fit;
 }
 

@@ -21,7 +21,7 @@ struct OrientationFit {
   TimeSeries errors_rad;            ///< Angle of each sensor to its measured orientation, or NaN.
   std::vector<FrameStatus> status;  ///< Per frame.
   int frames_not_converged = 0, frames_without_sensors = 0;
-  std::vector<std::string> undetermined;  ///< Free coordinates that the sensors leave open.
+  std::vector<std::string> open_coordinates;  ///< Free coordinates that the sensors leave open.
 };
 
 /// Finds the pose of the model that fits the measured orientations best, frame by frame:

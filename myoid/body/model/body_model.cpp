@@ -205,7 +205,9 @@ void cut_loops(BodyModel& model) {
     Joint& joint = model.joints[j];
     joint.child = add_copy(model, joint.child, static_cast<int>(model.bodies.size()));
     model.notes.push_back(
-        fmt::format("joint '{}' closes a loop: it is cut there and held by a weld constraint", joint.name));
+        {.code = RemarkCode::reading,
+         .severity = Severity::note,
+         .says = fmt::format("joint '{}' closes a loop: it is cut there and held by a weld constraint", joint.name)});
   }
 }
 

@@ -14,6 +14,7 @@
 #include "myoid/body/model/opensim_defects/compat.h"
 #include "myoid/body/model/path_geometry.h"
 #include "myoid/ground/core/geometry.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/units.h"
 
 namespace myoid::body {
@@ -151,7 +152,7 @@ struct BodyModel {
   std::vector<LoopConstraint> constraints;  ///< Enforced constraints other than couplers.
   Compat compat;                            ///< Exact paths or OpenSim's (compat.h).
   int document_version = 0;
-  std::vector<std::string> notes;  ///< Repairs and omissions of the reader, a sentence each.
+  std::vector<Remark> notes;  ///< Repairs and omissions of the reader, a sentence each.
   /// Parts of the file that are left out and change results, a sentence each; commands that need
   /// such a part refuse the model.
   std::vector<std::string> unsupported;

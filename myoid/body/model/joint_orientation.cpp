@@ -45,9 +45,11 @@ void turn_round(BodyModel& model, std::size_t number) {
         joint.name, joint.class_name, model.bodies[at(joint.parent)].name, model.bodies[at(joint.child)].name));
   }
   model.notes.push_back(
-      fmt::format("joint '{}' leads from '{}' to '{}', which is nearer to ground: it is turned "
-                  "round, its coordinates keep their sense",
-                  joint.name, model.bodies[at(joint.parent)].name, model.bodies[at(joint.child)].name));
+      {.code = RemarkCode::reading,
+       .severity = Severity::note,
+       .says = fmt::format("joint '{}' leads from '{}' to '{}', which is nearer to ground: it is turned "
+                           "round, its coordinates keep their sense",
+                           joint.name, model.bodies[at(joint.parent)].name, model.bodies[at(joint.child)].name)});
   Joint back = joint;
   back.parent = joint.child;
   back.X_PF = joint.X_BM;

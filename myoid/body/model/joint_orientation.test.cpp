@@ -83,7 +83,7 @@ TEST(OrientJoints, SaysWhatWasTurnedAndWhatCannotBe) {
   const BodyModel m = parse_osim(
       one_body("<PinJoint name=\"j\">|" + coordinates(1) + "</PinJoint>", "/bodyset/b", "/ground"), "m.osim");
   ASSERT_FALSE(m.notes.empty());
-  EXPECT_NE(m.notes.back().find("turned round"), std::string::npos);
+  EXPECT_NE(m.notes.back().says.find("turned round"), std::string::npos);
   EXPECT_THROW((void)parse_osim(one_body("<EllipsoidJoint name=\"j\"><radii_x_y_z>1 1 1"
                                          "</radii_x_y_z>|" +
                                              coordinates(3) + "</EllipsoidJoint>",

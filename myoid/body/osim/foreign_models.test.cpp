@@ -184,7 +184,7 @@ TEST(ForeignModels, CoordinatesOfOneNameAreToldApartByTheirJoints) {
   EXPECT_EQ(m.find_coordinate("r"), std::nullopt);
   ASSERT_EQ(m.couplers.size(), 1U);
   EXPECT_EQ(m.couplers[0].dependent, 1);
-  EXPECT_THAT(m.notes, ::testing::Contains(HasSubstr("2 joints have a coordinate 'r'")));
+  EXPECT_THAT(sentences(m.notes), ::testing::Contains(HasSubstr("2 joints have a coordinate 'r'")));
   // Without the joint, the first is meant.
   std::string bare = text;
   bare.replace(bare.find("/jointset/shoulder/r"), 20, "r");
@@ -207,7 +207,7 @@ TEST(ForeignModels, OfTwoForcesWithOneNameTheModelsOwnActs) {
   EXPECT_EQ(m.muscles.size(), arm.muscles.size());
   ASSERT_EQ(m.actuators.size(), arm.actuators.size() + 1);
   EXPECT_EQ(m.actuators.back().optimal_force, 3.0);
-  EXPECT_THAT(m.notes.back(), HasSubstr("'biceps', 'new'"));
+  EXPECT_THAT(m.notes.back().says, HasSubstr("'biceps', 'new'"));
 }
 
 // ActivationFiberLengthMuscle, Thelen2003Muscle and Millard2012EquilibriumMuscle construct their

@@ -97,7 +97,7 @@ TEST(ReadForces, PrescribedForcesActuatorsOfPathsAndOfBodies) {
   EXPECT_EQ(m.path_actuators[0].optimal_force, 300.0);
   EXPECT_EQ(m.path_actuators[0].min_control, 0.0);
   EXPECT_EQ(m.force_order.back(), "cable");
-  EXPECT_NE(m.notes.front().find("hand_of_god"), std::string::npos);
+  EXPECT_NE(m.notes.front().says.find("hand_of_god"), std::string::npos);
   const auto& push = last<PrescribedForce>(m);
   ASSERT_EQ(push.force.size(), 3U);
   EXPECT_NEAR(evaluate(push.force[1], 0.2).value, 2.0 * std::sin(0.6), 1e-15);

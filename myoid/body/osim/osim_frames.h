@@ -42,7 +42,9 @@ struct OsimReading {
   explicit OsimReading(const OsimXml& document, const Compat& as = {}, BodyModel known = {}, Frames known_frames = {});
   template <typename... T>
   void note(fmt::format_string<T...> text, T&&... values) {
-    model.notes.push_back(fmt::format(text, std::forward<T>(values)...));
+    model.notes.push_back({.code = RemarkCode::reading,
+                           .severity = Severity::note,
+                           .says = fmt::format(text, std::forward<T>(values)...)});
   }
   /// Lists a part of the file in `BodyModel::unsupported`.
   template <typename... T>

@@ -114,12 +114,15 @@ void note_classes(BodyModel& model) {
     constexpr std::size_t kNamed = 3;
     const std::vector<std::string> named(
         muscles.begin(), muscles.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, muscles.size())));
-    model.notes.push_back(fmt::format(
-        "{} {} of class {} ({}{}): identification starts from the numbers that the class shares with Thelen's; {}",
-        muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name, fmt::join(named, ", "),
-        named.size() < muscles.size() ? ", ..." : "",
-        own ? "so, run-tool and simulate use the class's own curves"
-            : "so, run-tool and simulate take Thelen's curves with their numbers"));
+    model.notes.push_back(
+        {.code = RemarkCode::reading,
+         .severity = Severity::note,
+         .says = fmt::format(
+             "{} {} of class {} ({}{}): identification starts from the numbers that the class shares with Thelen's; {}",
+             muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name, fmt::join(named, ", "),
+             named.size() < muscles.size() ? ", ..." : "",
+             own ? "so, run-tool and simulate use the class's own curves"
+                 : "so, run-tool and simulate take Thelen's curves with their numbers")});
   }
 }
 

@@ -69,7 +69,8 @@ BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, c
   read_constraints(r, set_of(skeleton, model, "ConstraintSet"));
   read_loose_components(r, model);
   note_classes(r.model);
-  for (const std::string& sentence : xml.repairs()) r.model.notes.push_back(sentence);
+  for (const std::string& sentence : xml.repairs())
+    r.model.notes.push_back({.code = RemarkCode::reading, .severity = Severity::note, .says = sentence});
   try {
     return finalize(std::move(r.model));
   } catch (const ModelError& error) {

@@ -338,9 +338,10 @@ UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& pat
   result.old_version = source.version();
   for (const std::filesystem::path& file : source.files())
     result.notes.push_back(
-        fmt::format("the part in the file '{}' stands in the updated document itself", file.string()));
+        {.code = RemarkCode::reading,
+         .says = fmt::format("the part in the file '{}' stands in the updated document itself", file.string())});
   for (const auto* sentences : {&source.repairs(), &source.ignored()})
-    result.notes.insert(result.notes.end(), sentences->begin(), sentences->end());
+    for (const std::string& says : *sentences) result.notes.push_back({.code = RemarkCode::reading, .says = says});
   pugi::xml_document document;
   (void)document.load_buffer(source.text().data(), source.text().size(), pugi::parse_default | pugi::parse_comments);
   auto root = document.child("OpenSimDocument");
@@ -360,9 +361,11 @@ UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& pat
   }
   if (const int looks = drop_visible(root); looks > 0) {
     result.notes.push_back(
-        fmt::format("{} descriptions of how paths, markers or wrap objects look are left out; OpenSim shows them as it "
-                    "shows new ones",
-                    looks));
+        {.code = RemarkCode::reading,
+         .says = fmt::format(
+             "{} descriptions of how paths, markers or wrap objects look are left out; OpenSim shows them as it "
+             "shows new ones",
+             looks)});
   }
   if (result.old_version < kNewestOsimVersion) set_attribute(root, "Version", std::to_string(kNewestOsimVersion));
   while (document.child("OpenSimDocument") != document.first_child() &&

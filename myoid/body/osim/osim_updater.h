@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "myoid/ground/core/remark.h"
+
 namespace myoid::body {
 
 /// The document version that an updated document has: OpenSim 4.5's.
@@ -18,8 +20,8 @@ struct OsimUpdateOptions {
 
 struct UpdatedOsim {
   std::string text;
-  int old_version = 0;             ///< 0: the document had none.
-  std::vector<std::string> notes;  ///< Parts of the old file without a place in the new form.
+  int old_version = 0;        ///< 0: the document had none.
+  std::vector<Remark> notes;  ///< Parts of the old file without a place in the new form.
 };
 
 /// Writes an OpenSim document of any version (a model, a set-up, a set of forces, markers or tasks) in the newest form:

@@ -84,8 +84,11 @@ void simplify(const MeshOptions& options, LoadedMeshes& loaded) {
     std::vector<BodyMesh> coarse;
     for (const BodyMesh& m : loaded.meshes) coarse.push_back({m.body, recording::simplified(m.mesh, cell_m)});
     if (triangles_of(coarse) > most) continue;
-    loaded.notes.push_back(fmt::format("The meshes are shown with {} of {} triangles, details of {:.1f} mm left out.",
-                                       triangles_of(coarse), before, 1e3 * cell_m));
+    loaded.notes.push_back(
+        {.code = RemarkCode::reading,
+         .severity = Severity::note,
+         .says = fmt::format("The meshes are shown with {} of {} triangles, details of {:.1f} mm left out.",
+                             triangles_of(coarse), before, 1e3 * cell_m)});
     loaded.meshes = std::move(coarse);
     return;
   }
@@ -141,11 +144,14 @@ LoadedMeshes load_meshes(std::string_view osim, const fs::path& path, const Mesh
     try {
       loaded.meshes.push_back({use.body, in_body(recording::read_mesh(*file), use)});
     } catch (const ReadError& error) {
-      loaded.notes.emplace_back(error.what());
+      loaded.notes.push_back({.code = RemarkCode::reading, .severity = Severity::note, .says = error.what()});
     }
   }
   if (!missing.empty() && (!loaded.meshes.empty() || !options.folders.empty())) {
-    loaded.notes.push_back(fmt::format("{} mesh files are not there: {}.", missing.size(), fmt::join(missing, ", ")));
+    loaded.notes.push_back(
+        {.code = RemarkCode::reading,
+         .severity = Severity::note,
+         .says = fmt::format("{} mesh files are not there: {}.", missing.size(), fmt::join(missing, ", "))});
   }
   simplify(options, loaded);
   return loaded;

@@ -6,6 +6,7 @@
 
 #include "myoid/body/model/body_model.h"
 #include "myoid/ground/core/geometry.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/page/scene_page.h"
 #include "myoid/recording/mesh_reader.h"
 
@@ -31,7 +32,7 @@ struct BodyMesh {
 
 struct LoadedMeshes {
   std::vector<BodyMesh> meshes;
-  std::vector<std::string> notes;  ///< Meshes not found, unreadable or simplified.
+  std::vector<Remark> notes;  ///< Meshes not found, unreadable or simplified.
 };
 
 struct MeshOptions {

@@ -72,7 +72,7 @@ TEST(ModelMeshes, AreTakenIntoTheBodyAndMirroredOnesTurned) {
   EXPECT_EQ(loaded.meshes[0].mesh.vertices[1], Vec3(2.0, 0.0, 0.0));
   EXPECT_EQ(loaded.meshes[0].mesh.vertices[2], Vec3(0.0, 1.0, -1.0));
   EXPECT_EQ(loaded.meshes[0].mesh.triangles[0], (std::array<int, 3>{0, 2, 1}));
-  EXPECT_THAT(loaded.notes, Contains(HasSubstr("2 mesh files are not there: floor.obj")));
+  EXPECT_THAT(sentences(loaded.notes), Contains(HasSubstr("2 mesh files are not there: floor.obj")));
 }
 
 TEST(ModelMeshes, AModelThatComesWithoutItsMeshesSaysNothingOfThem) {
@@ -85,7 +85,7 @@ TEST(ModelMeshes, AModelThatComesWithoutItsMeshesSaysNothingOfThem) {
 TEST(ModelMeshes, ThatCannotBeReadAreSaid) {
   const test::TemporaryFolder folder;
   write(folder / "bone.obj", "v 0 0\n");
-  EXPECT_THAT(load_meshes(kModel, folder / "m.osim").notes, Contains(HasSubstr("bone.obj:1")));
+  EXPECT_THAT(sentences(load_meshes(kModel, folder / "m.osim").notes), Contains(HasSubstr("bone.obj:1")));
 }
 
 TEST(ModelMeshes, OfMoreTrianglesThanAskedForAreSimplified) {
@@ -105,7 +105,7 @@ TEST(ModelMeshes, OfMoreTrianglesThanAskedForAreSimplified) {
   ASSERT_EQ(loaded.meshes.size(), 1U);
   EXPECT_LE(loaded.meshes[0].mesh.triangles.size(), 800U);
   EXPECT_GT(loaded.meshes[0].mesh.triangles.size(), 100U);
-  EXPECT_THAT(loaded.notes, Contains(HasSubstr("of 5000 triangles")));
+  EXPECT_THAT(sentences(loaded.notes), Contains(HasSubstr("of 5000 triangles")));
 }
 
 TEST(ModelMeshes, OfPublicModelsAreAllListed) {

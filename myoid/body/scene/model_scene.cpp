@@ -189,8 +189,10 @@ void add_coloring(const body::BodyModel& model, const MuscleColoring& coloring, 
     constexpr std::size_t kNamed = 6;
     const std::size_t named = std::min(kNamed, without.size());
     const std::span<const std::string> first(without.data(), named);
-    scene.notes.push_back(fmt::format("No {} is given for {} of {} muscles: {}{}.", coloring.name, without.size(),
-                                      muscles, fmt::join(first, ", "), without.size() > named ? ", ..." : ""));
+    scene.notes.push_back(
+        {.severity = Severity::note,
+         .says = fmt::format("No {} is given for {} of {} muscles: {}{}.", coloring.name, without.size(), muscles,
+                             fmt::join(first, ", "), without.size() > named ? ", ..." : "")});
   }
   double top = coloring.unit.empty() ? 1.0 : 0.0;
   bool any = false;
@@ -198,7 +200,9 @@ void add_coloring(const body::BodyModel& model, const MuscleColoring& coloring, 
     any = any || std::isfinite(v);
     if (std::isfinite(v) && !coloring.unit.empty()) top = std::max(top, v);
   }
-  if (!any) scene.notes.push_back(fmt::format("The {} file has no samples at these times.", coloring.name));
+  if (!any)
+    scene.notes.push_back(
+        {.severity = Severity::note, .says = fmt::format("The {} file has no samples at these times.", coloring.name)});
   scene.values.push_back({coloring.name, coloring.unit, top > 0.0 ? rounded_up(top) : 1.0, std::move(values)});
 }
 
@@ -216,10 +220,13 @@ void add_measured(const MarkerSeries& markers, page::Scene& scene) {
   });
   if (count < markers.marker_count()) {
     scene.notes.push_back(
-        fmt::format("{} of {} measured markers have no marker of their name in the model: no error is drawn for them.",
-                    markers.marker_count() - count, markers.marker_count()));
+        {.severity = Severity::note,
+         .says = fmt::format(
+             "{} of {} measured markers have no marker of their name in the model: no error is drawn for them.",
+             markers.marker_count() - count, markers.marker_count())});
   }
-  if (!scene.measured_m.array().isFinite().any()) scene.notes.emplace_back("No marker was measured at these times.");
+  if (!scene.measured_m.array().isFinite().any())
+    scene.notes.push_back({.severity = Severity::note, .says = "No marker was measured at these times."});
 }
 
 }  // namespace
@@ -239,13 +246,16 @@ page::Scene model_scene(const body::BodyModel& model, const SceneInput& input, c
     scene.time_s = input.q.time_s()(rows);
     if (static_cast<Eigen::Index>(rows.size()) < input.q.sample_count()) {
       scene.notes.push_back(
-          fmt::format("{} of {} samples are shown, {:.3g} of {:.3g} per second.", rows.size(), input.q.sample_count(),
-                      static_cast<double>(rows.size() - 1) / (scene.time_s[scene.time_s.size() - 1] - scene.time_s[0]),
-                      input.q.mean_rate_hz()));
+          {.severity = Severity::note,
+           .says = fmt::format(
+               "{} of {} samples are shown, {:.3g} of {:.3g} per second.", rows.size(), input.q.sample_count(),
+               static_cast<double>(rows.size() - 1) / (scene.time_s[scene.time_s.size() - 1] - scene.time_s[0]),
+               input.q.mean_rate_hz())});
     }
   }
   place(model, q, scene);
-  scene.notes.insert(scene.notes.end(), model.unsupported.begin(), model.unsupported.end());
+  for (const std::string& text : model.unsupported)
+    scene.notes.push_back({.code = RemarkCode::model_unsupported, .says = text});
   for (const MuscleColoring& coloring : input.colorings) add_coloring(model, coloring, scene);
   if (input.markers != nullptr) add_measured(*input.markers, scene);
   return scene;

@@ -101,7 +101,7 @@ TEST(ModelScene, LeavesFramesOutEvenlyAndSaysSo) {
   ASSERT_EQ(at_50.time_s.size(), 101);
   for (Eigen::Index f = 1; f < at_50.time_s.size(); ++f)
     EXPECT_NEAR(at_50.time_s[f] - at_50.time_s[f - 1], 0.02, 1e-12);
-  EXPECT_THAT(at_50.notes, Contains(HasSubstr("101 of 401 samples are shown")));
+  EXPECT_THAT(sentences(at_50.notes), Contains(HasSubstr("101 of 401 samples are shown")));
   const page::Scene few = model_scene(m, {.name = "long", .q = swing(m, 401, 200.0)}, {.most_frames = 11});
   EXPECT_EQ(few.time_s.size(), 11);
   EXPECT_DOUBLE_EQ(few.time_s[10], 2.0);
@@ -126,7 +126,7 @@ TEST(ModelScene, TakesColorsByNameAtTheFramesTimesAndNotBeyond) {
   EXPECT_TRUE(std::isnan(v(4, column("BIC"))));
   EXPECT_TRUE(std::isnan(v(2, column("BRA"))));
   EXPECT_EQ(scene.values[0].top, 21.0);  // of muscles, not of other columns
-  EXPECT_THAT(scene.notes, Contains(HasSubstr("BRA")));
+  EXPECT_THAT(sentences(scene.notes), Contains(HasSubstr("BRA")));
 }
 
 TEST(ModelScene, RefusesColorsOfAnotherModel) {
@@ -148,7 +148,7 @@ TEST(ModelScene, ShowsMeasuredMarkersWhereTheyWereSeen) {
   EXPECT_TRUE(std::isnan(scene.measured_m(1, 0)));
   EXPECT_EQ(scene.measured_m(1, 3), 0.5);
   EXPECT_TRUE(std::isnan(scene.measured_m(3, 3)));  // after the last frame
-  EXPECT_THAT(scene.notes, Contains(HasSubstr("1 of 2 measured markers")));
+  EXPECT_THAT(sentences(scene.notes), Contains(HasSubstr("1 of 2 measured markers")));
 }
 
 TEST(ModelScene, StandsUpAgainstGravity) {

@@ -115,13 +115,14 @@ std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
   return result;
 }
 
-void add_distances_to(std::vector<std::string>& warnings, const std::vector<PriorDistance>& distances) {
+void add_distances_to(std::vector<Remark>& warnings, const std::vector<PriorDistance>& distances) {
   for (const PriorDistance& d : distances) {
     if (std::max(d.distance, d.farthest_distance) <= kVerdictRules.prior_conflict) continue;
-    warnings.push_back(fmt::format(
+    std::string says = fmt::format(
         "{} has left what is known beforehand: its numbers together lie {:.1f} standard deviations of their priors "
         "away, {} {:.1f}: use none of them before the cause is known (electrode, sign, unit, mass, geometry)",
-        d.muscle, d.distance, d.farthest, d.farthest_distance));
+        d.muscle, d.distance, d.farthest, d.farthest_distance);
+    warnings.push_back({.code = RemarkCode::far_from_prior, .about = d.muscle, .says = std::move(says)});
   }
 }
 

@@ -38,6 +38,6 @@ namespace myoid::fit {
                                                          const StudyData& data);
 
 /// Adds a line for each muscle whose distance exceeds VerdictRules::prior_conflict.
-void add_distances_to(std::vector<std::string>& warnings, const std::vector<PriorDistance>& distances);
+void add_distances_to(std::vector<Remark>& warnings, const std::vector<PriorDistance>& distances);
 
 }  // namespace myoid::fit

@@ -48,11 +48,12 @@ TEST(EquivalentDeviations, AreThoseOfTheChiSquareDistribution) {
 }
 
 TEST(PriorDistances, AboveThreeMakeALineThatNamesTheMuscleAndTheFarthestNumber) {
-  std::vector<std::string> lines;
+  std::vector<Remark> lines;
   add_distances_to(lines, {{"BIC", 2.9, "force_length_width", 2.0}, {"TRI", 1.0, "max_isometric_force", 3.4}});
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_EQ(lines[0].find("TRI has left"), 0U) << lines[0];
-  EXPECT_NE(lines[0].find("max_isometric_force 3.4"), std::string::npos) << lines[0];
+  EXPECT_EQ(lines[0].code, RemarkCode::far_from_prior);
+  EXPECT_EQ(lines[0].about, "TRI");
+  EXPECT_NE(lines[0].says.find("max_isometric_force 3.4"), std::string::npos) << lines[0].says;
 }
 
 TEST(DistanceFromPrior, CountsInSpreadsOfWhatTheSolverSees) {

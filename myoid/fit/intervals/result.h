@@ -12,6 +12,7 @@
 #include "myoid/fit/intervals/voluntary_curve.h"
 #include "myoid/fit/measurement/parameters.h"
 #include "myoid/ground/core/choice.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/math/least_squares.h"
@@ -215,10 +216,10 @@ struct IdentificationResult : FittedUnknowns, FitErrors, FitSize, PaperSearches 
   double delay_s = 0.0;  ///< Delay of the first channel.
   /// Greatest voluntary torques over the joints' angles, whose numbers are the first of `estimates`; by the posterior.
   std::vector<VoluntaryCurve> voluntary;
-  std::vector<std::string> undetermined;       ///< Of exact data: combinations that they leave open, as sums.
+  std::vector<std::string> open_sums;          ///< Of exact data: combinations that they leave open, as sums.
   std::vector<PriorDistance> prior_distances;  ///< One for each muscle with priors.
-  std::vector<std::string> diagnoses;          ///< Errors whose signature the values carry.
-  std::vector<std::string> warnings;           ///< About the fit as a whole.
+  std::vector<Remark> diagnoses;               ///< Errors whose signature the values carry.
+  std::vector<Remark> warnings;                ///< About the fit as a whole.
   bool exact = false;  ///< The data are free of noise, and the numbers are those of plain_fit.h.
   std::vector<TrialFit> trials;
 };

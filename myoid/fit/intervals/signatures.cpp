@@ -60,32 +60,29 @@ bool narrow_and_bent(const Pattern& p) {
 
 }  // namespace
 
-std::vector<std::string> signatures(const std::vector<ParameterEstimate>& estimates) {
-  std::vector<std::string> found;
+std::vector<Remark> signatures(const std::vector<ParameterEstimate>& estimates) {
+  std::vector<Remark> found;
   for (const auto& [muscle, p] : patterns_of(estimates)) {
+    const auto add = [&, &of = muscle](RemarkCode code, std::string_view says) {
+      found.push_back({.code = code, .about = of, .says = fmt::format("{}: {}: {}", of, name(code), says)});
+    };
     if (without_velocity(p)) {
-      found.push_back(
-          fmt::format("{}: emg_delay_ignored: no effect of velocity is resolved (V_sh very large, or V_sh V_shl not "
-                      "positive with V_ml near 1), as when the force lags the EMG and no delay is allowed for",
-                      muscle));
+      add(RemarkCode::emg_delay_ignored,
+          "no effect of velocity is resolved (V_sh very large, or V_sh V_shl not positive with V_ml near 1), as when "
+          "the force lags the EMG and no delay is allowed for");
     }
     if (is_step(p)) {
-      found.push_back(
-          fmt::format("{}: gain_mismatch: V_ml far below 1 with V_sh V_shl near 0 is a step in gain between shortening "
-                      "and lengthening: EMG is there while (almost) no force is assigned (co-contraction, or F_max or "
-                      "the EMG gain too high)",
-                      muscle));
+      add(RemarkCode::gain_mismatch,
+          "V_ml far below 1 with V_sh V_shl near 0 is a step in gain between shortening and lengthening: EMG is there "
+          "while (almost) no force is assigned (co-contraction, or F_max or the EMG gain too high)");
     } else if (is_flank(p)) {
-      found.push_back(
-          fmt::format("{}: gain_mismatch: an optimal length far below and a width far above their starting values act "
-                      "as a gain: F_max or the EMG gain is too high",
-                      muscle));
+      add(RemarkCode::gain_mismatch,
+          "an optimal length far below, a width far above its start act as a gain: F_max or EMG gain is too high");
     }
     if (narrow_and_bent(p)) {
-      found.push_back(
-          fmt::format("{}: co_contraction_zeroed: a narrow force-length curve with a strongly bent force-velocity "
-                      "curve appears where an optimizer sets the antagonist to zero",
-                      muscle));
+      add(RemarkCode::co_contraction_zeroed,
+          "a narrow force-length curve with a strongly bent force-velocity curve appears where an optimizer sets the "
+          "antagonist to zero");
     }
   }
   return found;

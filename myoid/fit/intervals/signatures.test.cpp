@@ -1,5 +1,6 @@
 #include "myoid/fit/intervals/signatures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -62,16 +63,14 @@ OneMuscle one_hertz(double lead_s) {
   return study;
 }
 
-bool named(const IdentificationResult& result, const std::string& signature) {
-  for (const std::string& text : result.diagnoses)
-    if (text.find(signature) != std::string::npos) return true;
-  return false;
+bool named(const IdentificationResult& result, RemarkCode signature) {
+  return std::ranges::find(result.diagnoses, signature, &Remark::code) != result.diagnoses.end();
 }
 
 TEST(Signatures, ADelayIsNamedThoughTheFullStepsFindNoMinimum) {
   const IdentificationResult fit = identify_paper(one_hertz(0.03).data);
   EXPECT_NE(fit.termination, math::Termination::converged);
-  EXPECT_TRUE(named(fit, "emg_delay_ignored"));
+  EXPECT_TRUE(named(fit, RemarkCode::emg_delay_ignored));
   EXPECT_EQ(fit.diagnoses.size(), 1U);
 }
 
@@ -79,8 +78,8 @@ TEST(Signatures, CoContractionSetToZeroIsNamed) {
   StudyData data = one_hertz(0.0).data;
   for (TrialData& trial : data.trials) trial.force_n = (trial.force_n.array() - 12.0).max(0.0);
   const IdentificationResult fit = identify_paper(data);
-  EXPECT_TRUE(named(fit, "co_contraction_zeroed"));
-  EXPECT_FALSE(named(fit, "emg_delay_ignored"));
+  EXPECT_TRUE(named(fit, RemarkCode::co_contraction_zeroed));
+  EXPECT_FALSE(named(fit, RemarkCode::emg_delay_ignored));
 }
 
 TEST(Signatures, AStrengthFourTimesTooHighIsNamed) {
@@ -88,7 +87,7 @@ TEST(Signatures, AStrengthFourTimesTooHighIsNamed) {
   data.muscles[0].start.max_isometric_force_n *= 4.0;
   data.muscles[0].fixed = {"optimal_fiber_length", "force_length_width"};
   const IdentificationResult fit = identify_paper(data);
-  EXPECT_TRUE(named(fit, "gain_mismatch"));
+  EXPECT_TRUE(named(fit, RemarkCode::gain_mismatch));
   EXPECT_EQ(fit.diagnoses.size(), 1U);
 }
 
@@ -102,7 +101,7 @@ TEST(Signatures, OfDataWithoutAnErrorNoneIsNamedWhereverTheSearchEnds) {
     start.eccentric_plateau = (s & 4) != 0 ? 1.6 : 1.25;
     const IdentificationResult fit = identify_paper(study.data);
     for (const PublishedSearch& search : fit.published) lost += search.plain == math::Termination::converged ? 0 : 1;
-    EXPECT_TRUE(fit.diagnoses.empty()) << s << ": " << fit.diagnoses.front();
+    EXPECT_TRUE(fit.diagnoses.empty()) << s << ": " << fit.diagnoses.front().says;
   }
   EXPECT_GT(lost, 0);  // else nothing is shown
 }

@@ -100,7 +100,7 @@ void take_over(IdentificationResult fit, const StudyData& data, std::size_t k, I
   };
   append(all.estimates, fit.estimates);
   append(all.prior_distances, fit.prior_distances);
-  append(all.undetermined, fit.undetermined);
+  append(all.open_sums, fit.open_sums);
   append(all.diagnoses, fit.diagnoses);
   append(all.warnings, fit.warnings);
   all.model_error = std::max(all.model_error, fit.model_error);

@@ -29,7 +29,8 @@ TEST(LateEmg, OfAllTrialsOrOfOneIsNoAbsentDelay) {
     EXPECT_EQ(delay.verdict, Verdict::not_identifiable) << seed << ": " << delay.estimate << ' ' << delay.reason;
     EXPECT_NE(delay.reason.find("late clock"), std::string::npos) << delay.reason;
     ASSERT_FALSE(all.warnings.empty());
-    EXPECT_EQ(all.warnings.back(), "emg_delay: " + delay.reason);
+    EXPECT_EQ(all.warnings.back().code, RemarkCode::late_emg);
+    EXPECT_EQ(all.warnings.back().says, "emg_delay: " + delay.reason);
     const StudyData data = recording(0.3, seed, 1);
     const auto one = late_emg(data, identify_torque(data), 0.0);
     ASSERT_TRUE(one) << seed;

@@ -300,10 +300,11 @@ std::string compare_branches(const std::string& muscle,
   result.branch_tests.push_back({muscle, difference[0], difference[1], wald, p});
   if (!(p < kReject)) return "";
   std::string how = p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
-  result.warnings.push_back(fmt::format(
+  std::string says = fmt::format(
       "{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, {}): one muscle has one of "
       "each, so the model or the data are wrong for it, and none of its numbers is called identified",
-      muscle, 1000.0 * difference[0], 1000.0 * difference[1], how));
+      muscle, 1000.0 * difference[0], 1000.0 * difference[1], how);
+  result.warnings.push_back({.code = RemarkCode::branches_differ, .about = muscle, .says = std::move(says)});
   return how;
 }
 
@@ -318,9 +319,10 @@ void add_basins(const StudyData& data,
   const BasinRow& best = table.basins.front();
   if (!best.given && best.converged > 0)
     result.warnings.push_back(
-        fmt::format("{}: {} of {} starts end at a lower sum of squares than the given one; its numbers come from the "
-                    "given start, as published",
-                    table.fit, best.starts, table.starts));
+        {.code = RemarkCode::lower_minimum,
+         .about = table.fit,
+         .says = fmt::format("{}: {} of {} starts end lower than the given one, whose numbers stand, as published",
+                             table.fit, best.starts, table.starts)});
   result.basins.push_back(std::move(table));
 }
 

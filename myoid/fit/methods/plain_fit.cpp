@@ -279,7 +279,7 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
   result.torque_sd_nm = std::sqrt(covariance.residual_variance);
   for (const Unknown& p : whole.map().free()) result.free_parameters.push_back(p.label);
   result.estimates = ExactRows{data, whole.map(), *found, covariance, result}.rows();
-  result.undetermined = undetermined_sums(whole.map().free(), covariance.undetermined);
+  result.open_sums = undetermined_sums(whole.map().free(), covariance.undetermined);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

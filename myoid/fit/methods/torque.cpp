@@ -51,16 +51,16 @@ std::vector<VerdictCap> caps_of_torque(const StudyData& data,
   std::vector<VerdictCap> caps;
   const std::optional<double> share = told_by_motion_alone(data);
   if (share && *share >= kVerdictRules.motion_alone) {
-    result.warnings.push_back(
-        fmt::format("angle, rate and acceleration alone tell {:.1f} % of the torque's variance: no fit can tell the "
-                    "muscles from a spring and an inertia, and intervals may miss the truth. Record efforts against "
-                    "several loads, or at held angles",
-                    100.0 * *share));
+    std::string says = fmt::format(
+        "angle, rate and acceleration alone tell {:.1f} % of the torque's variance, as of a spring and an inertia: "
+        "intervals may miss the truth. Record efforts against several loads, or at held angles",
+        100.0 * *share);
+    result.warnings.push_back({.code = RemarkCode::motion_alone, .says = std::move(says)});
     caps.push_back({.reason = fmt::format("motion alone tells {:.1f} % of the torque", 100.0 * *share)});
   }
   if (!options.predictions) return caps;
   if (const std::optional<LateEmg> late = late_emg_of_no_delay(data, options, result)) {
-    result.warnings.push_back("emg_delay: " + late->sentence());
+    result.warnings.push_back({.code = RemarkCode::late_emg, .says = "emg_delay: " + late->sentence()});
     caps.push_back({.reason = late->sentence(), .parameters = {"emg_delay"}, .finding = Finding::late_emg});
   }
   return caps;

@@ -133,7 +133,7 @@ TEST(IdentifyTorque, NoMuscleIsIdentifiedWhereTheMotionAloneTellsTheTorque) {
   }
   const IdentificationResult result = identify_torque(study.data, {});
   EXPECT_EQ(identified(result), 0);
-  EXPECT_NE(result.warnings.back().find("100.0 % of the torque"), std::string::npos);
+  EXPECT_NE(result.warnings.back().says.find("100.0 % of the torque"), std::string::npos);
 }
 
 TEST(IdentifyTorque, TwiceTheSameInputIsTwiceTheSameResult) {
@@ -226,7 +226,7 @@ TEST(IdentifyTorque, HowFarAMuscleLeftTheLiteratureIsSaidOfItAlone) {
   EXPECT_NE(farthest.verdict, Verdict::identified);
   EXPECT_NE(farthest.reason.find("standard deviations away"), std::string::npos) << farthest.reason;
   EXPECT_TRUE(std::any_of(far.warnings.begin(), far.warnings.end(),
-                          [](const std::string& w) { return w.find("BIC has left what is known") == 0; }));
+                          [](const Remark& w) { return w.code == RemarkCode::far_from_prior && w.about == "BIC"; }));
 }
 
 TEST(IdentifyTorque, HeldParametersStayAndOthersTakeTheirBounds) {

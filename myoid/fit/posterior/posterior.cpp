@@ -280,10 +280,10 @@ void compare_with_priors(const ParameterMap& map,
   const double strength = common_strength(map.free(), result.solution, strength_sd);
   result.prior_distances = prior_distances(about_strength(map.free(), strength), result.solution, data);
   if (std::abs(strength) <= kUnusual * strength_sd) return;
-  result.warnings.push_back(
-      fmt::format("all muscles together are {:.2g} times as strong as the model's: is the model scaled to this person, "
-                  "and is the unit of the torque right?",
-                  std::exp(strength)));
+  result.warnings.push_back({.code = RemarkCode::unlike_person,
+                             .says = fmt::format("all muscles together are {:.2g} times as strong as the model's: is "
+                                                 "it of this person's size, is the torque's unit right?",
+                                                 std::exp(strength))});
 }
 
 void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult& result) {
@@ -361,31 +361,31 @@ void add_warnings(const std::vector<Candidate>& candidates,
                   const Sample& sample,
                   double unlikeness,
                   IdentificationResult& result) {
+  const auto warn = [&](RemarkCode code, std::string says) { result.warnings.push_back({.code = code, .says = says}); };
   if (result.r2 < kVerdictRules.least_r2)
-    result.warnings.push_back(
-        fmt::format("the fit explains little of the fitted samples (R2 {:.2f}, of the joint that is explained least, "
-                    "without the ends of the trials): no number is called identified; look for a wrong sign, unit, "
-                    "offset, clock, order of files or column",
-                    result.r2));
+    warn(RemarkCode::fit_poor,
+         fmt::format("the fit explains little of the fitted samples (R2 {:.2f} of the worst joint, without the ends "
+                     "of the trials): no number is called identified; look for a wrong sign, unit, offset, clock, "
+                     "order of files or column",
+                     result.r2));
   if (candidates.size() > 1)
-    result.warnings.push_back(
-        fmt::format("the posterior has {} modes that are nearly as good, the best with {:.0f} % of it: the intervals "
-                    "are over all of them",
-                    candidates.size(), 100.0 * candidates.front().weight));
+    warn(RemarkCode::several_modes,
+         fmt::format("the posterior has {} modes nearly as good, the best with {:.0f} % of it: intervals are over all",
+                     candidates.size(), 100.0 * candidates.front().weight));
   if (sample.approximate)
-    result.warnings.push_back(fmt::format(
-        "the draws of the posterior are not to be relied on: the chains of the sampler differ (R-hat {:.2f}; 1.10 is "
-        "the limit) or took {:.0f} % of their proposals (40 % is the limit). Ask for more draws",
-        sample.rhat, 100.0 * sample.accepted));
+    warn(RemarkCode::draws_unreliable,
+         fmt::format("the draws of the posterior are not to be relied on: the sampler's chains differ (R-hat {:.2f}; "
+                     "limit 1.10) or took {:.0f} % of their proposals (limit 40 %). Ask for more draws",
+                     sample.rhat, 100.0 * sample.accepted));
   if (unlikeness > kUnlike)
-    result.warnings.push_back(
-        fmt::format("the muscles lie {:.1f} times as far from the model's numbers as people usually do: the priors are "
-                    "that much wider here. Was the model scaled to this person?",
-                    unlikeness));
+    warn(RemarkCode::unlike_person,
+         fmt::format("the muscles lie {:.1f} times as far from the model's numbers as people usually do: so much wider "
+                     "are the priors here. Was the model scaled to this person?",
+                     unlikeness));
   if (result.model_error > kVerdictRules.model_error)
-    result.warnings.push_back(fmt::format(
-        "what the model leaves unexplained depends on posture, effort and speed as if it were wrong by {:.0f} %",
-        100.0 * result.model_error));
+    warn(RemarkCode::model_unfit,
+         fmt::format("the unexplained part depends on posture, effort and speed as if the model were wrong by {:.0f} %",
+                     100.0 * result.model_error));
   add_distances_to(result.warnings, result.prior_distances);
 }
 

@@ -75,6 +75,20 @@ constexpr std::array kNames = {
     "unloaded_time",
     "body_unsupported",
     "resting_torque",
+    "fit_poor",
+    "far_from_prior",
+    "unlike_person",
+    "several_modes",
+    "draws_unreliable",
+    "model_unfit",
+    "motion_alone",
+    "late_emg",
+    "lower_minimum",
+    "branches_differ",
+    "not_predicted",
+    "emg_delay_ignored",
+    "gain_mismatch",
+    "co_contraction_zeroed",
 };
 static_assert(kNames.size() == static_cast<std::size_t>(RemarkCode::count_of_codes));
 

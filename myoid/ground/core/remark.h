@@ -88,6 +88,21 @@ enum class RemarkCode {
   unloaded_time,
   body_unsupported,
   resting_torque,
+  // The fit.
+  fit_poor,
+  far_from_prior,
+  unlike_person,
+  several_modes,
+  draws_unreliable,
+  model_unfit,
+  motion_alone,
+  late_emg,
+  lower_minimum,
+  branches_differ,
+  not_predicted,
+  emg_delay_ignored,
+  gain_mismatch,
+  co_contraction_zeroed,
   count_of_codes,  ///< No code: the number of codes.
 };
 /// Returns "marker_gap", as in the documentation and --json.

@@ -82,15 +82,8 @@ VectorXd excitation_of(const ProjectMuscle& muscle, const TimeSeries& emg, bool 
 }
 
 VectorXd activation_of(const MuscleNumbers& n, const VectorXd& excitation) {
-  const double gain = (1.0 + n.c1) * (1.0 + n.c2), beta1 = n.c1 + n.c2, beta2 = n.c1 * n.c2;
-  VectorXd activation(excitation.size());
-  double before = excitation.size() > 0 ? excitation(0) : 0.0, earlier = before;
-  for (Index k = 0; k < excitation.size(); ++k) {
-    const double u = gain * excitation(k) - beta1 * before - beta2 * earlier;
-    earlier = before;
-    before = u;
-    activation(k) = n.scale * (std::abs(n.shape) < 1e-9 ? u : std::expm1(n.shape * u) / std::expm1(n.shape));
-  }
+  VectorXd activation = recursive_activation(excitation, n.c1, n.c2);
+  for (double& a : activation) a = n.scale * exponential_shape(a, n.shape);
   return activation;
 }
 
@@ -192,6 +185,23 @@ class Law {
 };
 
 }  // namespace
+
+VectorXd recursive_activation(const VectorXd& excitation, double c1, double c2) {
+  VectorXd u = excitation;
+  const double gain = (1.0 + c1) * (1.0 + c2);
+  double last = excitation.size() > 0 ? excitation[0] : 0.0, before_last = last;
+  for (Index k = 0; k < u.size(); ++k) {
+    u[k] = gain * excitation[k] - (c1 + c2) * last - c1 * c2 * before_last;
+    before_last = last;
+    last = u[k];
+  }
+  return u;
+}
+
+double exponential_shape(double u, double shape_factor) {
+  if (shape_factor == 0.0) return u;
+  return std::expm1(shape_factor * u) / std::expm1(shape_factor);
+}
 
 std::string missing_of_law(const Project& project) {
   if (project.dialect != Dialect::ceinms && project.dialect != Dialect::ceinms_rt)

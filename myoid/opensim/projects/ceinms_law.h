@@ -3,10 +3,20 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "myoid/ground/core/time_series.h"
 #include "myoid/opensim/projects/project.h"
 
 namespace myoid::opensim {
+
+/// Returns the neural activation of CEINMS from an excitation that is settled before its first sample:
+///   u_k = (1 + c1) (1 + c2) e_k - (c1 + c2) u_k-1 - c1 c2 u_k-2
+/// With c = -exp(-T / tau) at the sampling interval T it is the answer of two lags with the time constants tau.
+[[nodiscard]] Eigen::VectorXd recursive_activation(const Eigen::VectorXd& excitation, double c1, double c2);
+
+/// Returns (exp(A u) - 1) / (exp(A) - 1); u where A is 0.
+[[nodiscard]] double exponential_shape(double u, double shape_factor);
 
 /// Muscles over time by a project's own law; channels are the muscles.
 struct LawForces {

@@ -1,7 +1,9 @@
 #include "myoid/program/commands/check.h"
 
+#include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +14,10 @@
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/option_checks.h"
 #include "myoid/program/cli/say.h"
+#include "myoid/program/cli/wrong_line.h"
+#include "myoid/study/read_study.h"
+#include "myoid/study/setting_rows.h"
+#include "myoid/study/study_text.h"
 
 namespace myoid::program {
 namespace {
@@ -47,18 +53,57 @@ void print_findings(const program::CheckResult& result, const std::string& input
       counted(result.findings.size() - result.errors, "remark"));
 }
 
+/// Returns the name of a table of study.toml without brackets.
+std::string bare_name(const study::SettingTable& table) {
+  std::string name = table.name;
+  std::erase_if(name, [](char c) { return c == '[' || c == ']'; });
+  return name;
+}
+
+/// Returns the reason to refuse a name that no table of study.toml has; empty: one has it.
+std::string refused_table(const std::string& name) {
+  std::vector<std::string> names;
+  for (const study::SettingTable& table : study::setting_tables()) names.push_back(bare_name(table));
+  return refused_word(name, names);
+}
+
+/// Prints the study with its defaults; without a study the reference of the settings, of one table if it is named.
+void print_settings(const Context& context, const std::string& file, const std::string& section) {
+  if (!file.empty()) {
+    const study::Study study = study::read_study(file);
+    say_whole(context.json ? study::study_json(study) + "\n" : study::study_toml(study));
+    return;
+  }
+  std::vector<study::SettingTable> tables = study::setting_tables();
+  if (!section.empty()) std::erase_if(tables, [&](const auto& table) { return bare_name(table) != section; });
+  say_whole(context.json ? study::reference_json(tables) : study::reference_text(tables));
+}
+
+void print_check(Context& context, program::CheckOptions& o) {
+  o.call = context.call();
+  const program::CheckResult result = program::check(o);
+  if (context.json) {
+    say_whole(json_text(findings_json(result.findings)) + "\n");
+  } else {
+    print_findings(result, o.input);
+  }
+  if (result.errors > 0) context.exit_code = kBadInput;
+}
+
 }  // namespace
 
 void add_check(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand(
       "check",
       "Reads every input of a study, a single recording or motion, or a model, and lists its faults, worst first; "
-      "computes nothing.\n"
+      "computes nothing. Or explains every setting of a study.\n"
       "Example: myoid check study.toml");
   const auto o = std::make_shared<program::CheckOptions>();
   const std::string recordings = endings_text([](const FormatEntry& entry) { return is_recording(entry.format); });
-  command.add_option("study", o->input, "study.toml, a model (.osim), or a single recording: " + recordings)
-      ->required();
+  const auto section = std::make_shared<std::string>();
+  const auto defaults = std::make_shared<bool>(false);
+  CLI::Option* const input =
+      command.add_option("study", o->input, "study.toml, a model (.osim), or a single recording: " + recordings);
   command.add_option("--model", o->model,
                      "Model of a motion (.mot, .sto), whose columns are its coordinates: a file (.osim), or arm4");
   command
@@ -66,16 +111,29 @@ void add_check(CLI::App& app, Context& context) {
                   "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y or -z (default: "
                   "as the file says)")
       ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}));
+  command.option_defaults()->group("In place of a check");
+  CLI::Option* const settings =
+      command
+          .add_option("--settings", *section,
+                      "Explains every setting of study.toml: values, default, meaning; or those of one table")
+          ->expected(0, 1)
+          ->type_name("TABLE")
+          ->check(CLI::Validator(refused_table, ""))
+          ->excludes(input);
+  command
+      .add_flag("--defaults", *defaults,
+                "Prints the study with all settings that it leaves to their defaults; without a study as --settings")
+      ->excludes(settings);
+  command.option_defaults()->group("Options");
   add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
-  command.callback([&context, o] {
-    o->call = context.call();
-    const program::CheckResult result = program::check(*o);
-    if (context.json) {
-      say_whole(json_text(findings_json(result.findings)) + "\n");
-    } else {
-      print_findings(result, o->input);
+  command.callback([&command, &context, o, section, defaults, settings] {
+    if (*defaults || settings->count() > 0) {
+      warn_of_idle_options(command, context, {"--settings", "--defaults"}, "settings");
+      print_settings(context, o->input, *section);
+      return;
     }
-    if (result.errors > 0) context.exit_code = kBadInput;
+    if (o->input.empty()) throw WrongCommandLine("check needs STUDY, or --settings; myoid check --help explains them");
+    print_check(context, *o);
   });
 }
 

@@ -87,76 +87,61 @@ void run_cohort(Context& context,
   if (steps.group && !context.json) say("\nreport: {}/report.html\n", folder.string());
 }
 
-/// Adds --jobs to a command.
-void add_cohort_options(CLI::App& command, program::CohortOptions& options) {
-  command
-      .add_option("--jobs", options.jobs,
-                  "Persons at a time (default: as many as threads; the files are the same for every number)")
-      ->check(between(1, 1024));
-}
-
 }  // namespace
 
 void add_cohort(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand("cohort",
-                                          "Many persons: a run for each, then all results side by side.\n"
-                                          "Example: myoid cohort persons.csv --out cohort --jobs 2");
+                                          "Many persons: a run for each, then all results side by side. The persons "
+                                          "stand in a table, or are those of a BIDS data set.\n"
+                                          "Example: myoid cohort persons.csv --out cohort --jobs 2\n"
+                                          "Example: myoid cohort data out participant --participant-label 01 02");
   const auto out = std::make_shared<std::string>();
+  const auto level = std::make_shared<std::string>();
   const auto group = std::make_shared<bool>(false);
   const auto engine = std::make_shared<std::optional<results::Engine>>();
   const auto options = std::make_shared<program::CohortOptions>();
   command
       .add_option("manifest", options->manifest,
-                  "Table with the columns name and study, a row a person; or a BIDS data set")
+                  "Table with the columns name and study, a row a person; or the folder of a BIDS data set")
       ->required();
-  command.add_option("--out", *out, "Folder of the results")->required();
+  command.add_option("--out,output_dir", *out, "Folder of the results")->required();
+  CLI::Option* const steps =
+      command
+          .add_option("analysis_level", *level,
+                      "As a BIDS App takes it: participant computes the persons, group puts their results side by side "
+                      "(default: first the one, then the other)")
+          ->check(one_of({"participant", "group"}));
   command.add_option("--study", options->study, "BIDS: the study of every person (default: code/study.toml)");
   CLI::Option* const person =
-      command.add_option("--person", options->persons, "Only this person, without the group; may be repeated");
+      command.add_option("--person,--participant-label,--participant_label", options->persons,
+                         "Only these persons, by name, id or label without sub-, and without the group; several");
   CLI::Option* const group_only =
-      command.add_flag("--group", *group, "Only the group: the tables and page of all persons");
+      command.add_flag("--group", *group, "Only the group: the tables and page of all persons")
+          ->excludes(person)
+          ->excludes(steps);
   command
       .add_option("--workflow", *engine,
                   "Writes the files for an engine and computes nothing: snakemake, slurm, parallel")
       ->transform(one_of<results::Engine>())
       ->excludes(person)
-      ->excludes(group_only);
-  person->excludes(group_only);
-  add_cohort_options(command, *options);
+      ->excludes(group_only)
+      ->excludes(steps);
+  command
+      .add_option("--jobs", options->jobs,
+                  "Persons at a time (default: as many as threads; the files are the same for every number)")
+      ->check(between(1, 1024));
   add_common_options(command, context, {.seed = false});
-  command.callback([&context, options, out, group, engine] {
+  command.callback([&context, options, out, level, group, engine] {
     if (*engine) {
       options->call = context.call();
       options->overwrite = context.overwrite;
       program::prepare_cohort_folder(*options, *out);
       say("{}\n", program::write_cohort_workflow(*options, **engine, *out));
-      return;
+    } else if (level->empty()) {
+      run_cohort(context, *options, *out, {.persons = !*group, .group = *group || options->persons.empty()});
+    } else {
+      run_cohort(context, *options, *out, {.persons = *level == "participant", .group = *level == "group"});
     }
-    run_cohort(context, *options, *out, {.persons = !*group, .group = *group || options->persons.empty()});
-  });
-}
-
-void add_bids(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("bids",
-                          "A BIDS data set, in the form of a BIDS App: first every participant, then the group.\n"
-                          "Example: myoid bids data out participant --participant-label 01 02");
-  const auto out = std::make_shared<std::string>();
-  const auto level = std::make_shared<std::string>();
-  const auto options = std::make_shared<program::CohortOptions>();
-  command.add_option("bids_dir", options->manifest, "Folder of the data set")->required();
-  command.add_option("output_dir", *out, "Folder of the results, a BIDS derivative")->required();
-  command.add_option("analysis_level", *level, "participant or group")
-      ->required()
-      ->check(one_of({"participant", "group"}));
-  command.add_option("--participant-label,--participant_label", options->persons,
-                     "Labels without sub-, several (default: everybody)");
-  command.add_option("--study", options->study, "The study of every person (default: code/study.toml of the data set)");
-  add_cohort_options(command, *options);
-  add_common_options(command, context, {.seed = false});
-  command.callback([&context, options, out, level] {
-    const bool group = *level == "group";
-    run_cohort(context, *options, *out, {.persons = !group, .group = group});
   });
 }
 

@@ -159,6 +159,11 @@ HelpCommand help_of(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_group() == kIdleGroup) continue;
     HelpOption each = help_of(*option);
+    if (option->get_positional() && !each.names.empty()) {
+      help.positionals.push_back({.value = in_capitals(option->get_name(true)),
+                                  .says = fmt::format("In place of {}", each.names.front()),
+                                  .required = true});
+    }
     (each.names.empty() ? help.positionals : help.options).push_back(std::move(each));
   }
   return help;
@@ -166,7 +171,16 @@ HelpCommand help_of(const CLI::App& command) {
 
 std::vector<HelpCommand> help_of_commands(const CLI::App& app) {
   std::vector<HelpCommand> commands;
-  for (const CLI::App* command : commands_of(app)) commands.push_back(help_of(*command));
+  for (const CLI::App* command : commands_of(app)) {
+    const HelpCommand own = help_of(*command);
+    commands.push_back(own);
+    for (const std::string& name : command->get_aliases()) {
+      HelpCommand& other = commands.emplace_back(own);
+      other.name = name;
+      other.stands_for = own.name;
+      other.says = fmt::format("Another name of myoid {}. {}", own.name, own.says);
+    }
+  }
   return commands;
 }
 

@@ -22,6 +22,7 @@ struct HelpOption {
 /// A command as help, manual pages and completions show it.
 struct HelpCommand {
   std::string name;
+  std::string stands_for;             ///< Name of the command of which `name` is another name; empty: its own name.
   std::string group;                  ///< Heading under which the program's help lists it.
   std::string says;                   ///< First paragraph.
   std::vector<std::string> examples;  ///< Command lines, each as one line.
@@ -38,6 +39,7 @@ struct HelpCommand {
 
 /// Describes a command by its declared options; those without effect are left out.
 [[nodiscard]] HelpCommand help_of(const CLI::App& command);
+/// Describes all commands; behind each stand its other names, which have the same options.
 [[nodiscard]] std::vector<HelpCommand> help_of_commands(const CLI::App& app);
 
 /// Returns a command line in lines of so many columns that a shell takes for one.

@@ -44,7 +44,7 @@ nlohmann::ordered_json to_json(const results::RunComparison& comparison) {
           {"headline", results::changes_sentence(comparison)},
           {"parameters", rows},
           {"unlike", comparison.unlike},
-          {"remarks", comparison.remarks}};
+          {"remarks", sentences(comparison.remarks)}};
 }
 
 /// Prints the sentence and the numbers that both sessions tell; with `all` the others, too.
@@ -72,7 +72,7 @@ void print(const results::RunComparison& comparison, bool all) {
         p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value)),
         p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", results::name(p.change));
   }
-  for (const std::string& remark : comparison.remarks) say("{}\n", remark);
+  for (const std::string& remark : sentences(comparison.remarks)) say("{}\n", remark);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "myoid/program/cli/context.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -231,6 +232,7 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
   unless(used.overwrite, command.add_flag("--overwrite", context.overwrite, "Replace existing results"));
   command.option_defaults()->group("Options");
   command.parse_complete_callback([&context, idle, uses_threads = used.threads, name = command.get_name()] {
+    if (!context.notice.empty()) context.log(context.notice);
     if (context.start_s && context.end_s && !(*context.start_s < *context.end_s)) {
       throw WrongCommandLine(
           fmt::format("--end: expected a time after --start {}, found {}", *context.start_s, *context.end_s));
@@ -241,6 +243,20 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
     }
     if (uses_threads) limit_threads(context);
   });
+}
+
+void warn_of_idle_options(const CLI::App& command,
+                          const Context& context,
+                          const std::vector<std::string_view>& used,
+                          std::string_view subject) {
+  constexpr std::array<std::string_view, 3> kOutput{"--json", "--quiet", "--verbose"};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    // An option of kIdleGroup has its warning already.
+    if (option->count() == 0 || !option->nonpositional() || option->get_group() == kIdleGroup) continue;
+    if (std::ranges::find(used, name) == used.end() && std::ranges::find(kOutput, name) == kOutput.end())
+      context.warn(fmt::format("{} has no effect on {}", name, subject));
+  }
 }
 
 }  // namespace myoid::program

@@ -42,6 +42,7 @@ struct Context {
   std::optional<double> start_s, end_s;
   std::string compat = "exact";  ///< Muscle paths: exact, or as in OpenSim 4.5.2.
   std::string command_line;
+  std::string notice;  ///< A line on the command's name, which the command writes on stderr first.
   std::stop_source stop;
   int exit_code = kDone;
   mutable std::vector<std::filesystem::path> new_folders;  ///< Folders that prepare_file will make.
@@ -105,8 +106,13 @@ void add_compat_option(CLI::App& command, Context& context);
 /// Adds --threads, --seed, --json, --quiet, --verbose, --start, --end, --overwrite to a command.
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used = {});
 
+/// Warns of each option that the user gave and that is neither `used` nor one of output; `subject` is "a recording".
+void warn_of_idle_options(const CLI::App& command,
+                          const Context& context,
+                          const std::vector<std::string_view>& used,
+                          std::string_view subject);
+
 // One per command.
-void add_bids(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_cohort(CLI::App& app, Context& context);
 void add_compare(CLI::App& app, Context& context);
@@ -125,12 +131,10 @@ void add_predict(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_review(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
-void add_settings(CLI::App& app, Context& context);
 void add_simulate(CLI::App& app, Context& context);
 void add_run_tool(CLI::App& app, Context& context);
 void add_so(CLI::App& app, Context& context);
 void add_twin(CLI::App& app, Context& context);
 void add_twin_study(CLI::App& app, Context& context);
-void add_update_file(CLI::App& app, Context& context);
 
 }  // namespace myoid::program

@@ -29,20 +29,59 @@ void add_laboratory_options(CLI::App& command, program::ConvertOptions& o) {
   command.option_defaults()->group("Options");
 }
 
+void print_updated(const Context& context, const program::ConvertResult& result) {
+  nlohmann::ordered_json notes = nlohmann::ordered_json::array();
+  for (const Remark& remark : result.remarks) notes.push_back(sentence(remark));
+  const std::string& file = result.files.front();
+  context.print({{"file", file}, {"old_version", result.old_version}, {"version", result.version}, {"notes", notes}},
+                fmt::format("version {} -> {}\n{}", result.old_version, result.version, file));
+}
+
+/// Converts, and prints the written files.
+void run_convert(const CLI::App& command, Context& context, program::ConvertOptions& o) {
+  const program::Conversion kind = program::conversion_of(o);
+  const std::filesystem::path out = o.out;
+  if (kind == program::Conversion::derivative) {
+    context.prepare_folder(out);
+  } else {
+    const bool one_file = kind == program::Conversion::opensim_file || out.has_extension();
+    context.remember_new_folder(one_file ? out.parent_path() : out);
+  }
+  if (kind == program::Conversion::opensim_file) {
+    warn_of_idle_options(command, context, {"--compat", "--overwrite"}, "an OpenSim file");
+  } else if (command.get_option("--compat")->count() > 0) {
+    context.warn("--compat has no effect on a recording");
+  }
+  o.overwrite = context.overwrite;
+  o.call = context.call();
+  const program::ConvertResult result = program::convert(o);
+  if (kind == program::Conversion::opensim_file) {
+    print_updated(context, result);
+  } else if (context.json) {
+    say_whole(json_text({{"files", result.files}}) + "\n");
+  } else {
+    for (const std::string& file : result.files) say("{}\n", file);
+  }
+}
+
 }  // namespace
 
 void add_convert(CLI::App& app, Context& context) {
   CLI::App& command =
       *app.add_subcommand("convert",
-                          "Writes a recording in another format: C3D, TRC, STO/MOT, CSV; EDF, BDF and ANC are read.\n"
+                          "Writes a recording in another format: C3D, TRC, STO/MOT, CSV; EDF, BDF and ANC are read. "
+                          "Writes an OpenSim model or set-up of any version in the newest form.\n"
                           "Example: myoid convert walk.c3d walk/ --body calcn_r --body calcn_l");
   const auto o = std::make_shared<program::ConvertOptions>();
   command
       .add_option("in", o->in, endings_text([](const FormatEntry& entry) {
                                  return is_recording(entry.format);
-                               }) + ", or the folder of a finished run")
+                               }) + ", .osim, .xml, or the folder of a finished run")
       ->required();
-  command.add_option("out", o->out, ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it")->required();
+  command
+      .add_option("out", o->out,
+                  ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it; .osim, .xml of an OpenSim file")
+      ->required();
   command
       .add_option("--what", o->what,
                   "markers, channels, emg (voltages only) or plates; by default markers for .trc, plates for .mot from "
@@ -59,23 +98,13 @@ void add_convert(CLI::App& app, Context& context) {
       ->check(above_zero());
   command.add_option("--subject", o->subject,
                      "Label of the person where IN is a folder of results, written as a BIDS derivative (default 01)");
+  command
+      .add_option("--compat", o->compat,
+                  "Of an OpenSim file: exact keeps the digits of the offsets of joints and inertias; opensim rounds "
+                  "them to six, as OpenSim converts them (default exact)")
+      ->check(one_of({"exact", "opensim"}));
   add_common_options(command, context, {.threads = false, .seed = false});
-  command.callback([&context, o] {
-    if (program::makes_derivative(*o)) {
-      context.prepare_folder(o->out);
-    } else {
-      const std::filesystem::path out = o->out;
-      context.remember_new_folder(out.has_extension() ? out.parent_path() : out);
-    }
-    o->overwrite = context.overwrite;
-    o->call = context.call();
-    const program::ConvertResult result = program::convert(*o);
-    if (context.json) {
-      say_whole(json_text({{"files", result.files}}) + "\n");
-    } else {
-      for (const std::string& file : result.files) say("{}\n", file);
-    }
-  });
+  command.callback([&command, &context, o] { run_convert(command, context, *o); });
 }
 
 }  // namespace myoid::program

@@ -106,6 +106,7 @@ std::string program_page(const CLI::App& app, const std::vector<HelpCommand>& co
                      roff(app.get_description()) + ".SH COMMANDS\n";
   std::string also, group;
   for (const HelpCommand& command : commands) {
+    if (!command.stands_for.empty()) continue;
     if (command.group != group) text += fmt::format(".SS {}\n", roff_word(command.group));
     group = command.group;
     text += fmt::format(".TP\n.B {}\n{}.\n", roff_word(command.name), roff_word(command.title()));
@@ -127,7 +128,7 @@ std::string bash_completion(const std::vector<HelpCommand>& commands) {
   std::vector<std::string> all;
   std::string values, options;
   for (const HelpCommand& command : commands) {
-    all.push_back(command.name);
+    if (command.stands_for.empty()) all.push_back(command.name);
     options += fmt::format("    {}) words=\"{}\" ;;\n", command.name, fmt::join(names_of(command.options), " "));
     for (const HelpOption& option : command.options) {
       for (const std::string& name : option.names) {
@@ -175,7 +176,7 @@ std::string quoted(std::string text, bool zsh) {
 std::string zsh_completion(const std::vector<HelpCommand>& commands) {
   std::string all, cases;
   for (const HelpCommand& command : commands) {
-    all += fmt::format("    '{}:{}'\n", command.name, quoted(command.title(), true));
+    if (command.stands_for.empty()) all += fmt::format("    '{}:{}'\n", command.name, quoted(command.title(), true));
     cases += fmt::format("    {})\n      _arguments", command.name);
     for (const HelpOption& option : command.options) {
       for (const std::string& name : option.names) {
@@ -198,9 +199,11 @@ std::string zsh_completion(const std::vector<HelpCommand>& commands) {
 std::string fish_completion(const std::vector<HelpCommand>& commands) {
   std::string text = "# fish completion of myoid\n";
   for (const HelpCommand& command : commands) {
-    text += fmt::format("complete -c myoid -n '__fish_seen_subcommand_from help' -f -a {}\n", command.name);
-    text += fmt::format("complete -c myoid -n __fish_use_subcommand -f -a {} -d '{}'\n", command.name,
-                        quoted(command.title(), false));
+    if (command.stands_for.empty()) {
+      text += fmt::format("complete -c myoid -n '__fish_seen_subcommand_from help' -f -a {}\n", command.name);
+      text += fmt::format("complete -c myoid -n __fish_use_subcommand -f -a {} -d '{}'\n", command.name,
+                          quoted(command.title(), false));
+    }
     for (const HelpOption& option : command.options) {
       for (const std::string& name : option.names) {
         const bool is_long = name.starts_with("--");

@@ -22,7 +22,7 @@ void print_ik(const program::IkResult& result, const std::string& out, const Con
                  {"frames_without_markers", ik.frames_without_markers},
                  {"marker_error_rms_m", worst_mm / 1000.0},
                  {"wrong_unit", result.misfit.wrong_unit},
-                 {"undetermined", ik.undetermined}},
+                 {"undetermined", ik.open_coordinates}},
                 fmt::format("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}\n{}\n{}",
                             ik.status.size(), ik.frames_not_converged, ik.frames_without_markers, worst_mm,
                             result.misfit.wrong_unit ? " (the unit of the markers is wrong)" : "", out, errors));

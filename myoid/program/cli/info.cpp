@@ -54,7 +54,7 @@ void write_page(const std::vector<std::string>& files,
   options.call = context.call();
   const program::ModelPageResult result = program::model_page(options);
   const page::Scene& scene = result.page.scenes.front();
-  for (const std::string& note : scene.notes) context.log(fmt::format("{}: {}", html, note));
+  for (const std::string& note : sentences(scene.notes)) context.log(fmt::format("{}: {}", html, note));
   program::write_model_page(result, html);
   context.print({{"html", html}},
                 fmt::format("{}: {} bodies, {} muscles, {} frames, {:.2f} MB", html, scene.bodies.size(),

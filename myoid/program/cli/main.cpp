@@ -94,13 +94,11 @@ constexpr Command kCommands[] = {
     {"run", myoid::program::add_run, kStudy},
     {"init", myoid::program::add_init, kStudy},
     {"check", myoid::program::add_check, kStudy},
-    {"settings", myoid::program::add_settings, kStudy},
     {"report", myoid::program::add_report, kStudy},
     {"predict", myoid::program::add_predict, kStudy},
     {"compare", myoid::program::add_compare, kStudy},
     {"design", myoid::program::add_design, kStudy},
     {"cohort", myoid::program::add_cohort, kPersons},
-    {"bids", myoid::program::add_bids, kPersons},
     {"info", myoid::program::add_info, kSteps},
     {"convert", myoid::program::add_convert, kSteps},
     {"emg", myoid::program::add_emg, kSteps},
@@ -112,15 +110,34 @@ constexpr Command kCommands[] = {
     {"muscle", myoid::program::add_muscle, kSteps},
     {"review", myoid::program::add_review, kOpenSim},
     {"run-tool", myoid::program::add_run_tool, kOpenSim},
-    {"update-file", myoid::program::add_update_file, kOpenSim},
     {"twin", myoid::program::add_twin, kVirtual},
     {"twin-study", myoid::program::add_twin_study, kVirtual},
     {"simulate", myoid::program::add_simulate, kVirtual},
 };
 
+/// A name that a command has beside its own; no list of commands shows it.
+struct OtherName {
+  std::string_view name;
+  std::string_view command;
+  const char* option = nullptr;    ///< The option of the command that the name stands for, if any.
+  const char* required = nullptr;  ///< An argument without which the name calls nothing, if any.
+};
+
+constexpr OtherName kOtherNames[] = {
+    {.name = "bids", .command = "cohort", .required = "analysis_level"},
+    {.name = "settings", .command = "check", .option = "--defaults"},
+    {.name = "update-file", .command = "convert"},
+};
+
+const OtherName* find_other_name(std::string_view name) {
+  const auto* const found = std::ranges::find(kOtherNames, name, &OtherName::name);
+  return found == std::end(kOtherNames) ? nullptr : found;
+}
+
 const Command* find_command(std::string_view name) {
+  const OtherName* const other = find_other_name(name);
   for (const Command& command : kCommands)
-    if (name == command.name) return &command;
+    if ((other ? other->command : name) == command.name) return &command;
   return nullptr;
 }
 
@@ -160,6 +177,8 @@ CLI::App* declare(const Command& command, CLI::App& app, myoid::program::Context
   command.add(app, context);
   CLI::App* const declared = app.get_subcommand(command.name);
   declared->group(command.group);
+  for (const OtherName& other : kOtherNames)
+    if (other.command == command.name) declared->alias(std::string(other.name));
   for (CLI::Option* option : declared->get_options()) {
     const std::string declared_type = option->get_type_name();
     const std::string type = declared_type.substr(0, declared_type.find(':'));
@@ -214,12 +233,19 @@ int run(std::vector<std::string> words, myoid::program::Context& context) {
   // Declaring the options of all commands takes longer than a small run.
   const Command* const called = find_command(words.empty() ? "" : words.front());
   if (called == nullptr) return without_command(app, words, context);
-  const CLI::App* const command = declare(*called, app, context);
+  CLI::App* const command = declare(*called, app, context);
+  if (const OtherName* const other = find_other_name(words.front())) {
+    context.notice = fmt::format("note: myoid {}{}{} takes the place of {}", called->name, other->option ? " " : "",
+                                 other->option ? other->option : "", other->name);
+    if (other->option) words.insert(words.begin() + 1, other->option);
+    if (other->required) command->get_option(other->required)->required();
+  }
   const std::string missing = program::missing_value(*command, {words.begin() + 1, words.end()});
   if (!missing.empty()) return wrong_command_line(missing);
   try {
     app.parse(marked(words));
   } catch (const CLI::CallForHelp&) {
+    if (!context.notice.empty()) context.log(context.notice);
     program::say("{}", program::command_text(*command, program::help_width()));
     return program::kDone;
   } catch (const CLI::ParseError& error) {

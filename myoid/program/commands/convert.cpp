@@ -1,14 +1,20 @@
 #include "myoid/program/commands/convert.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/body/model/opensim_defects/compat.h"
+#include "myoid/body/osim/osim_updater.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/byte_source.h"
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/output_file.h"
 #include "myoid/ground/files/result_record.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/program/commands/convert_parts.h"
 #include "myoid/program/commands/stage_input.h"
 #include "myoid/recording/bids_derivative.h"
@@ -45,10 +51,6 @@ class Converter {
     const fs::path out = o_.out;
     const std::string to = extension_of(out);
     const bool folder = to.empty();
-    if (makes_derivative(o_)) {
-      for (const fs::path& file : recording::write_bids_derivative(o_.in, out, o_.subject)) wrote(file);
-      return std::move(written_);
-    }
     if (!folder && !is_written_ending(to))
       throw InvalidInput(fmt::format("{}: files of kind '{}' are not written; expected {}, or a folder", o_.out, to,
                                      written_endings_text()));
@@ -337,17 +339,47 @@ ConvertOptions with_kind(ConvertOptions o) {
   return o;
 }
 
+bool is_opensim(std::optional<FileFormat> format) {
+  return format == FileFormat::model || format == FileFormat::set_up;
+}
+
+/// Returns true if the first character of the file, apart from blanks, is that of a markup.
+bool is_markup(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) && trim(read_bytes(path)).starts_with('<');
+}
+
+/// Writes an OpenSim file of any version in the newest form.
+void write_updated(const ConvertOptions& o, ConvertResult& result, Remarks& remarks) {
+  check_output(o.out, {o.in}, o.overwrite);
+  const body::UpdatedOsim updated =
+      body::updated_osim(read_text_file(o.in), o.in, {.six_digits = body::parse_compat(o.compat).six_digit_offsets});
+  for (const Remark& note : updated.notes) remarks.add(note);
+  write_file(o.out, updated.text);
+  result.files = {o.out};
+  result.old_version = updated.old_version;
+  result.version = std::max(updated.old_version, body::kNewestOsimVersion);
+}
+
 }  // namespace
 
-bool makes_derivative(const ConvertOptions& o) {
+Conversion conversion_of(const ConvertOptions& o) {
+  const auto from = format_of(o.in), to = format_of(o.out);
+  const bool to_recording = to && is_recording(*to);
   std::error_code ignored;
-  if (!fs::is_directory(o.in, ignored)) return false;
-  if (const auto to = format_of(o.out); to && is_recording(*to))
-    throw InvalidInput(
-        fmt::format("{} is a folder; the results in it are written as a BIDS derivative, which is a folder too: give "
-                    "one as OUT instead of {}",
-                    o.in, o.out));
-  return true;
+  if (fs::is_directory(o.in, ignored)) {
+    if (to_recording || is_opensim(to))
+      throw InvalidInput(
+          fmt::format("{} is a folder; the results in it are written as a BIDS derivative, which is a folder too: give "
+                      "one as OUT instead of {}",
+                      o.in, o.out));
+    return Conversion::derivative;
+  }
+  if (!is_opensim(from) && !is_opensim(to) && (from || !is_markup(o.in))) return Conversion::recording;
+  if (to_recording)
+    throw InvalidInput(fmt::format("{}: an OpenSim file is written as .osim or .xml; found the name of {}", o.out,
+                                   format_entry(*to).kind));
+  return Conversion::opensim_file;
 }
 
 ConvertResult convert(const ConvertOptions& options) {
@@ -355,7 +387,18 @@ ConvertResult convert(const ConvertOptions& options) {
   Remarks remarks(options.call);
   const ConvertOptions o = with_kind(options);
   ConvertResult result;
-  result.files = Converter(o, remarks).run();
+  switch (conversion_of(o)) {
+    case Conversion::recording:
+      result.files = Converter(o, remarks).run();
+      break;
+    case Conversion::derivative:
+      for (const fs::path& file : recording::write_bids_derivative(o.in, o.out, o.subject))
+        result.files.push_back(file.string());
+      break;
+    case Conversion::opensim_file:
+      write_updated(o, result, remarks);
+      break;
+  }
   result.remarks = remarks.list();
   return result;
 }

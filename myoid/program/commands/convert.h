@@ -7,11 +7,11 @@
 
 namespace myoid::program {
 
-/// A recording in another format.
+/// A recording in another format, or an OpenSim file in the newest form.
 struct ConvertOptions {
   Call call;
-  std::string in;                     ///< A recording or table, or the folder of a finished run.
-  std::string out;                    ///< .c3d, .trc, .sto, .mot, .csv, or a folder for everything.
+  std::string in;                     ///< A recording, a table, an OpenSim file, or the folder of a finished run.
+  std::string out;                    ///< .c3d, .trc, .sto, .mot, .csv, .osim, .xml, or a folder for everything.
   std::string what;                   ///< markers, channels, emg or plates; empty: by the endings of the names.
   std::string up;                     ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
   std::vector<std::string> turns;     ///< "AXIS:DEGREES", one after another.
@@ -22,21 +22,29 @@ struct ConvertOptions {
   double least_force_n = 10.0;        ///< Smaller forces count as an unloaded plate.
   double rate_hz = 0.0;               ///< Rate of an even clock for all data; 0: as recorded.
   std::string subject = "01";         ///< Label of the person in a BIDS derivative.
+  std::string compat = "exact";       ///< opensim: rounds offsets of an OpenSim file to six digits, as OpenSim does.
   bool overwrite = false;             ///< Replaces existing files.
 };
 
 struct ConvertResult {
-  std::vector<std::string> files;  ///< Written files.
+  std::vector<std::string> files;    ///< Written files.
+  int old_version = 0, version = 0;  ///< Of an OpenSim file; 0: the file had none.
   std::vector<Remark> remarks;
 };
+
+/// What a conversion makes.
+enum class Conversion {
+  recording,    ///< A recording or table in another format, or a folder with everything in it.
+  derivative,   ///< A BIDS derivative, which is a folder, of the folder of a run.
+  opensim_file  ///< A model, set-up or set of OpenSim in the newest form.
+};
+
+/// Returns what the input and the endings of both names ask for. Throws InvalidInput if `out` cannot hold it.
+[[nodiscard]] Conversion conversion_of(const ConvertOptions& options);
 
 /// Reads and writes, each file whole or not at all. (One function does both, so that channels of a
 /// long recording pass from the reader to the writer without all being in memory.) Throws
 /// InvalidInput for a format that cannot be written, and for a file that exists or is an input.
 ConvertResult convert(const ConvertOptions& options);
-
-/// Returns true if the input is the folder of a run, whose results become a BIDS derivative in the
-/// folder `out`. Throws InvalidInput if `out` names a recording.
-[[nodiscard]] bool makes_derivative(const ConvertOptions& options);
 
 }  // namespace myoid::program

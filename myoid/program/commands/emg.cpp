@@ -65,7 +65,7 @@ SmoothedFiles smooth(const EmgOptions& o, const std::vector<std::string>& paths,
   files.whitening = recording::find_whitening(files.views(), o.chain);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     recording::add_envelope(files.stages[i], o.chain, files.whitening);
-    for (const std::string& finding : files.stages[i].findings) remarks.note(fmt::format("{}: {}", paths[i], finding));
+    remarks.add(files.stages[i].findings, paths[i]);
   }
   for (const recording::WhiteningFilter& filter : files.whitening.filters) {
     if (filter.reason.empty())

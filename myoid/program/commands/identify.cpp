@@ -25,7 +25,7 @@ IdentifyResult run_of(study::Study study, const IdentifyOptions& o, Remarks& rem
   result.run = run(result.study, options);
   if (o.beliefs && o.method != fit::Method::paper)
     result.run.provenance.inputs.push_back({o.beliefs->string(), sha256(read_text_file(*o.beliefs))});
-  for (const std::string& text : result.fit().warnings) remarks.warn(text);
+  for (const Remark& remark : result.fit().warnings) remarks.add(remark);
   std::vector<Remark> all = remarks.list();
   all.insert(all.end(), result.run.remarks.begin(), result.run.remarks.end());
   result.run.remarks = std::move(all);
@@ -50,7 +50,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   const run::MuscleTable table = run::read_muscles_csv(o.muscles, o.method != fit::Method::paper);
   refuse_impossible(o, table);
   for (const std::string& text : without_effect(o)) remarks.warn(text);
-  for (const std::string& note : table.notes) remarks.warn(note);
+  for (const Remark& remark : table.remarks) remarks.add(remark);
   return run_of(identify_study(o, table, remarks), o, remarks);
 }
 

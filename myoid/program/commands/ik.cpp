@@ -66,7 +66,7 @@ IkResult ik(const IkOptions& o) {
       cut(rotated(std::move(file.markers), onto_model(result.model, o.markers, o.up, remarks)), o.call);
   const body::IkOptions options{.marker_weights = marker_weights(o.weights), .progress = o.call.progress};
   result.solved = body::inverse_kinematics(result.model, markers, options);
-  for (const std::string& note : result.solved.notes) remarks.warn(note);
+  for (std::string& note : sentences(result.solved.notes)) remarks.warn(std::move(note));
   for (Remark& remark : body::remarks_on_ends(result.model, result.solved.q)) remarks.add(std::move(remark));
   result.misfit = body::marker_misfit(result.model, markers, result.solved);
   if (!result.misfit.warning.empty()) remarks.warn(result.misfit.warning);
@@ -74,8 +74,8 @@ IkResult ik(const IkOptions& o) {
   if (!result.not_converged.empty())
     remarks.warn(fmt::format("not converged: frames {}", fmt::join(result.not_converged, ", ")));
   remarks.add(body::implausible_motion(result.solved.q), o.markers);
-  if (!result.solved.undetermined.empty())
-    remarks.warn(fmt::format("not determined by the markers: {}", fmt::join(result.solved.undetermined, ", ")));
+  if (!result.solved.open_coordinates.empty())
+    remarks.warn(fmt::format("not determined by the markers: {}", fmt::join(result.solved.open_coordinates, ", ")));
   result.remarks = remarks.list();
   return result;
 }

@@ -21,7 +21,7 @@ PredictResult predict(const PredictOptions& o) {
                                                                       .end_s = o.call.end_s,
                                                                       .progress = o.call.progress});
   remarks.warn_of_changes(o.folder, {"parameters.json", "run.json"});
-  for (const std::string& warning : input.warnings) remarks.warn(warning);
+  for (const Remark& remark : input.remarks) remarks.add(remark);
   PredictResult result;
   result.provenance.command = o.call.command;
   result.provenance.inputs = input.files;

@@ -20,7 +20,6 @@ RunToolResult run_tool(const RunToolOptions& o) {
                                                    .anywhere = o.anywhere,
                                                    .progress = o.call.progress,
                                                    .folders = o.folders});
-  for (const std::string& note : result.tool.notes) remarks.warn(note);
   for (const Remark& remark : result.tool.remarks) remarks.add(remark);
   if (result.tool.replaced > 0)
     remarks.note(fmt::format("{} of an earlier run {} replaced",
@@ -36,8 +35,7 @@ nlohmann::ordered_json run_tool_object(const RunToolResult& result) {
                               {"summary", tool.summary},
                               {"frames", tool.frames},
                               {"frames_failed", tool.frames_failed},
-                              {"notes", tool.notes}};
-  for (const std::string& text : sentences(tool.remarks)) json["notes"].push_back(text);
+                              {"notes", sentences(tool.remarks)}};
   for (const std::filesystem::path& file : tool.files) json["files"].push_back(file.string());
   return json;
 }

@@ -52,7 +52,7 @@ SoResult so(const SoOptions& o) {
     remarks.warn(weight->sentence("--loads"));
   const body::SharingInput input = body::sharing_input(model, motion, body::muscle_kinematics(model, motion),
                                                        o.coordinates, loads ? &*loads : nullptr);
-  for (const std::string& note : input.notes) remarks.warn(note);
+  for (std::string& note : sentences(input.notes)) remarks.warn(std::move(note));
   SoResult result;
   remarks.add(body::implausible_torques(model, input.torques), o.motion);
   result.shared = body::share(input, sharing_options(o, model, input, remarks));

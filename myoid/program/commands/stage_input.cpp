@@ -66,7 +66,7 @@ body::BodyModel load_model(const std::string& name, const std::string& compat, R
       name == "arm4" ? body::parse_osim(body::arm4_osim(), "arm4.osim", options) : body::read_osim(name, options);
   body::require_lengths_in_m(model, name);
   for (const std::string& text : model.unsupported) remarks.warn(fmt::format("{}: {}", name, text));
-  for (const std::string& text : model.notes) remarks.detail(fmt::format("{}: {}", name, text));
+  for (const std::string& text : sentences(model.notes)) remarks.detail(fmt::format("{}: {}", name, text));
   remarks.add(body::implausible(model), name);
   return model;
 }
@@ -163,7 +163,7 @@ body::JointMotion load_motion(const body::BodyModel& model,
     options.cutoff_hz = cutoff_hz;
   }
   body::MotionResult result = body::joint_motion(model, q, options);
-  for (const std::string& note : result.notes) remarks.warn(note);
+  for (std::string& note : sentences(result.notes)) remarks.warn(std::move(note));
   const body::JointMotion& whole = result.motion;
   return {cut(whole.q, call), cut(whole.qdot, call), cut(whole.qddot, call)};
 }
@@ -173,7 +173,7 @@ body::ExternalLoads load_external_loads(const body::BodyModel& model,
                                         const body::JointMotion& motion,
                                         Remarks& remarks) {
   body::ExternalLoads loads = body::read_external_loads(model, path);
-  for (const std::string& note : loads.notes) remarks.warn(note);
+  for (std::string& note : sentences(loads.notes)) remarks.warn(std::move(note));
   const Eigen::VectorXd& time_s = motion.q.time_s();
   if (time_s[0] < loads.start_s - 1e-3 || time_s[time_s.size() - 1] > loads.end_s + 1e-3) {
     remarks.warn(

@@ -108,7 +108,7 @@ ordered_json model_contents(const body::BodyModel& m, const ModelQuestions& ask)
   if (ask.jumps) j["jumps"] = jumps_json(m);
   j["not_supported_count"] = m.unsupported.size();
   j["not_supported"] = m.unsupported;
-  j["notes"] = m.notes;
+  j["notes"] = sentences(m.notes);
   return j;
 }
 

@@ -206,8 +206,11 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   stages.raw = TimeSeries(raw.time_s(), raw.channels(), std::move(values));
   const double rate = raw.mean_rate_hz();
   if (rate < 500.0) {
-    stages.findings.push_back(fmt::format(
-        "EMG sampled at {:.0f} Hz: below 1000 Hz part of its power is folded back and cannot be mended", rate));
+    stages.findings.push_back(
+        {.code = RemarkCode::emg_rate,
+         .severity = Severity::note,
+         .says = fmt::format(
+             "EMG sampled at {:.0f} Hz: below 1000 Hz part of its power is folded back and cannot be mended", rate)});
   }
   stages.filtered = options.as_published
                         ? stages.raw
@@ -247,8 +250,12 @@ void add_envelope(EmgStages& stages, const EnvelopeOptions& options, const White
     const double share = (smooth.values().col(c).array() < 0.0).cast<double>().mean();
     if (share > 0.01) {
       stages.findings.push_back(
-          fmt::format("channel '{}': the filter undershoots in {:.1f} % of the samples; the envelope is 0 there",
-                      raw.channels()[static_cast<std::size_t>(c)].name, 100.0 * share));
+          {.code = RemarkCode::emg_processing,
+           .severity = Severity::note,
+           .about = raw.channels()[static_cast<std::size_t>(c)].name,
+           .says =
+               fmt::format("channel '{}': the filter undershoots in {:.1f} % of the samples; the envelope is 0 there",
+                           raw.channels()[static_cast<std::size_t>(c)].name, 100.0 * share)});
     }
   }
   stages.envelope = TimeSeries(raw.time_s(), raw.channels(), smooth.values().cwiseMax(0.0));

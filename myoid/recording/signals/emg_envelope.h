@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
 #include "myoid/recording/signals/whitening.h"
 
@@ -56,7 +57,7 @@ struct EmgStages {
   std::vector<Notch> notches;
   std::vector<MendedSpikes> spikes;
   std::vector<RemovedEcg> ecg;
-  std::vector<std::string> findings;  ///< A rate too low for the EMG, an envelope clipped at 0.
+  std::vector<Remark> findings;  ///< A rate too low for the EMG, an envelope clipped at 0.
 };
 
 /// Replaces spikes, removes the mean, high-passes and removes hum, every filter without delay: fills `raw`,

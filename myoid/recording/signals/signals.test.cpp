@@ -59,7 +59,7 @@ TEST(ProcessEmg, TakesMainsHumOutAndLeavesItsReportToTheCheckOfTheRawEmg) {
   const EmgStages s = process_emg({x.time_s(), x.channels(), v});
   ASSERT_EQ(s.notches.size(), 1U);
   EXPECT_EQ(s.notches[0].lines_hz, std::vector<double>{50.0});
-  EXPECT_TRUE(s.findings.empty()) << s.findings[0];
+  EXPECT_TRUE(s.findings.empty()) << s.findings[0].says;
   EXPECT_TRUE(process_emg(x).notches.empty());
 }
 
@@ -69,7 +69,7 @@ TEST(ProcessEmg, AnEnvelopeThatWouldBeNegativeIsSaid) {
   const EmgStages s = process_emg({Eigen::VectorXd::LinSpaced(4000, 0.0, 3.999), {{"m", Unit::volt}}, x},
                                   {.highpass_hz = 1.0, .lowpass_hz = 20.0, .rectify = false});
   ASSERT_EQ(s.findings.size(), 1U);
-  EXPECT_NE(s.findings[0].find("undershoots"), std::string::npos);
+  EXPECT_NE(s.findings[0].says.find("undershoots"), std::string::npos);
   EXPECT_EQ(s.envelope.values().minCoeff(), 0.0);
 }
 

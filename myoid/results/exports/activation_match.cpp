@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "myoid/fit/measurement/envelope.h"
+#include "myoid/opensim/projects/ceinms_law.h"
 #include "myoid/results/exports/foreign_law.h"
 
 namespace myoid::results {
@@ -80,7 +81,7 @@ void match_power(const ChannelValues& channel, const std::vector<double>& envelo
   const std::vector<double> own = own_activation(channel, envelope);
   const auto theirs = [&](double shape_factor) {
     std::vector<double> values;
-    for (const double u : envelope) values.push_back(exponential_shape(u, shape_factor));
+    for (const double u : envelope) values.push_back(opensim::exponential_shape(u, shape_factor));
     return values;
   };
   found.shape_factor = least(
@@ -108,7 +109,7 @@ CeinmsActivation ceinms_activation(const ChannelValues& channel,
     match_power(channel, envelope, found);
   } else if (shape != 0.0) {
     found.shape_factor = shape * gain;
-    found.scale = exponential_shape(gain, shape);
+    found.scale = opensim::exponential_shape(gain, shape);
   } else {
     found.scale = gain;
   }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/opensim/projects/ceinms_law.h"
 #include "myoid/results/exports/foreign_law.h"
 
 namespace myoid::results {
@@ -36,7 +37,7 @@ TEST(CeinmsActivation, HoldsGainAndShapeExactlyWhereTheExponentIsOne) {
   EXPECT_LT(linear.shape_factor, 0.0);  // 0 / 0 in CEINMS
   const CeinmsActivation bent = ceinms_activation(channel(0.8, -2.0, 1.0), fit::EmgLag::delay, levels(), 100.0);
   for (const double u : levels())
-    EXPECT_NEAR(bent.scale * exponential_shape(u, bent.shape_factor),
+    EXPECT_NEAR(bent.scale * opensim::exponential_shape(u, bent.shape_factor),
                 (std::exp(-2.0 * 0.8 * u) - 1.0) / (std::exp(-2.0) - 1.0), 1e-14);
 }
 
@@ -58,7 +59,7 @@ TEST(CeinmsActivation, IsTheNearestExponentialToAPower) {
   const auto distance = [&](double shape, double scale) {
     double sum = 0.0;
     for (const double u : levels()) {
-      const double e = 1.1 * std::pow(u, 0.7) - scale * exponential_shape(u, shape);
+      const double e = 1.1 * std::pow(u, 0.7) - scale * opensim::exponential_shape(u, shape);
       sum += e * e;
     }
     return sum;

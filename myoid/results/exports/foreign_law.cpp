@@ -6,23 +6,6 @@
 
 namespace myoid::results {
 
-Eigen::VectorXd recursive_activation(const Eigen::VectorXd& excitation, double c1, double c2) {
-  Eigen::VectorXd u = excitation;
-  const double gain = (1.0 + c1) * (1.0 + c2);
-  double last = excitation.size() > 0 ? excitation[0] : 0.0, before_last = last;
-  for (Eigen::Index k = 0; k < u.size(); ++k) {
-    u[k] = gain * excitation[k] - (c1 + c2) * last - c1 * c2 * before_last;
-    before_last = last;
-    last = u[k];
-  }
-  return u;
-}
-
-double exponential_shape(double u, double shape_factor) {
-  if (shape_factor == 0.0) return u;
-  return std::expm1(shape_factor * u) / std::expm1(shape_factor);
-}
-
 Eigen::VectorXd nmsm_neural_activation(const Eigen::VectorXd& excitation, double interval_s, double time_constant_s) {
   Eigen::VectorXd u = excitation;
   for (Eigen::Index k = 2; k < u.size(); ++k) {

@@ -4,15 +4,7 @@
 
 namespace myoid::results {
 
-/// The laws of other programs, as far as they are not ours with other numbers.
-
-/// Returns the neural activation of CEINMS from an excitation that is settled before its first sample:
-///   u_k = (1 + c1) (1 + c2) e_k - (c1 + c2) u_k-1 - c1 c2 u_k-2
-/// With c = -exp(-T / tau) at the sampling interval T it is the answer of two lags with the time constants tau.
-[[nodiscard]] Eigen::VectorXd recursive_activation(const Eigen::VectorXd& excitation, double c1, double c2);
-
-/// Returns (exp(A u) - 1) / (exp(A) - 1); u where A is 0.
-[[nodiscard]] double exponential_shape(double u, double shape_factor);
+/// The law of the NMSM Pipeline; that of CEINMS stands in opensim/projects/ceinms_law.h.
 
 /// Returns the neural activation of the NMSM Pipeline, of second order in the sampling interval [s]:
 ///   du/dt = (0.75 e + 0.25) (e - u) / tau

@@ -10,32 +10,6 @@ namespace myoid::results {
 namespace {
 
 // A lag answers a step that is held over each interval with 1 - exp(-t / tau) at the ends of the intervals.
-TEST(RecursiveActivation, AnswersAStepAsALagDoes) {
-  constexpr double kInterval_s = 0.01, kTau_s = 0.05;
-  Eigen::VectorXd step = Eigen::VectorXd::Ones(200);
-  step.head(50).setZero();
-  const double c = -std::exp(-kInterval_s / kTau_s);
-  const Eigen::VectorXd one = recursive_activation(step, c, 0.0);
-  for (int k = 0; k < 150; ++k) EXPECT_NEAR(one[50 + k], 1.0 - std::exp(-(k + 1) * kInterval_s / kTau_s), 1e-13);
-  EXPECT_EQ(one.head(50).cwiseAbs().maxCoeff(), 0.0);
-  // Two lags are one after the other, in any order.
-  const double other = -std::exp(-kInterval_s / 0.02);
-  const Eigen::VectorXd chain = recursive_activation(one, other, 0.0);
-  EXPECT_LT((recursive_activation(step, c, other) - chain).cwiseAbs().maxCoeff(), 1e-14);
-  EXPECT_EQ(recursive_activation(step, 0.0, 0.0), step);
-}
-
-TEST(ExponentialShape, RunsFromZeroToOneAndBendsByItsFactor) {
-  for (const double factor : {-3.0, -1e-5, 0.0, 2.0}) {
-    EXPECT_EQ(exponential_shape(0.0, factor), 0.0);
-    EXPECT_NEAR(exponential_shape(1.0, factor), 1.0, 1e-15);
-  }
-  EXPECT_NEAR(exponential_shape(0.5, -2.0), (1.0 - std::exp(-1.0)) / (1.0 - std::exp(-2.0)), 1e-15);
-  EXPECT_NEAR(exponential_shape(0.5, -1e-5), 0.5, 2e-6);
-}
-
-// At full excitation du/dt = (1 - u) / tau, at none -u / (4 tau). The scheme is of second order: (T / tau)^2 / 3 is
-// 3e-3.
 TEST(NmsmNeuralActivation, RisesWithItsTimeConstantAndFallsFourTimesAsSlowly) {
   constexpr double kInterval_s = 0.001, kTau_s = 0.01;
   Eigen::VectorXd pulse = Eigen::VectorXd::Zero(1000);

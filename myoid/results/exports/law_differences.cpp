@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "myoid/fit/measurement/envelope.h"
+#include "myoid/opensim/projects/ceinms_law.h"
 #include "myoid/results/exports/foreign_law.h"
 
 namespace myoid::results {
@@ -47,10 +48,10 @@ VectorXd own_force(const Recorded& r,
 
 VectorXd ceinms_force(const Recorded& r, const ForeignMuscle& theirs) {
   const VectorXd neural =
-      read_at(r, recursive_activation(r.envelope, theirs.ceinms.c1, theirs.ceinms.c2), theirs.ceinms.delay_s);
+      read_at(r, opensim::recursive_activation(r.envelope, theirs.ceinms.c1, theirs.ceinms.c2), theirs.ceinms.delay_s);
   VectorXd activation(neural.size()), velocity = r.trial.velocity_mps.col(r.muscle), force(neural.size());
   for (Eigen::Index k = 0; k < neural.size(); ++k)
-    activation[k] = exponential_shape(neural[k], theirs.ceinms.shape_factor);
+    activation[k] = opensim::exponential_shape(neural[k], theirs.ceinms.shape_factor);
   const VectorXd length = r.trial.length_m.col(r.muscle);
   if (theirs.values[fit::kTendonStrain] > 0.0) {
     VectorXd strain(neural.size());

@@ -266,7 +266,8 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
     result.muscles.push_back(std::move(muscle.setup));
   }
   if (!table.last_row_has_end) {
-    result.notes.push_back(fmt::format("{}:{}: {}", path.string(), table.lines.back(), kLastRowKept));
+    result.remarks.push_back({.code = RemarkCode::reading,
+                              .says = fmt::format("{}:{}: {}", path.string(), table.lines.back(), kLastRowKept)});
   }
   if (result.muscles.empty()) throw ReadError(path, 0, "there are no muscles");
   return result;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "myoid/fit/measurement/study_data.h"
+#include "myoid/ground/core/remark.h"
 
 namespace myoid::run {
 
@@ -13,7 +14,7 @@ namespace myoid::run {
 struct MuscleTable {
   std::vector<fit::MuscleSetup> muscles;
   std::vector<fit::ParameterRule> rules;  ///< Parameters that are not held by default.
-  std::vector<std::string> notes;         ///< Notes of the reader, with the file's name.
+  std::vector<Remark> remarks;            ///< Of the reader, with the file's name.
   /// Muscles whose start of a parameter is the literature's, by parameter.
   std::map<std::string, std::vector<std::string>> assumed;
 };

@@ -157,7 +157,7 @@ std::vector<Remark> check_model_file(const std::filesystem::path& path) {
   }
   for (const std::string& text : model.unsupported)
     found.push_back({.code = RemarkCode::model_unsupported, .says = text});
-  for (const std::string& text : model.notes)
+  for (const std::string& text : sentences(model.notes))
     found.push_back({.code = RemarkCode::reading, .severity = Severity::note, .says = text});
   found = joined(std::move(found), body::implausible(model));
   for (Remark& remark : found) remark.where = where;

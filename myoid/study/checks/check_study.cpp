@@ -138,7 +138,7 @@ class StudyCheck {
       }
       for (const std::string& text : model.unsupported)
         add(RemarkCode::model_unsupported, Severity::warning, "model", text);
-      for (const std::string& text : model.notes) add(RemarkCode::reading, Severity::note, "model", text);
+      for (const std::string& text : sentences(model.notes)) add(RemarkCode::reading, Severity::note, "model", text);
       model_ = std::move(model);
       together_.emplace(study_, *model_);
     });
@@ -185,8 +185,8 @@ class StudyCheck {
     for (std::size_t i = 0; i < specs_.size(); ++i) {
       const auto& stages = activation.trials[i].stages;
       if (stages)
-        for (const std::string& text : stages->findings)
-          add(RemarkCode::emg_processing, Severity::note, specs_[i].name, text);
+        for (const Remark& finding : stages->findings)
+          add(finding.code, finding.severity, specs_[i].name, finding.says);
       // Without a reference only the levels are available.
       if (emg[i] != nullptr) activation.trials[i].activation = stages ? stages->envelope : *emg[i];
     }

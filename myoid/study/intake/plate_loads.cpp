@@ -171,7 +171,10 @@ body::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& plates
     const Wrench w = wrench_of(plate, R_YG, least_force_n);
     const std::vector<Contact> contacts = contacts_of(w, plate.time_s);
     if (contacts.empty()) {
-      loads.notes.push_back(fmt::format("force plate {} is never loaded with {} N", plate.number, least_force_n));
+      loads.notes.push_back(
+          {.code = RemarkCode::reading,
+           .severity = Severity::note,
+           .says = fmt::format("force plate {} is never loaded with {} N", plate.number, least_force_n)});
       if (!bodies.empty()) (void)body_named(model, bodies[k]);
       continue;
     }
@@ -193,10 +196,13 @@ body::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& plates
                           begin_s, end_s, kFarFromPlate_m));
         }
         loads.notes.push_back(
-            fmt::format("force plate {} from {:.3g} to {:.3g} s is given to '{}', whose markers are {:.0f} mm from the "
-                        "center of pressure",
-                        plate.number, begin_s, end_s, model.bodies[static_cast<std::size_t>(best->first)].name,
-                        1e3 * best->second));
+            {.code = RemarkCode::reading,
+             .severity = Severity::note,
+             .says = fmt::format(
+                 "force plate {} from {:.3g} to {:.3g} s is given to '{}', whose markers are {:.0f} mm from the "
+                 "center of pressure",
+                 plate.number, begin_s, end_s, model.bodies[static_cast<std::size_t>(best->first)].name,
+                 1e3 * best->second)});
         by_body[best->first].push_back(c);
       }
     }

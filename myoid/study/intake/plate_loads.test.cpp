@@ -158,7 +158,7 @@ TEST_F(PlateLoads, GoToTheBodyWhoseMarkerIsNearest) {
   const Vec3 far = kPoint_L + Vec3(0.0, 0.1, 0.2);
   const auto given = loads(1.0, {}, {{elsewhere->name, far}, {on_hand->name, near}});
   expect_the_load(given, 1.0, 1e-3);
-  EXPECT_THAT(given.notes.back(), HasSubstr("from 0.5 to 1.5 s is given to 'forearm_hand'"));
+  EXPECT_THAT(given.notes.back().says, HasSubstr("from 0.5 to 1.5 s is given to 'forearm_hand'"));
   EXPECT_THROW((void)loads(1.0, {}, {{on_hand->name, kPoint_L + Vec3(0.5, 0, 0)}}), InvalidInput);
 }
 

@@ -145,7 +145,7 @@ body::ExternalLoads read_plates(const Study& study,
     body::ExternalLoads loads =
         plate_loads(plates, rotation_onto(model, up.up_L.value_or(model_up(model))), model, spec.bodies, markers,
                     spec.least_force_n, spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study));
-    for (const std::string& note : loads.notes) add_notes({fmt::format("{}: {}", name, note)}, remarks);
+    for (const std::string& note : sentences(loads.notes)) add_notes({fmt::format("{}: {}", name, note)}, remarks);
     if (markers && markers->frame_count() > 0 &&
         (markers->time_s[0] < loads.start_s - 0.05 ||
          markers->time_s[markers->frame_count() - 1] > loads.end_s + 0.05)) {
@@ -173,7 +173,7 @@ std::optional<body::ExternalLoads> read_trial_loads(const Study& study,
   if (trial.external_loads) {
     remember(*trial.external_loads);
     loads = body::read_external_loads(model, *trial.external_loads);
-    add_notes(loads.notes, remarks);
+    remarks.insert(remarks.end(), loads.notes.begin(), loads.notes.end());
     if (const auto clock = loads_clock(study, trial, *trial.external_loads))
       loads.set_clock(clock->offset_s, clock->drift_ppm);
     if (study.markers.up != 'y' && study.markers.up != kUpOfTheFile)
