@@ -1,7 +1,6 @@
 #include "myoid/program/commands/report.h"
 
 #include "myoid/page/write_report.h"
-#include "myoid/program/commands/run.h"
 #include "myoid/results/exports/export_files.h"
 #include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"
@@ -24,7 +23,8 @@ ReportResult report(const ReportOptions& o) {
   result.provenance.inputs = result.study.source.files;
   result.provenance.options_json = study::study_json(result.study.source.study);
   Remarks remarks(o.call);
-  result.exports = exported_projects(result.study, o.exports, remarks);
+  result.exports = results::exported_projects(result.study, o.exports);
+  for (const Remark& remark : results::remarks_of(result.exports)) remarks.add(remark);
   return result;
 }
 

@@ -57,19 +57,6 @@ bool RunResult::failed(bool strict) const {
   return failed;
 }
 
-std::vector<results::ExportedProject> exported_projects(const run::StudyResult& study,
-                                                        const std::vector<results::ExportFormat>& formats,
-                                                        Remarks& remarks) {
-  std::vector<results::ExportedProject> exported;
-  for (const results::ExportFormat format : formats) {
-    if (format == results::ExportFormat::osim) continue;
-    if (std::ranges::find(exported, format, &results::ExportedProject::format) != exported.end()) continue;
-    exported.push_back(results::exported_project(study, format));
-    for (const Remark& remark : exported.back().remarks) remarks.add(remark);
-  }
-  return exported;
-}
-
 RunResult run(const RunOptions& o) {
   study::Study study = study::read_filmed_study(o.study, o.video);
   if (!o.methods.empty()) study.identify.methods = o.methods;
@@ -93,7 +80,8 @@ RunResult run(const study::Study& study, const RunOptions& o) {
   result.provenance.inputs = result.study.source.files;
   result.provenance.options_json = study::study_json(result.study.source.study);
   result.reading_remarks = tell_trials(result.study, remarks);
-  result.exports = exported_projects(result.study, o.exports, remarks);
+  result.exports = results::exported_projects(result.study, o.exports);
+  for (const Remark& remark : results::remarks_of(result.exports)) remarks.add(remark);
   if (result.study.fit_input.nuisances_held) remarks.note(std::string(run::kFewRows));
   result.remarks = remarks.list();
   return result;

@@ -48,12 +48,6 @@ struct RunResult {
 
 [[nodiscard]] RunResult run(const RunOptions& options);
 
-/// Returns the muscles of a run for other programs, each form once, and adds their remarks; none for `osim`, which
-/// every run writes.
-[[nodiscard]] std::vector<results::ExportedProject> exported_projects(const run::StudyResult& study,
-                                                                      const std::vector<results::ExportFormat>& formats,
-                                                                      Remarks& remarks);
-
 /// Runs a study that no file holds yet; `options.study` is not read.
 [[nodiscard]] RunResult run(const study::Study& study, const RunOptions& options);
 

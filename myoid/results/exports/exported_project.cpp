@@ -450,4 +450,21 @@ ExportedProject exported_project(const run::StudyResult& result, ExportFormat fo
   return Exporter(result, *fit, format).run();
 }
 
+std::vector<ExportedProject> exported_projects(const run::StudyResult& result,
+                                               const std::vector<ExportFormat>& formats) {
+  std::vector<ExportedProject> exported;
+  for (const ExportFormat format : formats) {
+    if (format == ExportFormat::osim) continue;
+    if (std::ranges::find(exported, format, &ExportedProject::format) != exported.end()) continue;
+    exported.push_back(exported_project(result, format));
+  }
+  return exported;
+}
+
+std::vector<Remark> remarks_of(const std::vector<ExportedProject>& exported) {
+  std::vector<Remark> all;
+  for (const ExportedProject& each : exported) all.insert(all.end(), each.remarks.begin(), each.remarks.end());
+  return all;
+}
+
 }  // namespace myoid::results

@@ -31,4 +31,11 @@ struct ExportedProject {
 /// lengths per second, so that v_max is one of these numbers. NMSM: the curves are the Pipeline's own.
 [[nodiscard]] ExportedProject exported_project(const run::StudyResult& result, ExportFormat format);
 
+/// Returns each form once; none for `osim`, which every run writes.
+[[nodiscard]] std::vector<ExportedProject> exported_projects(const run::StudyResult& result,
+                                                             const std::vector<ExportFormat>& formats);
+
+/// Returns the remarks of all.
+[[nodiscard]] std::vector<Remark> remarks_of(const std::vector<ExportedProject>& exported);
+
 }  // namespace myoid::results
