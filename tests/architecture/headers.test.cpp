@@ -30,7 +30,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/program/commands/cohort.h", "exercised by running the program"},
     {"myoid/program/commands/compare.h", "exercised by running the program"},
     {"myoid/program/commands/design.h", "exercised by running the program"},
-    {"myoid/program/commands/init.h", "exercised by running the program"},
     {"myoid/program/commands/model_page.h", "exercised by running the program"},
     {"myoid/program/commands/predict.h", "exercised by running the program"},
     {"myoid/run/prediction_input.h", "exercised by running the program"},
