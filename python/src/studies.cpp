@@ -242,6 +242,57 @@ py::object score_of(const std::optional<fit::Score>& score, double (fit::Score::
   return score ? py::object(py::float_(((*score).*value)())) : py::object(py::none());
 }
 
+py::list torque_rows(const results::SecondOpinion& opinion) {
+  py::list torques;
+  for (const results::ReviewedTorque& t : opinion.torques) {
+    py::dict d;
+    d["trial"] = t.trial;
+    d["joint"] = t.joint;
+    d["calibration"] = t.is_calibrating;
+    d["their_r2"] = score_of(t.theirs, &fit::Score::r2);
+    d["their_rmse_nm"] = score_of(t.theirs, &fit::Score::rmse_nm);
+    d["left_out_r2"] = score_of(t.ours, &fit::Score::r2);
+    d["left_out_rmse_nm"] = score_of(t.ours, &fit::Score::rmse_nm);
+    torques.append(d);
+  }
+  return torques;
+}
+
+py::list number_rows(const results::SecondOpinion& opinion) {
+  py::list numbers;
+  for (const results::ReviewedNumber& n : opinion.numbers) {
+    py::dict d;
+    d["muscle"] = n.muscle;
+    d["muscles"] = n.lumped;
+    d["parameter"] = n.ours.parameter;
+    d["unit"] = std::string(symbol(n.ours.unit));
+    d["start"] = optional(n.start);
+    d["calibrated"] = n.theirs;
+    d["on_bound"] = n.on_bound;
+    d["estimate"] = n.ours.estimate;
+    d["ci_low"] = optional(n.ours.ci_low);
+    d["ci_high"] = optional(n.ours.ci_high);
+    d["verdict"] = std::string(fit::name(n.ours.verdict));
+    d["standing"] = std::string(choice_name(n.standing));
+    numbers.append(d);
+  }
+  return numbers;
+}
+
+py::list strength_rows(const results::SecondOpinion& opinion) {
+  py::list strengths;
+  for (const results::JointStrength& s : opinion.strengths) {
+    py::dict d;
+    d["joint"] = s.joint;
+    d["direction"] = s.is_positive ? 1 : -1;
+    d["strength_nm"] = s.all_nm;
+    d["without_emg_nm"] = s.without_emg_nm;
+    d["without_emg"] = s.without_emg;
+    strengths.append(d);
+  }
+  return strengths;
+}
+
 py::dict review(py::dict given) {
   Keywords k("review", std::move(given));
   Work work(k);
@@ -261,47 +312,10 @@ py::dict review(py::dict given) {
     return r;
   });
   const results::SecondOpinion& opinion = result.opinion;
-  py::list torques, numbers, strengths;
-  for (const results::ReviewedTorque& t : opinion.torques) {
-    py::dict d;
-    d["trial"] = t.trial;
-    d["joint"] = t.joint;
-    d["calibration"] = t.is_calibrating;
-    d["their_r2"] = score_of(t.theirs, &fit::Score::r2);
-    d["their_rmse_nm"] = score_of(t.theirs, &fit::Score::rmse_nm);
-    d["left_out_r2"] = score_of(t.ours, &fit::Score::r2);
-    d["left_out_rmse_nm"] = score_of(t.ours, &fit::Score::rmse_nm);
-    torques.append(d);
-  }
-  for (const results::ReviewedNumber& n : opinion.numbers) {
-    py::dict d;
-    d["muscle"] = n.muscle;
-    d["muscles"] = n.lumped;
-    d["parameter"] = n.ours.parameter;
-    d["unit"] = std::string(symbol(n.ours.unit));
-    d["start"] = optional(n.start);
-    d["calibrated"] = n.theirs;
-    d["on_bound"] = n.on_bound;
-    d["estimate"] = n.ours.estimate;
-    d["ci_low"] = optional(n.ours.ci_low);
-    d["ci_high"] = optional(n.ours.ci_high);
-    d["verdict"] = std::string(fit::name(n.ours.verdict));
-    d["standing"] = std::string(choice_name(n.standing));
-    numbers.append(d);
-  }
-  for (const results::JointStrength& s : opinion.strengths) {
-    py::dict d;
-    d["joint"] = s.joint;
-    d["direction"] = s.is_positive ? 1 : -1;
-    d["strength_nm"] = s.all_nm;
-    d["without_emg_nm"] = s.without_emg_nm;
-    d["without_emg"] = s.without_emg;
-    strengths.append(d);
-  }
   py::dict d;
-  d["torques"] = torques;
-  d["numbers"] = numbers;
-  d["strengths"] = strengths;
+  d["torques"] = torque_rows(opinion);
+  d["numbers"] = number_rows(opinion);
+  d["strengths"] = strength_rows(opinion);
   d["says"] = results::review_sentences(opinion);
   d["remarks"] = to_python(result.remarks);
   return d;

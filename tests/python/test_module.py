@@ -31,7 +31,7 @@ def test_keywords_are_the_options_of_the_command_line(command):
     if command == "paths":
         options -= {"sweep", "muscle"}  # myoid.sweep
     parameters = inspect.signature(getattr(myoid, command)).parameters
-    keywords = {p.name for p in parameters.values() if p.kind == p.KEYWORD_ONLY} - {"progress"}
+    keywords = {p.name.rstrip("_") for p in parameters.values() if p.kind == p.KEYWORD_ONLY} - {"progress"}
     positional = {p.name for p in parameters.values() if p.kind == p.POSITIONAL_OR_KEYWORD}
     if command == "convert":
         keywords -= {"out"}

@@ -2,6 +2,7 @@
 
 import _thread
 import copy
+import os
 import pickle
 import re
 import shutil
@@ -9,6 +10,7 @@ import signal
 import threading
 import time
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -138,6 +140,19 @@ def test_pandas_and_xarray_where_they_are(result):
         assert array.dims == ("channel", "time") and "units" in array.attrs
         assert np.array_equal(array.sel(channel=series.channels[0]), series.values[:, 0])
         assert result.to_xarray()["lift"]["id"].dims == ("channel", "time")
+
+
+def test_review(tmp_path):
+    with pytest.raises(myoid.InvalidInput):
+        myoid.review(tmp_path, out=tmp_path / "none")
+    data = Path(os.environ.get("MYOID_DATA", "none")) / "ceinms-rt-leg"
+    if not data.is_dir():
+        pytest.skip("needs the shared recordings")
+    found = myoid.review(data, out=tmp_path / "opinion", start=20, end=26)
+    assert [row["calibration"] for row in found.torques] == [True, False]
+    assert all(row["left_out_r2"] > row["their_r2"] for row in found.torques)
+    assert {row["standing"] for row in found.numbers} <= {"agrees", "differs", "untold"}
+    assert found.strengths and found.says and (tmp_path / "opinion/report.html").is_file()
 
 
 def test_check_compare_design(recording, result, tmp_path):
