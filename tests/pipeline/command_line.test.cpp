@@ -184,8 +184,9 @@ TEST(CommandLine, HelpFillsTheWidthOfTheTerminal) {
 TEST(CommandLine, HelpGroupsCommandsAndOptions) {
   const std::string all = myoid({"--help"}).out;
   std::size_t at = 0;
-  for (const char* next : {"One study:\n  demo ", "\n  run ", "Many persons:\n  cohort ", "Single steps", "\n  ik ",
-                           "OpenSim and other programs:\n  review ", "\n  run-tool ", "Virtual persons", "\n  twin ", "Options:\n"}) {
+  for (const char* next :
+       {"One study:\n  demo ", "\n  run ", "Many persons:\n  cohort ", "Single steps", "\n  ik ",
+        "OpenSim and other programs:\n  review ", "\n  run-tool ", "Virtual persons", "\n  twin ", "Options:\n"}) {
     at = all.find(next, at);
     ASSERT_NE(at, std::string::npos) << next;
   }

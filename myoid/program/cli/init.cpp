@@ -35,7 +35,9 @@ void add_init(CLI::App& app, Context& context) {
                                           "Example: myoid init study --from recordings --model arm.osim");
   const auto o = std::make_shared<program::InitOptions>();
   command.add_option("dir", o->folder, "Folder for study.toml")->required();
-  command.add_option("--from", o->from, "A recording or a folder of them, repeated, or a project of CEINMS, CEINMS-RT or NMSM (default: the folder itself)");
+  command.add_option("--from", o->from,
+                     "A recording or a folder of them, repeated, or a project of CEINMS, CEINMS-RT or NMSM (default: "
+                     "the folder itself)");
   command.add_option("--model", o->model,
                      "OpenSim model (.osim); default: the only one in the folders, else the built-in arm4");
   command.add_option("--coordinate", o->coordinate, "The joint, by the model's coordinate (default: guessed)");
