@@ -73,6 +73,16 @@ std::vector<Recipe> recipes() {
        {},
        "",
        true},
+      {"review",
+       [](auto& in, auto& out) {
+         return Words{"review", in + "/project", "--start", "0.5", "--end", "2.5", "--out", out};
+       },
+       "project/subject.xml",
+       true,
+       {},
+       "",
+       false,
+       true},
       {"cohort",
        [](auto& in, auto& out) {
          return Words{"cohort", in + "/persons.csv", "--out", out};
@@ -356,8 +366,37 @@ class NothingIsLost : public testing::Test {
                                    {"MuscleAnalysis_MomentArm_elbow_flexion.sto", "arm.sto"}})
       fs::copy_file(lift / from, fs::path(in) / to);
     write_small_inputs(in);
+    write_project(in, *scene_ / "project");
   }
   static void TearDownTestSuite() { delete scene_; }
+
+  /// Writes the virtual person as a project of CEINMS-RT.
+  static void write_project(const fs::path& in, const fs::path& project) {
+    fs::create_directories(project / "lift");
+    fs::copy_file(in / "model.osim", project / "model.osim");
+    fs::copy_file(in / "activation.sto", project / "lift/emgFilt.sto");
+    fs::copy_file(in / "ik.mot", project / "lift/ik.sto");
+    fs::copy_file(in / "id.sto", project / "lift/id.sto");
+    std::string subject =
+        "<?xml version=\"1.0\"?>\n<subject><muscleDefault><percentageChange>0.15</percentageChange>"
+        "<damping>0.1</damping>";
+    for (const char* curve : {"activeForceLength", "passiveForceLength", "forceVelocity"})
+      subject +=
+          "<Curve><name>" + std::string(curve) + "</name><xPoints>0 1 2</xPoints><yPoints>0 1 0</yPoints></Curve>";
+    subject += "</muscleDefault><muscles>";
+    for (const char* muscle : {"BIC", "BRD", "TRI"})
+      subject += "<muscle><name>" + std::string(muscle) +
+                 "</name><C1>-0.5</C1><C2>-0.5</C2><shapeFactor>-1</shapeFactor><optimalFiberLength>0.13"
+                 "</optimalFiberLength><pennationAngle>0</pennationAngle><tendonSlackLength>0.17</tendonSlackLength>"
+                 "<maxIsometricForce>600</maxIsometricForce><strengthCoefficient>1</strengthCoefficient></muscle>";
+    subject +=
+        "</muscles><DoFs><DoF><name>elbow_flexion</name><muscleSequence>BIC BRD TRI</muscleSequence></DoF></DoFs>"
+        "<Channels>";
+    for (const char* muscle : {"BIC", "BRD", "TRI"})
+      subject +=
+          "<Channel><name>" + std::string(muscle) + "</name><muscleSequence>" + muscle + "</muscleSequence></Channel>";
+    write_text(project / "subject.xml", subject + "</Channels></subject>\n");
+  }
 
   static void write_small_inputs(const std::string& in) {
     write_text(in + "/persons.csv", "name,study\nP1,study.toml\n");
@@ -400,6 +439,8 @@ class NothingIsLost : public testing::Test {
   static void make_inputs(const Recipe& recipe, const fs::path& D) {
     fs::copy(*scene_ / "in", D / "in", fs::copy_options::recursive);
     if (recipe.needs_runs) fs::copy(*scene_ / "runs", D / "in", fs::copy_options::recursive);
+    // By itself: `init --from in` would take it for the study.
+    if (recipe.command == "review") fs::copy(*scene_ / "project", D / "in/project", fs::copy_options::recursive);
     write_text(D / "notes.txt", "of a person");
   }
 

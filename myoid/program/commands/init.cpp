@@ -22,6 +22,8 @@ std::optional<InitResult> draft_of_project(const InitOptions& o, Remarks& remark
   if (!o.coordinate.empty()) joints.push_back(o.coordinate);
   ProjectOfStudy of = project_of_study(o.from.front(), joints, o.folder, remarks);
   if (!o.model.empty()) of.study.study.model.file = o.model;
+  remarks.note(fmt::format("{} holds a project of {}: the study is made of it; to begin with recordings, name them",
+                           o.from.front(), choice_name(of.project.dialect)));
   InitResult result;
   result.draft.todo = {"a maximal contraction of each muscle, as a trial with use = \"mvc\", would tell F_max"};
   result.draft.toml =
@@ -46,7 +48,7 @@ InitResult init(const InitOptions& o) {
   }
   InitResult result;
   result.draft = study::draft_study(o.folder, options);
-  for (const std::string& note : result.draft.notes) remarks.note(note);
+  for (const Remark& remark : result.draft.remarks) remarks.add(remark);
   result.remarks = remarks.list();
   return result;
 }

@@ -48,7 +48,7 @@ class Draft {
     const std::vector<fs::path> files = recordings_in(options_.from, beside);
     for (const fs::path& loads : beside.external_loads) loads_data_.insert(loads_data_file(loads).lexically_normal());
     for (const fs::path& results : beside.results)
-      draft_.notes.push_back(fmt::format("{}: results of this program, no recordings; left out", relative(results)));
+      note(RemarkCode::reading, fmt::format("{}: results of this program, no recordings; left out", relative(results)));
     choose_model(beside.models, files);
     for (const fs::path& file : files) read(file);
     if (std::ranges::any_of(options_.from, [](const fs::path& path) { return fs::is_directory(path); }))
@@ -84,6 +84,10 @@ class Draft {
   }
 
  private:
+  void note(RemarkCode code, std::string says) {
+    draft_.remarks.push_back({.code = code, .severity = Severity::note, .says = std::move(says)});
+  }
+
   void line(const std::string& text) { out_.line(text); }
   void todo(const std::string& text) { out_.todo(text); }
   [[nodiscard]] std::string relative(const fs::path& path) const {
@@ -103,10 +107,10 @@ class Draft {
       const ModelByMarkers chosen = model_of_markers(models, files);
       if (chosen.markers > 0) {
         model_file_ = chosen.model;
-        draft_.notes.push_back(
-            fmt::format("of {} models {} is taken: it knows {} of the recorded markers, more than "
-                        "any other",
-                        models.size(), relative(chosen.model), chosen.markers));
+        note(RemarkCode::reading,
+             fmt::format("of {} models {} is taken: it knows {} of the recorded markers, more than "
+                         "any other",
+                         models.size(), relative(chosen.model), chosen.markers));
       }
       for (const fs::path& m : models) {
         if (!model_file_ || m != *model_file_) other_models_.push_back(relative(m));
@@ -134,6 +138,15 @@ class Draft {
     return names;
   }
 
+  void note_unused(const fs::path& path, bool torques) {
+    constexpr const char* kTorques =
+        "joint torques; a study takes measured ones as external_torque of a trial, and computes the others "
+        "(`myoid identify --torques` reads them)";
+    note(RemarkCode::reading,
+         fmt::format("{}: {}", path.filename().string(),
+                     torques ? kTorques : "no markers, no coordinate of the model, no EMG; not used"));
+  }
+
   void read(const fs::path& path) {
     FoundRecording f;
     f.path = path;
@@ -159,17 +172,13 @@ class Draft {
       if (f.angles.empty() && !file.analog.empty() && format != FileFormat::bids_motion)
         find_emg(path, file.analog.series(), file.plates, f);
     } catch (const InvalidInput& error) {
-      draft_.notes.push_back(fmt::format("not read: {}", error.what()));
+      note(RemarkCode::refused, fmt::format("not read: {}", error.what()));
       return;
     }
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
       if (torques) torques_.push_back(path);
-      draft_.notes.push_back(fmt::format(
-          "{}: {}", path.filename().string(),
-          torques ? "joint torques; a study takes measured ones as external_torque of a trial, and computes the others "
-                    "(`myoid identify --torques` reads them)"
-                  : "no markers, no coordinate of the model, no EMG; not used"));
+      note_unused(path, torques);
       return;
     }
     if (f.markers.frame_count() > 0) {
@@ -202,7 +211,7 @@ class Draft {
       file_up_ = recording::axis_name(*up.up_L);
       file_up_because_ = fmt::format("{}: {}", path.filename().string(), up.because);
     } catch (const InvalidInput& error) {
-      draft_.notes.push_back(fmt::format("{}: {}", path.filename().string(), error.what()));
+      note(RemarkCode::refused, fmt::format("{}: {}", path.filename().string(), error.what()));
     }
   }
 
@@ -324,9 +333,9 @@ class Draft {
   void note_other_kind() {
     for (const FoundRecording& f : found_) {
       if (of_other_kind(f))
-        draft_.notes.push_back(fmt::format("{}: {} not used", f.path.filename().string(),
-                                           f.raw ? "raw EMG, and more of the movements have envelopes;"
-                                                 : "envelopes of EMG, and the study takes raw EMG;"));
+        note(RemarkCode::reading, fmt::format("{}: {} not used", f.path.filename().string(),
+                                              f.raw ? "raw EMG, and more of the movements have envelopes;"
+                                                    : "envelopes of EMG, and the study takes raw EMG;"));
     }
   }
 
@@ -434,13 +443,9 @@ class Draft {
     line("");
     line("[identify]");
     line("method = [\"paper\", \"torque\"]");
-    for (const std::string& file : person_.left_out) draft_.notes.push_back(file + ": left out, of another person");
-    if (!draft_.notes.empty()) {
-      line("");
-      for (const std::string& note : draft_.notes) {
-        line("# " + in_remark(note));
-      }
-    }
+    for (const std::string& file : person_.left_out) note(RemarkCode::reading, file + ": left out, of another person");
+    if (!draft_.remarks.empty()) line("");
+    for (const Remark& remark : draft_.remarks) line("# " + in_remark(remark.says));
   }
 
   fs::path folder_;

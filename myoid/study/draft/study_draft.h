@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "myoid/ground/core/remark.h"
+
 namespace myoid::study {
 
 struct DraftOptions {
@@ -16,8 +18,8 @@ struct DraftOptions {
 /// A study.toml to start from.
 struct StudyDraft {
   std::string toml;
-  std::vector<std::string> todo;   ///< The questions of its TODO lines.
-  std::vector<std::string> notes;  ///< On files, among them unreadable ones.
+  std::vector<std::string> todo;  ///< The questions of its TODO lines.
+  std::vector<Remark> remarks;    ///< On files, among them unreadable ones; each names its file.
 };
 
 /// Reads all recordings that are named or in the folders (with their folders, for BIDS), tells

@@ -73,7 +73,7 @@ TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {
   EXPECT_THAT(draft.todo, Contains(HasSubstr("have no electrode: BRA, BRD")));
   EXPECT_THAT(draft.todo, Contains(HasSubstr("2 kg")));
   EXPECT_THAT(draft.toml, HasSubstr("# Channels that no muscle about elbow_flexion takes: Soleus"));
-  EXPECT_THAT(draft.notes, Contains(HasSubstr("broken.trc")));
+  EXPECT_THAT(sentences(draft.remarks), Contains(HasSubstr("broken.trc")));
 }
 
 // A maximal contraction without EMG says nothing of the largest EMG, and study.toml refuses it.
@@ -122,8 +122,8 @@ TEST(StudyDraft, OfAWalkingTrialTheJointIsThatOfTheChannelsAndTheGroundReactionC
   std::vector<std::string> emg;
   for (const MuscleSpec& muscle : study.muscles) emg.push_back(muscle.emg);
   EXPECT_THAT(emg, ::testing::UnorderedElementsAre("GAS", "MH", "BF", "VL", "VM", "RF"));
-  EXPECT_THAT(draft.notes, ::testing::Not(Contains(HasSubstr("grf_walk"))));
-  EXPECT_THAT(draft.notes, Contains(HasSubstr("electromyography.sto: envelopes of EMG")));
+  EXPECT_THAT(sentences(draft.remarks), ::testing::Not(Contains(HasSubstr("grf_walk"))));
+  EXPECT_THAT(sentences(draft.remarks), Contains(HasSubstr("electromyography.sto: envelopes of EMG")));
 }
 
 TEST(StudyDraft, OfOnePersonsEnvelopesAndAnothersRawEmgTakesTheEnvelopes) {
@@ -144,11 +144,11 @@ TEST(StudyDraft, OfSeveralPersonsAsksForAStudyEachAndOfJointTorquesNamesTheirCom
              "time\telbow_flexion_moment\n0.0\t1.0\n0.1\t2.0\n");
   const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
   EXPECT_THAT(draft.todo, Contains(HasSubstr("subject_1, subject_2 in the names")));
-  EXPECT_THAT(draft.notes, Contains("subject_2_bend_angles.mot: left out, of another person"));
+  EXPECT_THAT(sentences(draft.remarks), Contains("subject_2_bend_angles.mot: left out, of another person"));
   const Study study = parse_study(draft.toml, folder / "study.toml");
   ASSERT_EQ(study.trials.size(), 1U);
   EXPECT_EQ(study.trials[0].emg->filename(), "subject_1_bend_emg.csv");
-  EXPECT_THAT(draft.notes, Contains(HasSubstr("id.sto: joint torques")));
+  EXPECT_THAT(sentences(draft.remarks), Contains(HasSubstr("id.sto: joint torques")));
 }
 
 /// A recording of markers of these names.
