@@ -25,6 +25,9 @@ using opensim::ProjectTrial;
 using opensim::TrialFile;
 using opensim::TrialRole;
 
+/// Passive force of a fiber by Thelen 2003 (J. Biomech. Eng. 125, 70), young adults: F_max at this strain.
+constexpr double kPassiveForce = 1.0, kPassiveStrain = 0.6, kPassiveShape = 4.0;
+
 bool acts(const ProjectDof& dof, const std::string& muscle) {
   return std::ranges::find(dof.muscles, muscle) != dof.muscles.end();
 }
@@ -75,6 +78,7 @@ class StudyMaker {
     }
     for (const Group& group : groups()) add_muscles(group);
     tie();
+    if (!study.model.file) add_passive_muscles();
     if (study.muscles.empty())
       throw InvalidInput(
           fmt::format("no muscle of {} has EMG: there is nothing to identify", fmt::join(joints_, ", ")));
@@ -149,6 +153,26 @@ class StudyMaker {
                                        .same_as = {},
                                        .start = starts_of(*muscle),
                                        .fixed = {}});
+  }
+
+  void set(const char* parameter, std::vector<std::string> owners, double value) {
+    fit::ParameterRule rule;
+    rule.parameter = parameter;
+    rule.owners = std::move(owners);
+    rule.value = value;
+    result_.study.parameters.push_back(std::move(rule));
+  }
+
+  /// Without a model gives the muscles the subject's pennation and the passive force of OpenSim's muscles.
+  void add_passive_muscles() {
+    for (const study::MuscleSpec& spec : result_.study.muscles) {
+      const ProjectMuscle* muscle = project_.find(spec.name);
+      const auto pennation = muscle->numbers.find(MuscleQuantity::pennation_angle);
+      if (pennation != muscle->numbers.end()) set("pennation_angle", {spec.name}, pennation->second.value);
+    }
+    set("passive_force", {}, kPassiveForce);
+    set("passive_strain", {}, kPassiveStrain);
+    set("passive_shape", {}, kPassiveShape);
   }
 
   /// Gives muscles of one electrode one scale of each parameter.
