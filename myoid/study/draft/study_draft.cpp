@@ -48,7 +48,8 @@ class Draft {
     const std::vector<fs::path> files = recordings_in(options_.from, beside);
     for (const fs::path& loads : beside.external_loads) loads_data_.insert(loads_data_file(loads).lexically_normal());
     for (const fs::path& results : beside.results)
-      note(RemarkCode::reading, fmt::format("{}: results of this program, no recordings; left out", relative(results)));
+      note(RemarkCode::refused, results,
+           fmt::format("{}: results of this program, no recordings; left out", relative(results)));
     choose_model(beside.models, files);
     for (const fs::path& file : files) read(file);
     if (std::ranges::any_of(options_.from, [](const fs::path& path) { return fs::is_directory(path); }))
@@ -84,8 +85,10 @@ class Draft {
   }
 
  private:
-  void note(RemarkCode code, std::string says) {
-    draft_.remarks.push_back({.code = code, .severity = Severity::note, .says = std::move(says)});
+  /// Adds a remark on a file.
+  void note(RemarkCode code, const fs::path& file, std::string says) {
+    draft_.remarks.push_back(
+        {.code = code, .severity = Severity::note, .where = file.filename().string(), .says = std::move(says)});
   }
 
   void line(const std::string& text) { out_.line(text); }
@@ -107,7 +110,7 @@ class Draft {
       const ModelByMarkers chosen = model_of_markers(models, files);
       if (chosen.markers > 0) {
         model_file_ = chosen.model;
-        note(RemarkCode::reading,
+        note(RemarkCode::reading, chosen.model,
              fmt::format("of {} models {} is taken: it knows {} of the recorded markers, more than "
                          "any other",
                          models.size(), relative(chosen.model), chosen.markers));
@@ -142,7 +145,7 @@ class Draft {
     constexpr const char* kTorques =
         "joint torques; a study takes measured ones as external_torque of a trial, and computes the others "
         "(`myoid identify --torques` reads them)";
-    note(RemarkCode::reading,
+    note(RemarkCode::refused, path,
          fmt::format("{}: {}", path.filename().string(),
                      torques ? kTorques : "no markers, no coordinate of the model, no EMG; not used"));
   }
@@ -172,7 +175,7 @@ class Draft {
       if (f.angles.empty() && !file.analog.empty() && format != FileFormat::bids_motion)
         find_emg(path, file.analog.series(), file.plates, f);
     } catch (const InvalidInput& error) {
-      note(RemarkCode::refused, fmt::format("not read: {}", error.what()));
+      note(RemarkCode::refused, path, fmt::format("not read: {}", error.what()));
       return;
     }
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
@@ -211,7 +214,7 @@ class Draft {
       file_up_ = recording::axis_name(*up.up_L);
       file_up_because_ = fmt::format("{}: {}", path.filename().string(), up.because);
     } catch (const InvalidInput& error) {
-      note(RemarkCode::refused, fmt::format("{}: {}", path.filename().string(), error.what()));
+      note(RemarkCode::refused, path, fmt::format("{}: {}", path.filename().string(), error.what()));
     }
   }
 
@@ -333,9 +336,10 @@ class Draft {
   void note_other_kind() {
     for (const FoundRecording& f : found_) {
       if (of_other_kind(f))
-        note(RemarkCode::reading, fmt::format("{}: {} not used", f.path.filename().string(),
-                                              f.raw ? "raw EMG, and more of the movements have envelopes;"
-                                                    : "envelopes of EMG, and the study takes raw EMG;"));
+        note(RemarkCode::emg_processing, f.path,
+             fmt::format("{}: {} not used", f.path.filename().string(),
+                         f.raw ? "raw EMG, and more of the movements have envelopes;"
+                               : "envelopes of EMG, and the study takes raw EMG;"));
     }
   }
 
@@ -443,7 +447,8 @@ class Draft {
     line("");
     line("[identify]");
     line("method = [\"paper\", \"torque\"]");
-    for (const std::string& file : person_.left_out) note(RemarkCode::reading, file + ": left out, of another person");
+    for (const std::string& file : person_.left_out)
+      note(RemarkCode::refused, file, file + ": left out, of another person");
     if (!draft_.remarks.empty()) line("");
     for (const Remark& remark : draft_.remarks) line("# " + in_remark(remark.says));
   }

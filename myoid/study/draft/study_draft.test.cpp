@@ -1,6 +1,8 @@
 #include "myoid/study/draft/study_draft.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -42,6 +44,12 @@ void write_trial(const std::filesystem::path& folder, const std::string& stem) {
   write_file(folder / (stem + "_emg.csv"), emg);
 }
 
+/// Returns the code of the draft's remark on this file; empty: there is none.
+std::optional<RemarkCode> code_of(const StudyDraft& draft, const std::string& file) {
+  const auto remark = std::ranges::find(draft.remarks, file, &Remark::where);
+  return remark == draft.remarks.end() ? std::nullopt : std::optional(remark->code);
+}
+
 TEST(StudyDraft, OffersTheBodyMassThatAFileStates) {
   const test::TemporaryFolder folder;
   recording::C3dFile file = test::plate_recording(2);
@@ -73,7 +81,7 @@ TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {
   EXPECT_THAT(draft.todo, Contains(HasSubstr("have no electrode: BRA, BRD")));
   EXPECT_THAT(draft.todo, Contains(HasSubstr("2 kg")));
   EXPECT_THAT(draft.toml, HasSubstr("# Channels that no muscle about elbow_flexion takes: Soleus"));
-  EXPECT_THAT(sentences(draft.remarks), Contains(HasSubstr("broken.trc")));
+  EXPECT_EQ(code_of(draft, "broken.trc"), RemarkCode::refused);
 }
 
 // A maximal contraction without EMG says nothing of the largest EMG, and study.toml refuses it.
@@ -122,8 +130,9 @@ TEST(StudyDraft, OfAWalkingTrialTheJointIsThatOfTheChannelsAndTheGroundReactionC
   std::vector<std::string> emg;
   for (const MuscleSpec& muscle : study.muscles) emg.push_back(muscle.emg);
   EXPECT_THAT(emg, ::testing::UnorderedElementsAre("GAS", "MH", "BF", "VL", "VM", "RF"));
-  EXPECT_THAT(sentences(draft.remarks), ::testing::Not(Contains(HasSubstr("grf_walk"))));
-  EXPECT_THAT(sentences(draft.remarks), Contains(HasSubstr("electromyography.sto: envelopes of EMG")));
+  EXPECT_EQ(code_of(draft, "grf_walk.mot"), std::nullopt);
+  EXPECT_EQ(code_of(draft, "grf_walk.xml"), std::nullopt);
+  EXPECT_EQ(code_of(draft, "electromyography.sto"), RemarkCode::emg_processing);
 }
 
 TEST(StudyDraft, OfOnePersonsEnvelopesAndAnothersRawEmgTakesTheEnvelopes) {
@@ -144,11 +153,11 @@ TEST(StudyDraft, OfSeveralPersonsAsksForAStudyEachAndOfJointTorquesNamesTheirCom
              "time\telbow_flexion_moment\n0.0\t1.0\n0.1\t2.0\n");
   const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
   EXPECT_THAT(draft.todo, Contains(HasSubstr("subject_1, subject_2 in the names")));
-  EXPECT_THAT(sentences(draft.remarks), Contains("subject_2_bend_angles.mot: left out, of another person"));
+  EXPECT_EQ(code_of(draft, "subject_2_bend_angles.mot"), RemarkCode::refused);
   const Study study = parse_study(draft.toml, folder / "study.toml");
   ASSERT_EQ(study.trials.size(), 1U);
   EXPECT_EQ(study.trials[0].emg->filename(), "subject_1_bend_emg.csv");
-  EXPECT_THAT(sentences(draft.remarks), Contains(HasSubstr("id.sto: joint torques")));
+  EXPECT_EQ(code_of(draft, "id.sto"), RemarkCode::refused);
 }
 
 /// A recording of markers of these names.
