@@ -67,7 +67,7 @@ set(MYOID_LAYER_results core math files muscle tables recording model kinematics
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model projects)
 set(MYOID_LAYER_identify_files core files muscle tables measurement study)
-set(MYOID_LAYER_review core files tables intervals page study intake projects identify_files run results)
+set(MYOID_LAYER_review core files tables measurement intervals page study intake projects identify_files run results)
 set(MYOID_LAYER_opensim core math files tables recording signals model osim kinematics
     dynamics forces simulation)
 set(MYOID_LAYER_projects core math files tables osim opensim)

@@ -88,17 +88,16 @@ std::vector<ParameterRule> nuisance_rules(const StudyData& data, bool exponents)
 }
 
 bool tells_nuisances(const StudyData& data, const EstimatorOptions& options) {
-  constexpr double kRowsAnUnknown = 1.5, kRow_s = 0.22;
-  StudyData held = data;
-  hold_nuisances(held);
   double rows = 0.0;
   for (const TrialData& trial : data.trials) {
     if (!trial.calibration) continue;
     const double all = (trial.time_s[trial.time_s.size() - 1] - trial.time_s[0]) / kRow_s;
-    const double most = options.unseen.independent_rows;
-    rows += static_cast<double>(joint_count(trial)) * (most > 0.0 ? std::min(most, all) : all);
+    const double most = options.unseen.independent_rows > 0.0 ? options.unseen.independent_rows : all;
+    rows += static_cast<double>(joint_count(trial)) * std::min(most, all);
   }
-  return rows >= kRowsAnUnknown * static_cast<double>(ParameterMap(held, options).size());
+  StudyData held = data;
+  hold_nuisances(held);
+  return rows >= 1.5 * static_cast<double>(ParameterMap(held, options).size());
 }
 
 void hold_nuisances(StudyData& data, std::string_view but) {

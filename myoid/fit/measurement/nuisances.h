@@ -22,10 +22,11 @@ namespace myoid::fit {
 /// the elbow 1 N m, 1 N m/rad and 0.2 N m s/rad, the size of a relaxed joint's own torque (muscle::elbow_passive).
 [[nodiscard]] std::vector<ParameterRule> nuisance_rules(const StudyData& data, bool exponents);
 
+inline constexpr double kRow_s = 0.22;  ///< Seconds of movement that count as one row of torque, at least.
+
 /// Returns true if the calibration trials hold at least 1.5 independent rows of torque for each unknown of `data`
-/// beside the nuisances. Rows are those of the posterior: UnseenSpreads::independent_rows of a trial and joint, and at
-/// most one per 0.22 s. From fewer rows a fit gives the nuisances the errors of one movement: from five seconds of one
-/// walk, 0.6 rows an unknown, it predicts another speed with an R2 of 0.42 in place of 0.77.
+/// beside the nuisances: UnseenSpreads::independent_rows of a trial and joint, and at most one per `kRow_s`. From fewer
+/// rows a fit gives the nuisances the errors of one movement.
 [[nodiscard]] bool tells_nuisances(const StudyData& data, const EstimatorOptions& options);
 
 /// Removes the rules of the nuisances, but for those of one parameter. Rules that the study or the user gives stay, and

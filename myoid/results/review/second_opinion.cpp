@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "myoid/fit/measurement/nuisances.h"
 #include "myoid/opensim/projects/ceinms_law.h"
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/results/review/project_study.h"
@@ -21,9 +22,6 @@ using opensim::ProjectDof;
 using opensim::ProjectMuscle;
 using opensim::ProjectNumber;
 using opensim::ProjectTrial;
-
-/// Seconds of movement that count as one sample (theory/identification.md).
-constexpr double kRow_s = 0.22;
 
 const ProjectNumber* number_of(const ProjectMuscle& muscle, MuscleQuantity quantity) {
   const auto at = muscle.numbers.find(quantity);
@@ -271,7 +269,8 @@ SecondOpinion second_opinion(Project project, std::vector<std::string> joints, r
     opinion.unknowns += count.all;
     opinion.on_bound += count.on_bound;
   }
-  opinion.independent_rows = calibrated_seconds(opinion.project) / kRow_s * static_cast<double>(opinion.joints.size());
+  opinion.independent_rows =
+      calibrated_seconds(opinion.project) / fit::kRow_s * static_cast<double>(opinion.joints.size());
   return opinion;
 }
 

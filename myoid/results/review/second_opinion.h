@@ -16,7 +16,7 @@
 
 namespace myoid::results {
 
-/// How a number of a calibration stands to the recording.
+/// The relation of a calibration's number to the recording.
 enum class Standing {
   agrees,   ///< It lies within the interval that the recording leaves.
   differs,  ///< It lies outside.
