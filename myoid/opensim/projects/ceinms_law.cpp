@@ -109,8 +109,8 @@ class Law {
       : active_(*curve_of(project, "activeForceLength")),
         passive_(*curve_of(project, "passiveForceLength")),
         velocity_(*curve_of(project, "forceVelocity")),
-        damping_(project.damping.value_or(0.0)),
-        lengthening_(project.percentage_change.value_or(0.0)),
+        damping_(project.common.damping.value_or(0.0)),
+        lengthening_(project.common.percentage_change.value_or(0.0)),
         is_rt_(project.dialect == Dialect::ceinms_rt) {
     if (is_elastic(project)) tendon_.emplace(*curve_of(project, "tendonForceStrain"));
   }
@@ -225,7 +225,7 @@ LawForces forces_by_law(const Project& project,
   for (std::size_t i = 0; i < muscles.size(); ++i) {
     const ProjectMuscle* muscle = project.find(muscles[i]);
     if (muscle == nullptr) throw InvalidInput(fmt::format("the subject has no muscle '{}'", muscles[i]));
-    const MuscleNumbers n = numbers_of(*muscle, project.delay_s.value_or(0.0));
+    const MuscleNumbers n = numbers_of(*muscle, project.common.delay_s.value_or(0.0));
     const auto column = static_cast<Index>(i);
     activation.col(column).setZero();
     if (!muscle->inputs.empty()) {

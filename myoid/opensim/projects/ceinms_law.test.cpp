@@ -15,7 +15,7 @@ using Quantity = MuscleQuantity;
 
 /// One muscle with one channel. The curves are straight lines, through which a natural spline is the line itself.
 Project project(Dialect dialect = Dialect::ceinms) {
-  Project p{.dialect = dialect, .tendon = "stiff", .damping = 0.1, .percentage_change = 0.15};
+  Project p{.dialect = dialect, .tendon = "stiff", .common = {.damping = 0.1, .percentage_change = 0.15}};
   p.curves = {{"activeForceLength", {0.0, 1.0, 2.0}, {0.2, 0.7, 1.2}},
               {"passiveForceLength", {0.0, 2.0}, {0.0, 0.4}},
               {"forceVelocity", {-1.0, 0.0, 1.0}, {0.0, 1.0, 2.0}},
@@ -76,7 +76,7 @@ TEST(CeinmsLaw, SpeedAndDampingActAtAConstantSpeed) {
 
 TEST(CeinmsLaw, FiltersTheExcitationAtTheSamplesOfTheEmgAndDelaysIt) {
   Project p = project();
-  p.delay_s = 0.02;
+  p.common.delay_s = 0.02;
   p.muscles[0].numbers[Quantity::shape_factor].value = 0.0;
   VectorXd step = VectorXd::Zero(500);
   step.tail(400).setOnes();  // at 0.1 s

@@ -114,7 +114,7 @@ TEST(CeinmsProject, IsReadWithItsBoundsFromAFolder) {
   EXPECT_TRUE(project.is_calibrated);
   EXPECT_EQ(project.tendon, "equilibriumElastic");
   EXPECT_EQ(project.activation, "exponential");
-  EXPECT_EQ(project.delay_s, 0.015);
+  EXPECT_EQ(project.common.delay_s, 0.015);
   ASSERT_EQ(project.curves.size(), 1U);
   EXPECT_THAT(project.curves[0].x, ElementsAre(0.0, 1.0, 2.0));
   // c:\lab\models\scaled.osim stands for the file of that name beside the subject.

@@ -214,7 +214,7 @@ class CeinmsRtReader {
   void read_calibration(const OsimXml& xml, pugi::xml_node root) {
     const pugi::xml_node calibration = root.child("calibration");
     project_.objective = xml.word(calibration, "objectiveFunction");
-    if (const auto delay = finite_number(xml, calibration, "EMD")) project_.delay_s = delay;
+    if (const auto delay = finite_number(xml, calibration, "EMD")) project_.common.delay_s = delay;
     std::vector<std::string> dofs;
     for (const pugi::xml_node node : calibration.child("dofToCalibrate").children("dofs")) {
       const std::string text = OsimXml::text_of(node);

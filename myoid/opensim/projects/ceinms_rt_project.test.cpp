@@ -140,7 +140,7 @@ TEST(CeinmsRtProject, FollowsACalibrationWhosePathsAreOfAnotherFolder) {
       "<outputSubjectXMLName>ONE_calibrated.xml</outputSubjectXMLName></calibration></simulatedAnnealing>");
   const Project project = read_project(folder.path()).value();
   EXPECT_EQ(project.subject.filename(), "one_calibrated.xml");
-  EXPECT_EQ(project.delay_s, 0.1);
+  EXPECT_EQ(project.common.delay_s, 0.1);
   // The objective varies each shape, C1, C2 and slack, and one strength for all that start at 1.0.
   EXPECT_EQ(unknowns(project, Quantity::c1).all, 3U);
   EXPECT_EQ(unknowns(project, Quantity::shape_factor).on_bound, 3U);

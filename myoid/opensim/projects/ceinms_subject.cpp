@@ -150,9 +150,9 @@ CeinmsSubject read_ceinms_subject(const std::filesystem::path& path) {
   const SubjectWords& words = subject_words(root.child("muscles") ? Dialect::ceinms_rt : Dialect::ceinms);
   CeinmsSubject subject{.path = path, .dialect = words.dialect};
   const pugi::xml_node defaults = root.child(words.defaults);
-  subject.delay_s = finite_number(xml, defaults, "emDelay");
-  subject.damping = finite_number(xml, defaults, "damping");
-  subject.percentage_change = finite_number(xml, defaults, "percentageChange");
+  subject.common.delay_s = finite_number(xml, defaults, "emDelay");
+  subject.common.damping = finite_number(xml, defaults, "damping");
+  subject.common.percentage_change = finite_number(xml, defaults, "percentageChange");
   for (const pugi::xml_node node : defaults.children(words.curve)) subject.curves.push_back(read_curve(xml, node));
   std::set<std::string> names;
   constexpr std::size_t kMostMuscles = 5000;
@@ -160,7 +160,8 @@ CeinmsSubject read_ceinms_subject(const std::filesystem::path& path) {
     ProjectMuscle muscle = read_muscle(xml, node, words);
     if (!names.insert(muscle.name).second) xml.fail(node, "two muscles have the name '{}'", muscle.name);
     if (names.size() > kMostMuscles) xml.fail(node, "more than {} muscles", kMostMuscles);
-    if (subject.delay_s) muscle.numbers.try_emplace(Quantity::delay, ProjectNumber{.value = *subject.delay_s});
+    if (subject.common.delay_s)
+      muscle.numbers.try_emplace(Quantity::delay, ProjectNumber{.value = *subject.common.delay_s});
     subject.muscles.push_back(std::move(muscle));
   }
   if (subject.muscles.empty()) xml.fail(root, "<{}> with a <{}> expected, found none", words.muscles, words.muscle);
@@ -185,9 +186,7 @@ Project project_of(CeinmsSubject subject) {
   Project project{.dialect = subject.dialect,
                   .subject = subject.path,
                   .is_calibrated = subject.says_calibrated,
-                  .delay_s = subject.delay_s,
-                  .damping = subject.damping,
-                  .percentage_change = subject.percentage_change,
+                  .common = subject.common,
                   .curves = std::move(subject.curves),
                   .muscles = std::move(subject.muscles),
                   .dofs = std::move(subject.dofs),

@@ -17,7 +17,7 @@ struct CeinmsSubject {
   Dialect dialect = Dialect::ceinms;
   bool says_calibrated = false;                  ///< <calibrationInfo> says so; CEINMS-RT has none.
   std::string start_file = {}, model_file = {};  ///< As the file names them; empty: not named.
-  std::optional<double> delay_s = {}, damping = {}, percentage_change = {};
+  CommonNumbers common = {};
   std::vector<ProjectCurve> curves = {};
   std::vector<ProjectMuscle> muscles = {};  ///< With values alone; in CEINMS-RT with inputs.
   std::vector<ProjectDof> dofs = {};

@@ -129,6 +129,14 @@ struct HybridWeights {
   bool operator==(const HybridWeights&) const = default;
 };
 
+/// Numbers that all muscles of a subject share.
+struct CommonNumbers {
+  std::optional<double> delay_s = {};            ///< From EMG to force.
+  std::optional<double> damping = {};            ///< Force over F_max at the maximal speed.
+  std::optional<double> percentage_change = {};  ///< Of the optimal length from full to no activation.
+  bool operator==(const CommonNumbers&) const = default;
+};
+
 /// A calibration of another program as values, in SI.
 struct Project {
   Dialect dialect = Dialect::ceinms;
@@ -141,7 +149,7 @@ struct Project {
   std::string tendon = {}, activation = {}, objective = {};  ///< As the program names them.
   std::optional<HybridWeights> hybrid = {};                  ///< Of the first hybrid run.
   std::vector<std::string> synthesized = {};                 ///< Muscles whose excitation a hybrid run makes up.
-  std::optional<double> delay_s = {}, damping = {}, percentage_change = {};
+  CommonNumbers common = {};
   std::vector<ProjectCurve> curves = {};
   std::vector<ProjectMuscle> muscles = {};
   std::vector<ProjectDof> dofs = {};

@@ -21,9 +21,9 @@ void append_number(pugi::xml_node parent, const char* name, double value) {
 
 void append_defaults(pugi::xml_node subject, const SubjectWords& words, const Project& project) {
   pugi::xml_node defaults = subject.append_child(words.defaults);
-  if (words.dialect == Dialect::ceinms) append_number(defaults, "emDelay", project.delay_s.value_or(0.0));
-  append_number(defaults, "percentageChange", project.percentage_change.value_or(0.0));
-  append_number(defaults, "damping", project.damping.value_or(0.0));
+  if (words.dialect == Dialect::ceinms) append_number(defaults, "emDelay", project.common.delay_s.value_or(0.0));
+  append_number(defaults, "percentageChange", project.common.percentage_change.value_or(0.0));
+  append_number(defaults, "damping", project.common.damping.value_or(0.0));
   for (const ProjectCurve& curve : project.curves) {
     pugi::xml_node node = defaults.append_child(words.curve);
     append_text(node, "name", curve.name);
@@ -42,7 +42,7 @@ void append_muscle(pugi::xml_node parent,
     const auto own = muscle.numbers.find(word.quantity);
     if (own == muscle.numbers.end()) continue;
     double value = own->second.value;
-    if (word.quantity == MuscleQuantity::delay && value == project.delay_s) continue;
+    if (word.quantity == MuscleQuantity::delay && value == project.common.delay_s) continue;
     if (word.quantity == MuscleQuantity::pennation_angle) value /= words.angle_unit;
     append_number(node, word.element, value);
   }

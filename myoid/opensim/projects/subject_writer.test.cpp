@@ -28,9 +28,7 @@ Project every_number(Dialect dialect) {
                   .start = "before.xml",
                   .model = "../models/a & b.osim",
                   .is_calibrated = true,
-                  .delay_s = 0.1 / 3.0,
-                  .damping = 0.1 / 7.0,
-                  .percentage_change = 0.1 / 9.0,
+                  .common = {.delay_s = 0.1 / 3.0, .damping = 0.1 / 7.0, .percentage_change = 0.1 / 9.0},
                   .curves = {{"activeForceLength", {0.0, 1.0 / 3.0, 2.0}, {0.0, 1.0 / 7.0, 1e-17}}},
                   .dofs = {{"knee_angle_r", {"vas_r", "bf_r"}, true}, {"hip_flexion_r", {}, true}},
                   .has_mapping = true};
@@ -57,8 +55,8 @@ TEST(SubjectWriter, IsReadBackWithTheSameValuesInBothDialects) {
     const CeinmsSubject read = written(folder, project);
     EXPECT_EQ(read.dialect, dialect);
     EXPECT_THAT(read.remarks, testing::IsEmpty());
-    EXPECT_EQ(read.damping, project.damping);
-    EXPECT_EQ(read.percentage_change, project.percentage_change);
+    EXPECT_EQ(read.common.damping, project.common.damping);
+    EXPECT_EQ(read.common.percentage_change, project.common.percentage_change);
     ASSERT_EQ(read.curves.size(), 1U);
     EXPECT_EQ(read.curves[0].x, project.curves[0].x);
     EXPECT_EQ(read.curves[0].y, project.curves[0].y);
@@ -81,7 +79,7 @@ TEST(SubjectWriter, SaysWhetherTheSubjectIsCalibrated) {
   EXPECT_TRUE(read.says_calibrated);
   EXPECT_EQ(read.start_file, "before.xml");
   EXPECT_EQ(read.model_file, "../models/a & b.osim");
-  EXPECT_EQ(read.delay_s, project.delay_s);
+  EXPECT_EQ(read.common.delay_s, project.common.delay_s);
   project.is_calibrated = false;
   read = written(folder, project);
   EXPECT_FALSE(read.says_calibrated);
@@ -93,7 +91,7 @@ TEST(SubjectWriter, SaysWhetherTheSubjectIsCalibrated) {
 TEST(SubjectWriter, GivesAMuscleItsOwnDelayWhereItDiffers) {
   const test::TemporaryFolder folder;
   Project project = every_number(Dialect::ceinms);
-  project.muscles[0].numbers[Quantity::delay].value = *project.delay_s;
+  project.muscles[0].numbers[Quantity::delay].value = *project.common.delay_s;
   (void)written(folder, project);
   const body::OsimXml xml = read_document(folder / "s.xml");
   const pugi::xml_node first = xml.root().child("subject").child("mtuSet").child("mtu");

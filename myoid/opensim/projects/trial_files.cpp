@@ -51,7 +51,7 @@ void add_muscles(const Project& project, const TimeSeries& arms, ProjectDof& dof
 
 /// Remarks on EMG below 0, which no envelope is.
 template <typename Remark>
-void note_negative_emg(const TimeSeries& emg, const Remark& remark) {
+void note_negative_emg(const TimeSeries& emg, const std::filesystem::path& path, const Remark& remark) {
   double least = 0.0;
   std::string channel;
   for (Eigen::Index k = 0; k < emg.channel_count(); ++k) {
@@ -63,7 +63,8 @@ void note_negative_emg(const TimeSeries& emg, const Remark& remark) {
   }
   if (least < 0.0)
     remark(RemarkCode::emg_envelope, Severity::warning,
-           fmt::format("the EMG is below 0 (least {:.3g} in '{}'), which no envelope is", least, channel));
+           fmt::format("{}: the EMG is below 0 (least {:.3g} in '{}'), which no envelope is", path.string(), least,
+                       channel));
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ void read_trial_tables(Project& project) {
           remark(RemarkCode::reading, Severity::warning,
                  fmt::format("{}: {}{}", file.path.string(), table.repairs.front().message,
                              table.repairs.size() > 1 ? fmt::format(", and {} more", table.repairs.size() - 1) : ""));
-        if (file.role == TrialRole::emg) note_negative_emg(table.data, remark);
+        if (file.role == TrialRole::emg) note_negative_emg(table.data, file.path, remark);
         if (file.role == TrialRole::moment_arms && open.contains(file.dof))
           for (ProjectDof& dof : project.dofs)
             if (dof.name == file.dof) add_muscles(project, table.data, dof);
@@ -102,7 +103,7 @@ void read_trial_tables(Project& project) {
       }
       if (!counts_from_1970 && file.time && file.time->begin_s > kYear_s) {
         counts_from_1970 = true;
-        remark(RemarkCode::reading, Severity::note, "the time counts from 1970");
+        remark(RemarkCode::reading, Severity::note, fmt::format("{}: the time counts from 1970", file.path.string()));
       }
     }
   }

@@ -32,9 +32,9 @@ void tell_files(const Project& project, ordered_json& j) {
 void tell_law(const Project& project, ordered_json& j) {
   if (!project.tendon.empty()) j["tendon"] = project.tendon;
   if (!project.activation.empty()) j["activation"] = project.activation;
-  if (project.delay_s) j["delay_s"] = *project.delay_s;
-  if (project.damping) j["damping"] = *project.damping;
-  if (project.percentage_change) j["percentage_change"] = *project.percentage_change;
+  if (project.common.delay_s) j["delay_s"] = *project.common.delay_s;
+  if (project.common.damping) j["damping"] = *project.common.damping;
+  if (project.common.percentage_change) j["percentage_change"] = *project.common.percentage_change;
   if (project.hybrid)
     j["hybrid"] = {
         {"alpha", project.hybrid->torque}, {"beta", project.hybrid->excitation_sum}, {"gamma", project.hybrid->emg}};

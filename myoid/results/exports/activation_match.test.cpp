@@ -46,7 +46,7 @@ TEST(CeinmsActivation, HasTheRootsOfTheLagsAtTheRateOfTheSamples) {
   EXPECT_NEAR(own.c1, -std::exp(-0.005 / 0.04), 1e-15);
   EXPECT_NEAR(own.c2, -std::exp(-0.005 / (0.5 * (0.015 + 0.05))), 1e-15);
   EXPECT_EQ(own.delay_s, 0.05);
-  // Of a shared delay of 82.5 ms a part of 10 ms is no lag.
+  // A shared delay of 82.5 ms has a part of 10 ms that is no lag.
   fit::ChannelValues whole = channel(1.0, 0.0, 1.0);
   whole[fit::kDelay] = 0.0825;
   const CeinmsActivation shared = ceinms_activation(whole, fit::EmgLag::shared, levels(), 200.0);

@@ -101,6 +101,14 @@ std::vector<opensim::ProjectCurve> curves(const MuscleValues& unit, double speed
   return tables;
 }
 
+/// Returns "BIC 5.9 (trial lift, 1.25 s)"; of a muscle that never differs "BIC 0".
+std::string percent_text(const LawDifference& difference) {
+  const double percent = 100.0 * difference.of_max_force;
+  std::string text = fmt::format("{} {:.{}f}", difference.muscle, percent, percent < 10.0 && percent > 0.0 ? 1 : 0);
+  if (!difference.trial.empty()) text += fmt::format(" (trial {}, {:.2f} s)", difference.trial, difference.time_s);
+  return text;
+}
+
 class Exporter {
  public:
   Exporter(const run::StudyResult& result, const fit::IdentificationResult& fit, ExportFormat format)
@@ -238,9 +246,9 @@ class Exporter {
     const bool is_elastic = unit[fit::kTendonStrain] > 0.0 && is(ExportFormat::ceinms);
     const double speed = is(ExportFormat::ceinms_rt) ? unit[fit::kSpeed] / kRtSpeed : 1.0;
     project.curves = curves(unit, speed, is_elastic);
-    project.percentage_change = unit[fit::kLengthActivation];
-    project.damping = 0.0;
-    if (is(ExportFormat::ceinms)) project.delay_s = theirs_.front().ceinms.delay_s;
+    project.common.percentage_change = unit[fit::kLengthActivation];
+    project.common.damping = 0.0;
+    if (is(ExportFormat::ceinms)) project.common.delay_s = theirs_.front().ceinms.delay_s;
     project.tendon = is_elastic ? "equilibriumElastic" : "stiff";
     project.activation = "exponential";
   }
@@ -379,8 +387,7 @@ class Exporter {
     std::string text =
         "its law differs from ours; greatest difference of force over the recorded samples, in % of F_max:";
     for (std::size_t k = 0; k < std::min(sorted.size(), kNamed); ++k)
-      text += fmt::format("{} {} {:.2g} (trial {}, {:.2f} s)", k == 0 ? "" : ",", sorted[k].muscle,
-                          100.0 * sorted[k].of_max_force, sorted[k].trial, sorted[k].time_s);
+      text += (k == 0 ? " " : ", ") + percent_text(sorted[k]);
     if (sorted.size() > kNamed) text += fmt::format(" and less in {} more", sorted.size() - kNamed);
     const std::string causes = shared_causes();
     if (!causes.empty()) text += fmt::format("; all muscles share {}", causes);

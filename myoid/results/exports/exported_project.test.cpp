@@ -77,9 +77,9 @@ void expect_same(const Project& read, const Project& written) {
     EXPECT_EQ(read.curves[c].x, written.curves[c].x);
     EXPECT_EQ(read.curves[c].y, written.curves[c].y);
   }
-  EXPECT_EQ(read.delay_s, written.delay_s);
-  EXPECT_EQ(read.percentage_change, written.percentage_change);
-  EXPECT_EQ(read.damping, written.damping);
+  EXPECT_EQ(read.common.delay_s, written.common.delay_s);
+  EXPECT_EQ(read.common.percentage_change, written.common.percentage_change);
+  EXPECT_EQ(read.common.damping, written.common.damping);
 }
 
 const ProjectMuscle& muscle_of(const ExportedProject& exported, std::size_t m) { return exported.project->muscles[m]; }
@@ -179,7 +179,7 @@ double greatest_difference(const run::StudyResult& result, const Project& subjec
       const double u = envelope.at(trial.time_s[k] - delay_s).value;
       const double a = (std::exp(shape * u) - 1.0) / (std::exp(shape) - 1.0);
       const double l = trial.length_m(k, muscle) - number(MuscleQuantity::tendon_slack_length);
-      const double shift = 1.0 + *subject.percentage_change * (1.0 - a);
+      const double shift = 1.0 + *subject.common.percentage_change * (1.0 - a);
       const double theirs = force * (a * interpolated(subject.curves[0], l / (l0 * shift)) *
                                          interpolated(subject.curves[2], trial.velocity_mps(k, muscle) / (l0 * speed)) +
                                      interpolated(subject.curves[1], l / l0));
