@@ -439,7 +439,7 @@ class NothingIsLost : public testing::Test {
   static void make_inputs(const Recipe& recipe, const fs::path& D) {
     fs::copy(*scene_ / "in", D / "in", fs::copy_options::recursive);
     if (recipe.needs_runs) fs::copy(*scene_ / "runs", D / "in", fs::copy_options::recursive);
-    // By itself: `init --from in` would take it for the study.
+    // The project is there for `review` alone, because `init --from in` takes it for the study.
     if (recipe.command == "review") fs::copy(*scene_ / "project", D / "in/project", fs::copy_options::recursive);
     write_text(D / "notes.txt", "of a person");
   }

@@ -32,7 +32,7 @@ struct ConvertResult {
   std::vector<Remark> remarks;
 };
 
-/// What a conversion makes.
+/// The kind of result of a conversion.
 enum class Conversion {
   recording,    ///< A recording or table in another format, or a folder with everything in it.
   derivative,   ///< A BIDS derivative, which is a folder, of the folder of a run.

@@ -23,7 +23,7 @@ ProjectOfStudy project_of_study(const std::string& path,
   std::optional<opensim::Project> project = opensim::read_project(path);
   if (!project)
     throw InvalidInput(
-        fmt::format("{}: expected the folder, a set-up or a subject of CEINMS, CEINMS-RT or NMSM, found "
+        fmt::format("{}: expected a project of CEINMS, CEINMS-RT, NMSM or the muscle redundancy solver, found "
                     "none",
                     path));
   for (const Remark& remark : project->remarks) remarks.add(remark);
