@@ -15,8 +15,8 @@ of its own, damages one of them, runs the program, and asks:
              numbers that no body has, of commands that compute; results that are not those on the list of their folder.
 
 Ends with 1 if any answer is yes, and prints the damage and the command of each. A run depends on its number alone:
-`--seed K` begins with K * 10000000, `--replay NUMBER` repeats one. Commands that take long come less often, so that the
-cheap ones have half of the time.
+`--seed K` begins with K * 10000000, `--replay NUMBER` repeats one (with the same --only and --expensive). Commands that
+take long come less often: they have the share `--expensive` of the time.
 """
 
 import argparse
@@ -188,7 +188,7 @@ class Tally:
 def campaign(program, seeds, cases, options):
     """Runs the damaged cases; returns the tally."""
     tally, end = Tally(options.verbose), time.monotonic() + options.seconds
-    shares = campaign_cases.weights(cases)
+    shares = campaign_cases.weights(cases, options.expensive)
 
     def work(number):
         if time.monotonic() > end:
@@ -219,6 +219,7 @@ def main():
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="programs at a time (one a core)")
     parser.add_argument("--timeout", type=int, default=120, help="seconds of processor time of a run (120)")
     parser.add_argument("--only", default="", help="a part of the name of the cases to run")
+    parser.add_argument("--expensive", type=float, default=0.5, help="share of the time of long commands (0.5)")
     parser.add_argument("--replay", type=int, metavar="NUMBER", help="this run alone; --only as it was")
     parser.add_argument("--undamaged", action="store_true", help="every case once without damage, with its time")
     parser.add_argument("--verbose", action="store_true", help="a line for each run")

@@ -196,10 +196,11 @@ def group_of(case):
     return " ".join(case.group.split()[:2])
 
 
-def weights(cases):
+def weights(cases, expensive=0.5):
     """Returns the share of the runs of each case.
 
-    Cheap groups together take half of the time, expensive ones the other half; groups of a kind take the same time.
+    Expensive groups together take the share `expensive` of the time, cheap ones the rest; groups of a kind take the
+    same time.
     Within a group small files come more often. Files of the shared recordings count as one group for each command, in
     which the kinds of files are equal.
     """
@@ -215,6 +216,6 @@ def weights(cases):
     result = []
     for c in cases:
         name = group_of(c)
-        peers = len(cheap) if name in cheap else len(names) - len(cheap)
-        result.append(0.5 / peers / cost(name) / kinds[name] / (1.0 + c.size / 50_000) / within[c.group])
+        time = (1.0 - expensive) / len(cheap) if name in cheap else expensive / (len(names) - len(cheap))
+        result.append(time / cost(name) / kinds[name] / (1.0 + c.size / 50_000) / within[c.group])
     return result
