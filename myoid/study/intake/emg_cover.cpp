@@ -68,10 +68,13 @@ std::optional<double> whole_factor(double ratio, double tolerance) {
 std::optional<Cover> check_cover(const std::filesystem::path& file,
                                  std::string_view recorded,
                                  const Eigen::VectorXd& time_s,
+                                 const TrialSpec& trial,
                                  const TrialInput& input) {
   const Eigen::VectorXd* motion_s = motion_clock(input);
   if (motion_s == nullptr) return std::nullopt;
-  const double begin_s = (*motion_s)[0], end_s = (*motion_s)[motion_s->size() - 1];
+  // A motion beside given lengths is whole here.
+  const double begin_s = std::max((*motion_s)[0], trial.start_s.value_or(-1e300));
+  const double end_s = std::min((*motion_s)[motion_s->size() - 1], trial.end_s.value_or(1e300));
   const double first_s = time_s[0], last_s = time_s[time_s.size() - 1];
   const Cover both{.begin_s = std::max(first_s, begin_s), .end_s = std::min(last_s, end_s), .lacks = {}};
   const double overlap = both.end_s - both.begin_s;

@@ -20,12 +20,13 @@ struct Cover {
   std::string lacks;
   bool as_long = false;  ///< The file lasts as long as the motion: it begins apart.
 };
-/// Returns the covered part if more than 0.1 s of the motion in `input` lies outside the clock of a
-/// file with `recorded` ("EMG", "torque"). Throws ReadError if the trial is shorter than half a
-/// second, or the file covers less than half of it.
+/// Returns the covered part if more than 0.1 s of the trial's part of the motion in `input` lies outside the clock of a
+/// file with `recorded` ("EMG", "torque"). Throws ReadError if the trial is shorter than half a second, or the file
+/// covers less than half of it.
 [[nodiscard]] std::optional<Cover> check_cover(const std::filesystem::path& file,
                                                std::string_view recorded,
                                                const Eigen::VectorXd& time_s,
+                                               const TrialSpec& trial,
                                                const TrialInput& input);
 
 /// Rows [first, last] of a motion's clock with EMG, or up to half a sample of the motion beyond the

@@ -48,11 +48,12 @@ TEST(LengthsOf, AreNotOfClocksThatWereMatchedNorOfARecordingThatBeganLater) {
 }
 
 TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
+  TrialSpec trial;
   const auto check = [&](double motion_to_s, double emg_from_s, double emg_to_s) {
     TrialInput input;
     input.motion = TimeSeries(Eigen::VectorXd::LinSpaced(50, 0.0, motion_to_s), {{"elbow_flexion", Unit::radian}},
                               Eigen::MatrixXd::Zero(50, 1));
-    return check_cover("e.sto", "EMG", Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), input);
+    return check_cover("e.sto", "EMG", Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), trial, input);
   };
   EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("0.5 s"), std::string::npos);
   EXPECT_FALSE(check(0.6, 0.0, 0.6));
@@ -67,6 +68,11 @@ TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
   EXPECT_FALSE(cover->as_long);
   EXPECT_TRUE(check(10.0, 0.3, 10.3)->as_long);
   EXPECT_FALSE(check(10.0, 0.05, 10.0));
+  // Only the trial's part of the motion counts.
+  trial.start_s = 1.0;
+  trial.end_s = 3.0;
+  EXPECT_FALSE(check(10.0, 0.5, 3.0));
+  EXPECT_EQ(check(10.0, 0.5, 2.5)->end_s, 2.5);
 }
 
 TEST(UnlikeLengths, EmgExactlyTwiceAsLongIsAnErrorThatNamesBothRates) {

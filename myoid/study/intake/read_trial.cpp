@@ -126,10 +126,10 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
 std::optional<Cover> cover_by_files(const TrialSpec& trial, const TrialInput& input) {
   if (trial.external_loads) {
     const Eigen::Vector2d clock(input.loads->start_s, input.loads->end_s);
-    if (auto cover = check_cover(*trial.external_loads, "force", clock, input)) return cover;
+    if (auto cover = check_cover(*trial.external_loads, "force", clock, trial, input)) return cover;
   }
   if (!trial.external_torque) return std::nullopt;
-  return check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), input);
+  return check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), trial, input);
 }
 
 /// Warns if the study's start_s or end_s lies outside of the recording: a file that was cut off ends early.

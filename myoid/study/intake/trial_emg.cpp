@@ -235,7 +235,7 @@ TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Reme
   if (emg.sample_count() < kLeastOfATrial) throw ReadError(*trial.emg, 0, few_samples(trial, emg));
   if (std::string pauses = check_clock(*trial.emg, emg.time_s()); !pauses.empty())
     warn(input, RemarkCode::clock_pause, std::move(pauses));
-  if (const auto cover = check_cover(*trial.emg, "EMG", emg.time_s(), input))
+  if (const auto cover = check_cover(*trial.emg, "EMG", emg.time_s(), trial, input))
     warn(input, RemarkCode::emg_cover,
          fmt::format("{}: those seconds are not fitted. If both were recorded together, {}; else start_s and end_s "
                      "leave the rest out",
