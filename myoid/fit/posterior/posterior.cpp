@@ -30,6 +30,7 @@ constexpr Eigen::Index kKeptDraws = 1000;  // written draws
 constexpr Eigen::Index kGivenDraws = 1000;
 constexpr double kPriorReach = 1.96;  // standard deviations to either side hold 95 % of a prior
 constexpr std::uint64_t kGivenSeed = 21;
+constexpr double kAsGood = 0.02;  // share of the torque's variance
 
 /// Returns each source's share of every unknown's variance, by Laplace with Fisher's information.
 std::vector<SourceShares> source_shares(const Candidate& best) {
@@ -286,6 +287,18 @@ void compare_with_priors(const ParameterMap& map,
                                                  std::exp(strength))});
 }
 
+/// Returns the explained share of the torque's variance, of the worst joint.
+double least_r2(const Density& density, const Eigen::VectorXd& z, const NoiseValues& noise) {
+  const Likelihood::Residuals rows = density.likelihood().residuals(z, noise);
+  double least = 1.0;
+  for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint) {
+    if (joint.empty()) continue;
+    const double share = math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint));
+    if (!(share >= least)) least = share;  // NaN, too, where numbers explode
+  }
+  return least;
+}
+
 void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult& result) {
   const Density& density = *best.density;
   const ParameterMap& map = density.parameters();
@@ -302,9 +315,16 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
   // The mean over several modes may lie between them, where nothing fits.
   const auto z = sample.z.leftCols(sample.of_best);
   const Eigen::VectorXd weight = sample.weight.head(sample.of_best) / sample.weight.head(sample.of_best).sum();
-  result.solution = z * weight;
-  const Eigen::MatrixXd off = z.colwise() - result.solution;
+  const Eigen::VectorXd mean = z * weight;
+  const Eigen::MatrixXd off = z.colwise() - mean;
   result.covariance = off * weight.asDiagonal() * off.transpose();
+  // The mean predicts better than the mode where it fits as well. The mean of numbers that err together (a tendon, the
+  // fibers, their passive force) need not fit.
+  const Eigen::VectorXd mode = density.z_of(best.mode.x);
+  const double of_mean = least_r2(density, mean, noise), of_mode = least_r2(density, mode, noise);
+  const bool mean_fits = of_mean >= of_mode - kAsGood;
+  result.solution = mean_fits ? mean : mode;
+  result.r2 = mean_fits ? of_mean : of_mode;
   result.values = map.values(result.solution);
   for (const MuscleValues& values : result.values.muscles) result.muscles.push_back(hill_parameters(values));
   result.delay_s = result.values.channels.front()[kDelay];
@@ -316,11 +336,6 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
   for (const TrialRun& run : runs) result.envelope_variance += run.envelope_sd.cwiseAbs2();
   result.envelope_variance *= std::exp(2.0 * noise[kEmgFactor]) / static_cast<double>(runs.size());
   result.emg_cv = std::sqrt(result.envelope_variance.mean());
-  const Likelihood::Residuals rows = density.likelihood().residuals(result.solution, noise);
-  for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint) {
-    if (!joint.empty())
-      result.r2 = std::min(result.r2, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
-  }
 }
 
 /// Keeps at most kKeptDraws draws as values, evenly spaced among all draws.
