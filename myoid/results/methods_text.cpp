@@ -11,6 +11,7 @@
 #include "myoid/page/typeset.h"
 #include "myoid/results/references.h"
 #include "myoid/run/study_emg.h"
+#include "myoid/study/study_model.h"
 
 namespace myoid::results {
 namespace {
@@ -210,7 +211,8 @@ void say_muscles(const run::StudyResult& result, Writer& out) {
       "and another one for lengthening, {}, and {}.",
       names.size() == 1 ? fmt::format("The muscle {}", listed(names)) : fmt::format("The muscles {}", listed(names)),
       names.size() == 1 ? "followed" : "each followed", out.cite("venture2006"),
-      spec.model_muscles ? "pennation and passive force of the model" : "without pennation and passive force",
+      study::takes_model_law(result.source.study) ? "pennation and passive force of the model"
+                                                  : "without pennation and passive force",
       spec.elastic_tendon ? "a quasi-static elastic tendon" : "a rigid tendon");
   const IdentificationResult* torque = run::method_of(result.fit, fit::Method::torque);
   if (torque != nullptr) out.say("{}", lag_text(result, torque->lag));

@@ -43,7 +43,7 @@ std::vector<std::string> assumptions(const run::StudyResult& result) {
           : "The tendon is taken as rigid: fiber length = musculotendon length - tendon slack length. Optimal fiber "
             "length and tendon slack length then act only together; the slack length is held.");
   list.push_back(fmt::format("{}; the muscles are effective ones that stand for all heads lumped into them.",
-                             result.source.study.identify.model_muscles
+                             study::takes_model_law(result.source.study)
                                  ? "Pennation and passive muscle force come from the model"
                                  : "Pennation and passive muscle force are neglected, as in the source paper"));
   const bool freed = std::ranges::any_of(result.fit.methods, [](const IdentificationResult& method) {

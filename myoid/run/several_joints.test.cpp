@@ -107,6 +107,7 @@ smoothing = "none"
 kind = "activation"
 delay_s = 0.0
 [identify]
+muscle_law = "paper"
 tendon = "rigid"
 method = "torque"
 gain = false
@@ -271,17 +272,19 @@ TEST(SeveralJoints, ADynamometerDoesNotMeasureBothTorquesOfAMaximalContraction) 
   EXPECT_TRUE(fitted(R"(["hip_angle", "knee_angle"])", true));
 }
 
-TEST(SeveralJoints, PennationAndPassiveForceComeFromTheModelWhereAskedFor) {
+TEST(SeveralJoints, PennationAndPassiveForceComeFromAnOpenSimModel) {
   study::Study study = leg_study(R"(["hip_angle", "knee_angle"])");
   const body::BodyModel leg = study::load_model(study);
   EXPECT_EQ(study::muscle_setups(study, leg)[0].extras.pennation_angle_rad, 0.0);
-  study.identify.model_muscles = true;
+  study.identify.muscle_law = study::MuscleLaw::automatic;
   study.identify.elastic_tendon = true;
   const fit::MuscleExtras extras = study::muscle_setups(study, leg)[0].extras;
   EXPECT_DOUBLE_EQ(extras.pennation_angle_rad, 0.2);
   EXPECT_DOUBLE_EQ(extras.passive_force, 1.0);
   EXPECT_DOUBLE_EQ(extras.passive_strain, 0.6);
   EXPECT_GT(extras.tendon_strain, 0.02);
+  study.model = {.builtin = "arm4", .coordinate = "elbow_flexion"};
+  EXPECT_FALSE(study::takes_model_law(study));
 }
 
 }  // namespace

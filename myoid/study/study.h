@@ -257,6 +257,15 @@ struct PhasesSpec {
   bool operator==(const PhasesSpec&) const = default;
 };
 
+/// Pennation and passive force of the muscles in the fit.
+enum class MuscleLaw {
+  automatic,  ///< `model` with an OpenSim model, else `paper`.
+  paper,      ///< Neither.
+  model,      ///< As the model's muscles have them.
+};
+inline constexpr std::string_view kMuscleLawNames[] = {"automatic", "paper", "model"};
+constexpr ChoiceNames choice_names(MuscleLaw) { return kMuscleLawNames; }
+
 struct IdentifySpec {
   std::vector<fit::Method> methods{fit::Method::paper, fit::Method::torque};
   std::vector<std::string> muscles;  ///< Empty: all.
@@ -271,8 +280,8 @@ struct IdentifySpec {
   fit::Eccentric eccentric = fit::Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
   fit::LagChoice lag = fit::LagChoice::automatic;
-  bool dynamics = false;       ///< Turns envelope into activation by the lags of equation (1).
-  bool model_muscles = false;  ///< Pennation and passive force of the model; else none.
+  bool dynamics = false;  ///< Turns envelope into activation by the lags of equation (1).
+  MuscleLaw muscle_law = MuscleLaw::automatic;
   bool elastic_tendon = true;  ///< The model's tendon strain, quasi-static; else rigid.
   bool delay_per_channel = false;
   double angle_sd_deg = 0.0;  ///< Errors of the joint angle and of its rate, propagated.

@@ -104,7 +104,7 @@ fit::MuscleExtras model_extras(const body::Muscle& muscle) {
   if (std::holds_alternative<body::SchutteCurves>(p.curves)) {
     throw ModelError(
         fmt::format("muscle '{}' is a {}, whose passive force is a free curve; give passive_force and pennation_angle "
-                    "by [[parameter]] and leave [identify] muscle_law and tendon at their defaults",
+                    "by [[parameter]], and in [identify] muscle_law = \"paper\" and tendon = \"rigid\"",
                     muscle.name, muscle.class_name));
   }
   const muscle::MusculotendonLaws laws = body::class_laws(p, muscle::TendonMode::equilibrium);
@@ -256,6 +256,11 @@ std::vector<body::MuscleGroup> muscle_groups(const Study& study, const body::Bod
   return groups;
 }
 
+bool takes_model_law(const Study& study) {
+  if (study.identify.muscle_law == MuscleLaw::automatic) return study.model.file.has_value();
+  return study.identify.muscle_law == MuscleLaw::model;
+}
+
 std::vector<fit::MuscleSetup> muscle_setups(const Study& study, const body::BodyModel& model) {
   std::vector<fit::MuscleSetup> setups;
   const std::vector<body::MuscleGroup> groups = muscle_groups(study, model);
@@ -274,7 +279,7 @@ std::vector<fit::MuscleSetup> muscle_setups(const Study& study, const body::Body
     }
     if (study.model.is_none()) {
       setup.start = stated_start(spec);
-    } else if (study.identify.model_muscles || study.identify.elastic_tendon) {
+    } else if (takes_model_law(study) || study.identify.elastic_tendon) {
       fit::MuscleExtras mean{.passive_strain = 0.0, .passive_shape = 0.0};
       for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
         const auto head = model_extras(model.muscles[static_cast<std::size_t>(groups[g].members[i])]);
@@ -285,7 +290,7 @@ std::vector<fit::MuscleSetup> muscle_setups(const Study& study, const body::Body
         mean.passive_shape += weight * head.passive_shape;
         mean.tendon_strain += weight * head.tendon_strain;
       }
-      if (study.identify.model_muscles) setup.extras = mean;
+      if (takes_model_law(study)) setup.extras = mean;
       setup.extras.tendon_strain = study.identify.elastic_tendon ? mean.tendon_strain : 0.0;
     }
     for (const auto& [name, value] : spec.start) setup.start.*muscle::hill_field(name).member = value;

@@ -36,6 +36,9 @@ namespace myoid::study {
 /// Returns the point at which a trial's held mass acts. Throws InvalidInput if the study does not state it.
 [[nodiscard]] HeldMassSpec held_mass_place(const Study& study);
 
+/// Returns true if the muscles in the fit have pennation and passive force of the model's.
+[[nodiscard]] bool takes_model_law(const Study& study);
+
 /// Returns the muscles to identify: one for each [[muscle]], with the heads lumped with their F_max
 /// as weights, and with the priors of the literature.
 [[nodiscard]] std::vector<fit::MuscleSetup> muscle_setups(const Study& study, const body::BodyModel& model);

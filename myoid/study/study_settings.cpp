@@ -238,7 +238,6 @@ constexpr std::pair<std::string_view, std::string_view> kRetired[] = {
 
 /// Visits [identify]: the fit itself.
 void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
-  static constexpr std::string_view kMuscleLaws[] = {"paper", "model"};
   static constexpr std::string_view kTendons[] = {"rigid", "elastic"};
   v.choices("method", identify.methods, {.says = "The methods, one or several."});
   v.texts("muscles", identify.muscles, {.says = "The muscles whose parameters are found.", .word = "all"});
@@ -261,9 +260,9 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
            {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (lengthening over "
                     "shortening), `smooth` (ratio 1), `automatic` (the ratio where it has a prior)."});
   v.flag("normalised", identify.normalised, {.says = "l_mˢʰ and v_max keep their ratio to l_m⁰."});
-  v.either("muscle_law", identify.model_muscles,
-           {.says = "`paper`: neither pennation nor passive force; `model`: as the model's muscles have them.",
-            .words = kMuscleLaws});
+  v.choice("muscle_law", identify.muscle_law,
+           {.says = "`paper`: neither pennation nor passive force; `model`: as the model's muscles have them; "
+                    "`automatic`: `model` with an OpenSim model, else `paper`. Not of method `paper`."});
   v.either("tendon", identify.elastic_tendon,
            {.says = "`elastic`: quasi-static, with the strain that the model's muscles have. Not of method `paper`.",
             .words = kTendons});

@@ -74,7 +74,6 @@ class StudyMaker {
       study.identify.elastic_tendon = false;
     } else {
       study.model.file = project_.model;
-      study.identify.model_muscles = true;
     }
     for (const Group& group : groups()) add_muscles(group);
     tie();
