@@ -77,17 +77,18 @@ void write_figure(const Figure& figure, const std::filesystem::path& directory) 
   write_file(directory / "figures" / (figure.id + ".csv"), figure_csv(figure));
 }
 
-void write_report(Report report, const std::filesystem::path& directory, const Workbench* workbench) {
+void write_report(Report report, const std::filesystem::path& directory, const Workbench* workbench, Kept kept) {
   validate(report);
   make_ids(report);
   for (const Section& section : report.sections) {
+    if (kept != Kept::all) break;
     for (const Table& table : section.tables) write_file(directory / "tables" / (table.id + ".csv"), table_csv(table));
     for (const StripGrid& grid : section.grids)
       write_file(directory / "tables" / (grid.id + ".csv"), strip_grid_csv(grid));
     for (const Figure& figure : section.figures) write_figure(figure, directory);
   }
   write_file(directory / "report.json", report_json(report));
-  write_file(directory / "report.html", html(report, workbench));
+  if (kept != Kept::tables) write_file(directory / "report.html", html(report, workbench));
 }
 
 }  // namespace myoid::page

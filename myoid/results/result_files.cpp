@@ -1,5 +1,7 @@
 #include "myoid/results/result_files.h"
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 
 #include "myoid/ground/core/json_text.h"
 #include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/math/statistics.h"
 #include "myoid/page/json_values.h"
 #include "myoid/page/tables.h"
 #include "myoid/recording/tables/storage_writer.h"
@@ -76,11 +79,22 @@ ordered_json fault_json(const Remark& fault) {
           {"message", sentence(fault)}};
 }
 
+/// Returns the median over the frames of the root mean square of the markers' distances; empty without markers.
+std::optional<double> median_marker_error_m(const run::TrialResult& trial) {
+  if (!trial.motion.ik) return std::nullopt;
+  std::vector<double> rms_m;
+  for (const double value : trial.motion.ik->errors.column("marker_error_RMS"))
+    if (std::isfinite(value)) rms_m.push_back(value);
+  if (rms_m.empty()) return std::nullopt;
+  return math::median(std::move(rms_m));
+}
+
 ordered_json trial_record(const run::TrialResult& trial, const NameIds& ids) {
   ordered_json record = {{"name", trial.spec.name},
                          {"folder", ids.of(trial.spec.name)},
                          {"use", std::string(choice_name(trial.spec.use))},
                          {"failure", trial.failure()},
+                         {"marker_error_m", page::number_or_null(median_marker_error_m(trial))},
                          {"notes", sentences(trial.remarks)},
                          {"faults", array_of(trial.faults, fault_json)}};
   if (const auto& emg = trial.input.emg_clock) {
@@ -110,9 +124,8 @@ ordered_json run_json(const run::StudyResult& result, const Provenance& provenan
   return run;
 }
 
-}  // namespace
-
-void write_results(const run::StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
+/// Writes the folder of each trial, and the predictions of those held back.
+void write_series(const run::StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
   const auto with_emg = [&](const IdentificationResult* method) {
     std::vector<std::string> lines = comments;
@@ -154,6 +167,15 @@ void write_results(const run::StudyResult& result, const Provenance& provenance,
     write_informed_forces(result, forces, folder / ids.of(forces.trial), with_emg(run::torque_of(result.fit)));
   if (const IdentificationResult* torque = run::torque_of(result.fit))
     write_held_back(*torque, result.fit_input.data, provenance, folder);
+}
+
+}  // namespace
+
+void write_results(const run::StudyResult& result,
+                   const Provenance& provenance,
+                   const std::filesystem::path& folder,
+                   page::Kept kept) {
+  if (kept == page::Kept::all) write_series(result, provenance, folder);
   write_identified_model(result, folder);
   if (!result.fit.contests.empty())
     write_file(folder / "solvers.csv", page::table_csv(solver_table(result.fit.contests)));

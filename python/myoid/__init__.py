@@ -15,10 +15,10 @@ except ImportError as error:
     from ._needs import why_not
 
     raise ImportError(why_not(error)) from error
+from . import commands, plot
 from .commands import *  # noqa: F403
-from .commands import __all__ as _commands
 from .draws import Draws
-from .errors import Error, InternalError, InvalidInput, ModelError, MyoidWarning, ReadError
+from .errors import Error, InternalError, InvalidInput, MissingFileError, ModelError, MyoidWarning, ReadError
 from .model import Model, MuscleKinematics
 from .recording import Event, ForcePlate, Recording, read, read_series
 from .remarks import Remark
@@ -26,7 +26,8 @@ from .results import PredictResult, Result, Trial, TwinStudyResult
 from .series import Markers, Table, TimeSeries
 
 __all__ = [
-    *_commands, "read", "read_series", "Model", "Result", "Trial", "Draws", "Recording", "ForcePlate", "Event",
+    "plot", "read", "read_series", "Model", "Result", "Trial", "Draws", "Recording", "ForcePlate", "Event",
     "Markers", "Table", "TimeSeries", "Remark", "MuscleKinematics", "PredictResult", "TwinStudyResult", "Error",
-    "InvalidInput", "ReadError", "ModelError", "InternalError", "MyoidWarning", "__version__",
+    "InvalidInput", "ReadError", "MissingFileError", "ModelError", "InternalError", "MyoidWarning", "__version__",
 ]  # fmt: skip
+__all__ += commands.__all__

@@ -11,6 +11,8 @@ from collections.abc import Callable
 from typing import Any
 
 from . import _native
+from ._inputs import Inputs
+from ._speech import in_python, speaking, values_in_python
 from .errors import MyoidWarning
 
 log = logging.getLogger("myoid")
@@ -40,28 +42,53 @@ class _Bar:
             print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
-def _hear(severity: str, text: str) -> None:
-    """A remark that the library makes while it works: warnings become Python's, the rest goes to the log."""
-    if severity in ("warning", "error"):
-        warnings.warn(text, MyoidWarning, stacklevel=4)
-    else:
-        log.log(logging.DEBUG if severity == "detail" else logging.INFO, text)
+def _shown(value: Any) -> str:
+    """An argument in the text of the call."""
+    if isinstance(value, os.PathLike):
+        return str(os.fspath(value))
+    if isinstance(value, (list, tuple)) and len(value) <= 20:
+        return f"[{', '.join(map(_shown, value))}]"
+    if isinstance(value, dict) and len(value) <= 20:
+        return f"{{{', '.join(f'{key!r}: {_shown(each)}' for key, each in value.items())}}}"
+    if isinstance(value, (str, bool, int, float)):
+        return repr(value)
+    size = getattr(value, "shape", None) or (len(value) if hasattr(value, "__len__") else "")
+    return f"{type(value).__name__} {size}".strip()
 
 
 def call(function: str, options: dict[str, Any]) -> dict[str, Any]:
-    """Calls a function of the library with the keyword arguments of its Python function; None is not passed on."""
+    """Calls a function of the library with the keyword arguments of its Python function; None is not passed on, and
+    values become files (`Inputs`)."""
     given = {name: value for name, value in options.items() if value is not None}
     progress = given.pop("progress", None)
-    shown = ", ".join(f"{k}={os.fspath(v) if isinstance(v, os.PathLike) else v!r}" for k, v in given.items())
+    shown = ", ".join(f"{k}={_shown(v)}" for k, v in given.items())
+    inputs = Inputs(function, given)
+    folder = inputs.folder.path if inputs.folder else None
+
+    def hear(severity: str, text: str) -> None:
+        """A remark that the library makes while it works: warnings become Python's, the rest goes to the log."""
+        text = in_python(text, folder)
+        if severity in ("warning", "error"):
+            warnings.warn(text, MyoidWarning, stacklevel=4)
+        else:
+            log.log(logging.DEBUG if severity == "detail" else logging.INFO, text)
+
+    given = {name: value for name, value in given.items() if value is not None}
     bar = _Bar() if progress is None and sys.stderr is not None and sys.stderr.isatty() else None
     given["command_line"] = f"myoid {function.replace('_', '-')} ({shown}) from Python"
-    given["hear"] = _hear
+    given["hear"] = hear
     if progress is not None and progress is not False:
         given["progress"] = progress
     elif bar is not None:
         given["progress"] = bar
     try:
-        return getattr(_native, function)(given)
+        with speaking(folder):
+            found: dict[str, Any] = values_in_python(getattr(_native, function)(given), folder)
     finally:
         if bar is not None:
             bar.end()
+        if inputs.folder is not None and function != "identify":
+            inputs.folder.remove()
+    if function == "identify" and inputs.folder is not None:
+        found["inputs"] = inputs.folder  # the run names these files
+    return found

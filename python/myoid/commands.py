@@ -1,7 +1,12 @@
 """The commands of the program as functions.
 
-Arguments have the names and units of the command line, with "_" for "-". None stands for the library's default. Files
-are written only where `out` names one. Common arguments:
+Arguments have the names of the command line, with "_" for "-", and SI units: angles are in radians. None stands for
+the library's default. Files are written only where `out` names one.
+
+An input is a file, or a value: a result of `read`, `read_series`, `Model` and `run`, a DataFrame of pandas (index
+`time`), an array of xarray (`channel` x `time`, markers `axis` x `channel` x `time`), or a mapping of names to arrays
+with the times as "time". The value states its units, by `attrs["units"]` in pandas and xarray; without them angles are
+in radians, lengths in m, forces in N. Common arguments:
 
     start, end: First and last time that is used [s].
     threads: Number of threads; None: all cores. Results are the same for every number.
@@ -16,6 +21,8 @@ raises KeyboardInterrupt. All functions raise InvalidInput, ReadError and ModelE
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import warnings
 from collections.abc import Mapping, Sequence
@@ -23,25 +30,31 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
+from . import _native
 from ._call import Progress, call
-from .errors import InvalidInput, MyoidWarning
+from ._speech import speaking
+from .errors import InvalidInput, MissingFileError, MyoidWarning
 from .remarks import Remark
+from .model import Model
 from .results import PredictResult, Result, TwinStudyResult, _Folder
 from .series import Table, TimeSeries
 
 if TYPE_CHECKING:
-    import numpy as np
+    from .series import Array
 
 __all__ = [
-    "run", "identify", "predict", "check", "compare", "review", "design", "emg", "ik", "id", "paths", "sweep", "so", "muscle",
-    "simulate", "twin", "twin_study", "run_tool", "scale", "info", "convert",
-    "CheckResult", "CompareResult", "DesignResult", "EmgResult", "IkResult", "IdResult", "PathsResult", "SoResult",
+    "run", "identify", "predict", "check", "compare", "review", "design", "emg", "ik", "id", "paths", "sweep", "so",
+    "muscle", "simulate", "twin", "twin_study", "run_tool", "scale", "info", "convert", "cohort", "report", "settings",
+    "init",
+    "CheckResult", "CohortResult", "InitResult", "CompareResult", "DesignResult", "EmgResult", "IkResult", "IdResult",
+    "PathsResult", "SoResult",
     "SweepResult",
     "MuscleResult", "SimulateResult", "TwinResult", "ToolResult",
 ]  # fmt: skip
 
-File = Union[str, os.PathLike]
-Files = Union[File, Sequence[File]]
+File = Union[str, "os.PathLike[str]"]
+Input = Any  # a file, or a value: see above
+Inputs = Any  # one or several
 Texts = Union[str, Sequence[str]]
 Numbers = Union[Mapping[str, float], Sequence[str]]
 Report = Union[Progress, bool, None]
@@ -71,10 +84,10 @@ def run(study: File, *, out: File | None = None, mat: File | None = None, method
     return result
 
 
-def identify(*, from_: File | None = None, muscles: File | None = None, activations: Files | None = None,
-             lengths: Files | None = None, velocities: Files | None = None, forces: Files | None = None,
-             moment_arms: Files | None = None, torques: Files | None = None,
-             coordinate: Texts | None = None, motion: Files | None = None, lowpass: float | None = None,
+def identify(*, from_: File | None = None, muscles: Input | None = None, activations: Inputs | None = None,
+             lengths: Inputs | None = None, velocities: Inputs | None = None, forces: Inputs | None = None,
+             moment_arms: Inputs | None = None, torques: Inputs | None = None,
+             coordinate: Texts | None = None, motion: Inputs | None = None, lowpass: float | None = None,
              method: str | None = None, delay: float | None = None, lag: str | None = None,
              free: Texts | None = None, hold: Texts | None = None, beliefs: File | None = None,
              posterior_draws: int | None = None, compare_solvers: bool = False, starts: int | None = None,
@@ -131,7 +144,6 @@ def predict(folder: File | Result, *, study: File | None = None, trials: Texts |
         out: Folder of the predictions; None: a temporary folder that lives as long as the result.
     """
     options = locals()
-    options["folder"] = folder.path if isinstance(folder, Result) else folder
     place = _Folder(out)
     return PredictResult(place, call("predict", {**options, "out": place.path}))
 
@@ -194,10 +206,7 @@ def compare(first: File | Result, second: File | Result, *, out: File | None = N
         first, second: Folders of runs, or their results.
         out: Folder for report.html, figures and tables.
     """
-    options = locals()
-    options["first"] = first.path if isinstance(first, Result) else first
-    options["second"] = second.path if isinstance(second, Result) else second
-    found = call("compare", options)
+    found = call("compare", locals())
     found["parameters"] = Table(found["parameters"])
     return CompareResult(**found)
 
@@ -312,8 +321,9 @@ class EmgResult:
     remarks: list[Remark] = field(default_factory=list)
 
 
-def emg(inputs: Files, *, out: File | None = None, mvc: Files | None = None, channel: Texts | None = None,
-        unit: str | None = None, highpass: float | None = None, lowpass: float | None = None, no_notch: bool = False,
+def emg(inputs: Inputs, *, rate: float | None = None, out: File | None = None, mvc: Inputs | None = None,
+        channel: Texts | None = None, unit: str | None = None, highpass: float | None = None,
+        lowpass: float | None = None, no_notch: bool = False,
         whitening: bool = False, no_whitening: bool = False, as_published: bool = False, window: float | None = None,
         envelope: File | None = None, remove_ecg: bool = False, measures: File | None = None,
         measure_window: float | None = None, start: float | None = None, end: float | None = None,
@@ -321,10 +331,11 @@ def emg(inputs: Files, *, out: File | None = None, mvc: Files | None = None, cha
     """Raw EMG to activation: high-pass, rectify, low-pass, resting level, normalized to the largest effort.
 
     Args:
-        inputs: Files with EMG; each is normalized by the largest effort of all.
+        inputs: Files with EMG, or arrays of samples x channels; each is normalized by the largest effort of all.
+        rate: Samples in a second of arrays [Hz].
         out: Activation (.sto, .mot, .csv); of several inputs a folder.
         mvc: Maximal contractions to normalize by.
-        channel: Only these.
+        channel: Only these; of an array the names of its channels.
         unit: Unit of the numbers where the file does not say: "V", "mV", "uV".
         highpass: [Hz] (default 20)
         lowpass: -3 dB of both passes [Hz] (default 6)
@@ -367,14 +378,14 @@ class IkResult:
     remarks: list[Remark] = field(default_factory=list)
 
 
-def ik(*, model: File, markers: File, out: File | None = None, up: str | None = None, weight: Numbers | None = None,
+def ik(*, model: File, markers: Input, out: File | None = None, up: str | None = None, weight: Numbers | None = None,
        lock: Texts | None = None, unlock: Texts | None = None, compat: str | None = None, start: float | None = None,
        end: float | None = None, overwrite: bool = False, progress: Report = None) -> IkResult:  # fmt: skip
     """Inverse kinematics: markers to joint angles.
 
     Args:
         model: OpenSim model (.osim), or "arm4".
-        markers: Markers (.trc, .c3d).
+        markers: Markers (.trc, .c3d), or `Markers`.
         out: Joint angles (.mot); the marker errors go beside it.
         up: Vertical axis of the laboratory: "x", "-y", ...; None: as a .c3d file says, else as the model.
         weight: Weights by marker; 1 where not given.
@@ -397,8 +408,8 @@ class IdResult:
     remarks: list[Remark] = field(default_factory=list)
 
 
-def id(*, model: File, motion: File, out: File | None = None, lowpass: float | None = None,
-       speeds: File | None = None, accelerations: File | None = None, loads: File | None = None,
+def id(*, model: File, motion: Input, out: File | None = None, lowpass: float | None = None,
+       speeds: Input | None = None, accelerations: Input | None = None, loads: File | None = None,
        held_mass: float | None = None, held_body: str | None = None, held_at: Sequence[float] | None = None,
        compat: str | None = None, threads: int | None = None, start: float | None = None, end: float | None = None,
        overwrite: bool = False, progress: Report = None) -> IdResult:  # fmt: skip
@@ -435,7 +446,7 @@ class PathsResult:
     remarks: list[Remark] = field(default_factory=list)
 
 
-def paths(*, model: File, motion: File, out: File | None = None, lowpass: float | None = None,
+def paths(*, model: File, motion: Input, out: File | None = None, lowpass: float | None = None,
           surrogate: File | None = None, surrogate_tolerance: float | None = None, check_jumps: bool = False,
           compat: str | None = None, threads: int | None = None, start: float | None = None, end: float | None = None,
           overwrite: bool = False, progress: Report = None) -> PathsResult:  # fmt: skip
@@ -460,34 +471,51 @@ class SweepResult:
 
     Attributes:
         coordinate: Its name.
-        values: Of the coordinate [rad, m].
+        unit: Its unit: "rad" or "m".
+        values: Of the coordinate, in this unit.
         moment_arm: r = -dl/dq [m].
         length: Musculotendon lengths [m].
         full_force, passive_force: Along the tendon at rest, fully active and without activation [N].
     """
 
     coordinate: str
-    values: np.ndarray
-    moment_arm: dict[str, np.ndarray]
-    length: dict[str, np.ndarray]
-    full_force: dict[str, np.ndarray]
-    passive_force: dict[str, np.ndarray]
+    unit: str
+    values: Array
+    moment_arm: dict[str, Array]
+    length: dict[str, Array]
+    full_force: dict[str, Array]
+    passive_force: dict[str, Array]
     remarks: list[Remark] = field(default_factory=list)
 
 
-def sweep(*, model: File, coordinate: str, muscle: Texts | None = None, out: File | None = None,
-          compat: str | None = None, threads: int | None = None, overwrite: bool = False,
+def _typed(model: File | None, coordinate: str, value: float) -> str:
+    """A value of a coordinate [rad, m] as the command line has it: angles in degrees."""
+    known = model if isinstance(model, Model) else Model(model or "arm4")
+    if coordinate not in known.coordinates:
+        raise InvalidInput(f"there is no coordinate {coordinate!r}; there are {', '.join(known.coordinates)}")
+    return repr(float(value) * (180 / math.pi if known.coordinates[coordinate].unit == "rad" else 1.0))
+
+
+def sweep(*, model: File, coordinate: str, over: Sequence[float] | None = None, muscle: Texts | None = None,
+          out: File | None = None, compat: str | None = None, threads: int | None = None, overwrite: bool = False,
           progress: Report = None) -> SweepResult:  # fmt: skip
     """Moment arms, lengths and forces of muscles over one coordinate (`myoid paths --sweep`).
 
     Args:
         model: OpenSim model (.osim), or "arm4".
-        coordinate: "elbow_flexion" for its range, or "elbow_flexion=0:130" in degrees (meters for a translation).
+        coordinate: "elbow_flexion", over its range in the model.
+        over: Another range: first and last value [rad, m].
         muscle: Only these muscles (default: all with a moment arm of 0.1 mm).
         out: Folder for sweep_<coordinate>.csv and .svg.
         compat: "exact" (default) or "opensim".
     """
-    return SweepResult(**call("sweep", locals()))
+    options = locals()
+    if options.pop("over") is not None and over is not None:
+        if len(over) != 2 or not over[0] < over[1]:
+            raise InvalidInput(f"over: found {over}, expected the first and the last value, in this order")
+        first, last = (_typed(model, coordinate, value) for value in over)
+        options["coordinate"] = f"{coordinate}={first}:{last}"
+    return SweepResult(**call("sweep", options))
 
 
 @dataclass(eq=False)
@@ -507,14 +535,14 @@ class SoResult:
     activation: TimeSeries
     reserve: TimeSeries
     status: list[str]
-    kkt_residual: np.ndarray
+    kkt_residual: Array
     frames_not_solved: int
     frames_with_reserve: int
     remarks: list[Remark] = field(default_factory=list)
 
 
-def so(*, model: File, motion: File, out: File | None = None, objective: str | None = None,
-       exponent: float | None = None, emg: File | None = None, emg_weight: float | None = None,
+def so(*, model: File, motion: Input, out: File | None = None, objective: str | None = None,
+       exponent: float | None = None, emg: Input | None = None, emg_weight: float | None = None,
        reserve: float | None = None, coordinate: Texts | None = None, lowpass: float | None = None,
        loads: File | None = None, tendon: str | None = None, passive: bool = False, compat: str | None = None,
        threads: int | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
@@ -567,10 +595,10 @@ class MuscleResult:
     remarks: list[Remark] = field(default_factory=list)
 
 
-def muscle(*, muscle: File, length: Files, column: str | None = None, scale: Sequence[float] | float | None = None,
-           offset: float | None = None, activation: float | Files | None = None,
-           excitation: float | Files | None = None, drive_column: str | None = None,
-           initial_activation: float | str | None = None, measured: Files | None = None,
+def muscle(*, muscle: File, length: Inputs, column: str | None = None, scale: Sequence[float] | float | None = None,
+           offset: float | None = None, activation: Inputs | None = None, excitation: Inputs | None = None,
+           drive_column: str | None = None,
+           initial_activation: float | str | None = None, measured: Inputs | None = None,
            measured_column: str | None = None, fit: Texts | None = None, isometric_force: float | None = None,
            tolerance: float | None = None, out: File | None = None, start: float | None = None,
            end: float | None = None, overwrite: bool = False, progress: Report = None) -> MuscleResult:  # fmt: skip
@@ -635,10 +663,10 @@ class SimulateResult:
     remarks: list[Remark] = field(default_factory=list)
 
 
-def simulate(*, model: File | None = None, out: File | None = None, excitations: File | None = None,
+def simulate(*, model: File | None = None, out: File | None = None, excitations: Input | None = None,
              excite: Numbers | None = None, rest: float | None = None, tendon: str | None = None,
-             curves: str | None = None, activation: str | None = None, initial: Numbers | None = None,
-             initial_speed: Numbers | None = None, lock: Texts | None = None, horizontal: bool = False,
+             curves: str | None = None, activation: str | None = None, initial: Mapping[str, float] | None = None,
+             initial_speed: Mapping[str, float] | None = None, lock: Texts | None = None, horizontal: bool = False,
              held_mass: float | None = None, held_body: str | None = None, held_at: Sequence[float] | None = None,
              rate: float | None = None, tolerance: float | None = None, energy: bool = False,
              sensitivity: Texts | None = None, figures: bool = False, threads: int | None = None,
@@ -655,8 +683,8 @@ def simulate(*, model: File | None = None, out: File | None = None, excitations:
         tendon: "rigid", "equilibrium" (default) or "mass".
         curves: "file", "paper", "thelen", "de_groote" or "millard".
         activation: "two_lags", "thelen", "de_groote", "recursive" or "envelope".
-        initial: Values at the start by coordinate [deg, m].
-        initial_speed: Speeds at the start by coordinate [deg/s, m/s].
+        initial: Values at the start by coordinate [rad, m].
+        initial_speed: Speeds at the start by coordinate [rad/s, m/s].
         lock: Coordinates that do not move.
         horizontal: arm4 without gravity.
         held_mass: Mass held in the hand [kg].
@@ -668,7 +696,11 @@ def simulate(*, model: File | None = None, out: File | None = None, excitations:
         sensitivity: Also the derivatives by these parameters of the model.
         figures: Also a figure of the movement, in `out`.
     """
-    return SimulateResult(**call("simulate", locals()))
+    options = locals()
+    for name in ("initial", "initial_speed"):
+        if options[name] is not None:
+            options[name] = [f"{c}={_typed(model, c, value)}" for c, value in options[name].items()]
+    return SimulateResult(**call("simulate", options))
 
 
 @dataclass(eq=False)
@@ -786,6 +818,8 @@ def scale(setup: File, *, model: File | None = None, motion: File | None = None,
     options = locals()
     try:
         text = Path(setup).read_text(encoding="utf-8", errors="replace")
+    except FileNotFoundError as error:
+        raise MissingFileError(f"{setup}: there is no such file", os.fspath(setup)) from error
     except OSError as error:
         raise InvalidInput(f"{setup}: {error.strerror}") from error
     if "<ScaleTool" not in text:
@@ -810,7 +844,7 @@ def info(file: File, *, compare_compat: bool = False, postures: int | None = Non
     return call("info", locals())
 
 
-def convert(source: File, out: File, *, what: str | None = None, up: str | None = None, rotate: Texts | None = None,
+def convert(source: Input, out: File, *, what: str | None = None, up: str | None = None, rotate: Texts | None = None,
             body: Texts | None = None, least_force: float | None = None, unit: str | None = None,
             channel: Texts | None = None, analog: File | None = None, rate: float | None = None,
             subject: str | None = None, compat: str | None = None, start: float | None = None,
@@ -820,7 +854,8 @@ def convert(source: File, out: File, *, what: str | None = None, up: str | None 
 
     Args:
         source: A recording, an OpenSim file (.osim, .xml), or the folder of a finished run.
-        out: .c3d, .trc, .sto, .mot, .csv, or a folder for everything in it; .osim, .xml of an OpenSim file.
+        out: .c3d, .trc, .sto, .mot, .csv, or a folder for everything in it; .osim, .xml of an OpenSim file; .mat of a
+            storage file or of the folder of a run.
         what: "markers", "channels", "emg" or "plates".
         up: Vertical axis of the laboratory, turned to y.
         rotate: "AXIS:DEGREES", further turns.
@@ -834,3 +869,129 @@ def convert(source: File, out: File, *, what: str | None = None, up: str | None 
         compat: Of an OpenSim file: "exact" (default), or "opensim", which rounds offsets to six digits.
     """
     return [Path(file) for file in call("convert", locals())]
+
+
+@dataclass(eq=False)
+class CohortResult:
+    """Many persons side by side.
+
+    Attributes:
+        path: Folder of the cohort.
+        persons: A row for each person: person, outcome ("done", "gate_failed", "trials_failed", "failed", "not
+            computed"), message, and reused, where the results of an earlier call stand.
+        start: The command that starts the engine of `workflow`; empty without one.
+    """
+
+    path: Path
+    persons: Table
+    start: str = ""
+
+    @property
+    def parameters(self) -> Table:
+        """The parameters of all persons: cohort.csv."""
+        return Table.read(self.path / "cohort.csv")
+
+    @property
+    def report(self) -> Path:
+        """The page of the group."""
+        return self.path / "report.html"
+
+    @property
+    def results(self) -> dict[str, Result]:
+        """The results of each computed person, by the person's folder."""
+        folders = sorted(file.parent for file in (self.path / "persons").glob("*/parameters.csv"))
+        return {folder.name: Result(folder) for folder in folders}
+
+    def _repr_html_(self) -> str:
+        return self.persons._repr_html_()
+
+
+def cohort(manifest: File, *, out: File, study: File | None = None, person: Texts | None = None, group: bool = False,
+           session_label: Texts | None = None, task_label: Texts | None = None, bids_filter_file: File | None = None,
+           workflow: str | None = None, keep: str | None = None, work_dir: File | None = None, jobs: int | None = None,
+           threads: int | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
+           progress: Report = None) -> CohortResult:  # fmt: skip
+    """Many persons: a run for each, then all results side by side.
+
+    Args:
+        manifest: Table with the columns name and study, or the folder of a BIDS data set.
+        out: Folder of the results.
+        study: BIDS: the study of every person; None: code/study.toml.
+        person: Only these persons, without the group; several.
+        group: Only the tables and the page of all persons.
+        session_label, task_label: BIDS: only trials of these sessions and tasks, by the names of their files.
+        bids_filter_file: BIDS: the same as a file (.json).
+        workflow: Writes the files for an engine and computes nothing: "snakemake", "slurm", "parallel".
+        keep: Files of each person: "tables", "page" (default) or "all".
+        work_dir: Folder for the stages of persons under way.
+        jobs: Persons at a time; None: as many as threads.
+    """
+    found = call("cohort", locals())
+    return CohortResult(Path(out), Table(found["persons"], ["person", "outcome", "message", "reused"]), found["start"])
+
+
+def report(folder: File | None = None, *, video: Texts | None = None, video_offset: float | None = None,
+           export: Texts | None = None, group: Sequence[File] | None = None, after: Sequence[File] | None = None,
+           out: File | None = None, mat: File | None = None, threads: int | None = None, overwrite: bool = False,
+           progress: Report = None) -> Path:  # fmt: skip
+    """The report of a finished run, made again from its recordings; or one page of many runs. Returns report.html.
+
+    Args:
+        folder: Folder of a run, or its result.
+        video: Films that the report shows beside the model, each "TRIAL=FILE".
+        video_offset: When these films begin, in seconds of the motion.
+        export: Muscles for other programs: "ceinms", "ceinms-rt", "osimx"; several.
+        group: In place of `folder`: the runs, their results, or folders that hold runs.
+        after: The second sessions of the persons of `group`, in the same order.
+        out: Folder of the page of `group` (default "group").
+        mat: Parameters, series, remarks and draws of the run also as one MATLAB file.
+    """
+    return Path(call("report", locals())["file"])
+
+
+@dataclass(eq=False)
+class InitResult:
+    """A draft of a study.
+
+    Attributes:
+        study: The file study.toml.
+        todo: Questions that the draft leaves open.
+    """
+
+    study: Path
+    todo: list[str]
+    remarks: list[Remark] = field(default_factory=list)
+
+
+def init(dir: File, *, from_: Texts | File | Sequence[File] | None = None, model: File | None = None,
+         coordinate: str | None = None, overwrite: bool = False, progress: Report = None) -> InitResult:  # fmt: skip
+    """A commented study.toml to start from: finds recordings, and pairs EMG channels with muscles.
+
+    Args:
+        dir: Folder for study.toml.
+        from_: Recordings, folders of them, or a project of CEINMS, CEINMS-RT or NMSM; None: the folder itself.
+        model: OpenSim model (.osim); None: the only one in the folders, else "arm4".
+        coordinate: The joint, by the model's coordinate; None: guessed.
+    """
+    found = call("init", locals())
+    return InitResult(Path(found["file"]), found["todo"], found["remarks"])
+
+
+def settings(study: File | None = None, *, table: str | None = None) -> Any:
+    """The settings of a study with all defaults, or the meaning of every setting of study.toml.
+
+    Args:
+        study: study.toml; None: the reference, a list of tables with `settings` (key, values, default, meaning).
+        table: Only this table, such as "emg".
+    """
+    with speaking():
+        found = json.loads(_native.settings(os.fspath(study) if study is not None else ""))
+    if table is None:
+        return found
+    if study is not None:
+        known = found
+    else:
+        known = {entry["table"].strip("[]"): entry for entry in found}
+    if table not in known:
+        raise InvalidInput(f"table: found {table!r}, expected {', '.join(known)}")
+    return known[table]

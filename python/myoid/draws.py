@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from .errors import ReadError
-from .series import _package
+from .series import Table, _array, _package
 
 if TYPE_CHECKING:
-    import numpy as np
     import pandas
     import xarray
+
+    from .series import Array
 
 __all__ = ["Draws"]
 
@@ -47,7 +48,7 @@ class Draws:
         weights: Weight of each draw. Their sum is 1 but for the digits of the file.
     """
 
-    def __init__(self, values: np.ndarray, names: list[str], units: list[str], weights: np.ndarray) -> None:
+    def __init__(self, values: Array, names: list[str], units: list[str], weights: Array) -> None:
         self.values, self.names, self.units, self.weights = values, names, units, weights
 
     @classmethod
@@ -61,7 +62,7 @@ class Draws:
 
         with open(path, encoding="utf-8", newline="") as file:
             rows = csv.reader(file)
-            names = next(rows, [])
+            names: list[str] = next(rows, [])
             parameters = [name.rpartition(".")[2] for name in names[1:]]
             if names[:1] != ["weight"] or not set(parameters) <= set(units):
                 raise _fault(path, 1, f"found {','.join(names)!r}, expected weight and the parameters of the run")
@@ -75,26 +76,51 @@ class Draws:
     def __contains__(self, name: object) -> bool:
         return name in self.names
 
-    def __getitem__(self, name: str) -> np.ndarray:
-        """The draws of one unknown, in its unit."""
+    @overload
+    def __getitem__(self, key: str) -> Array: ...
+    @overload
+    def __getitem__(self, key: slice | Array) -> Draws: ...
+    def __getitem__(self, key: Any) -> Any:
+        """`draws["BIC.max_isometric_force"]`: the draws of one unknown, in its unit. `draws[:100]`: these draws."""
+        if isinstance(key, str):
+            return self.values[:, self._index(key)]
+        if isinstance(key, int):
+            raise TypeError("a number names no unknown; draws.values[3] is one draw, draws[3:4] are Draws of it")
+        return Draws(self.values[key], self.names, self.units, self.weights[key])
+
+    def _index(self, name: str) -> int:
         if name not in self.names:
             raise KeyError(f"there is no unknown {name!r}; there are {', '.join(self.names)}")
-        return self.values[:, self.names.index(name)]
+        return self.names.index(name)
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the unknowns."""
+        return iter(self.names)
+
+    def keys(self) -> list[str]:
+        """The names of the unknowns."""
+        return list(self.names)
+
+    def items(self) -> Iterator[tuple[str, Array]]:
+        """Each unknown's name and draws."""
+        return ((name, self[name]) for name in self.names)
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Array:
+        return _array(self.values, dtype, copy)
 
     def unit(self, name: str) -> str:
         """The unit of one unknown."""
-        if name not in self.names:
-            raise KeyError(f"there is no unknown {name!r}; there are {', '.join(self.names)}")
-        return self.units[self.names.index(name)]
+        return self.units[self._index(name)]
 
-    def equally_weighted(self) -> np.ndarray:
+    def equally_weighted(self) -> Array:
         """As many draws, of equal weight: the rows at equal steps of the sum of the weights. A draw of greater weight
         may stand twice. Draws x unknowns."""
         import numpy as np
 
         reached = np.cumsum(self.weights) / np.sum(self.weights)
         steps = (np.arange(len(self)) + 0.5) / len(self)
-        return self.values[np.minimum(np.searchsorted(reached, steps), len(self) - 1)]
+        rows: Array = self.values[np.minimum(np.searchsorted(reached, steps), len(self) - 1)]
+        return rows
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with the index (`draw`, `weight`) and a column for each unknown; `attrs["units"]` has the units."""
@@ -106,7 +132,7 @@ class Draws:
 
     def to_xarray(self) -> xarray.DataArray:
         """An array `draw` x `parameter` with the coordinates `unit` (of the parameter) and `weight` (of the draw)."""
-        return _package("xarray").DataArray(
+        array: xarray.DataArray = _package("xarray").DataArray(
             self.values,
             dims=("draw", "parameter"),
             coords={
@@ -116,6 +142,7 @@ class Draws:
                 "weight": ("draw", self.weights),
             },
         )
+        return array
 
     def to_inference_data(self) -> Any:
         """The draws as ArviZ's InferenceData (of ArviZ 1 a DataTree) with the group `posterior`: one chain, a variable
@@ -136,6 +163,17 @@ class Draws:
         if hasattr(arviz, "convert_to_datatree"):
             return arviz.convert_to_datatree(dataset, group="posterior")
         return arviz.convert_to_inference_data(dataset, group="posterior")
+
+    def _repr_html_(self) -> str:
+        """For notebooks: mean and standard deviation of each unknown, with the weights."""
+        import numpy as np
+
+        share = self.weights / np.sum(self.weights)
+        mean = share @ self.values
+        sd = np.sqrt(np.maximum(share @ (self.values - mean) ** 2, 0.0))
+        rows = [{"unknown": name, "unit": self.units[i], "mean": float(mean[i]), "standard deviation": float(sd[i])}
+                for i, name in enumerate(self.names)]  # fmt: skip
+        return f"<p>{len(self)} draws</p>{Table(rows)._repr_html_()}"
 
     def __repr__(self) -> str:
         names = ", ".join(f"{n} [{u}]" for n, u in list(zip(self.names, self.units))[:4])

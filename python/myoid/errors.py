@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-__all__ = ["Error", "InvalidInput", "ReadError", "ModelError", "InternalError", "MyoidWarning"]
+import errno
+
+__all__ = ["Error", "InvalidInput", "ReadError", "MissingFileError", "ModelError", "InternalError", "MyoidWarning"]
 
 
 class Error(Exception):
@@ -26,6 +28,21 @@ class ReadError(InvalidInput):
         super().__init__(message)
         self.path = path
         self.line = line
+
+
+class MissingFileError(ReadError, FileNotFoundError):
+    """A file or folder is not there. `path` and `filename` name it; it is a FileNotFoundError, too."""
+
+    def __init__(self, message: str, path: str = "", line: int = 0) -> None:
+        super().__init__(message, path, line)
+        self.errno = errno.ENOENT
+        self.filename = path
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[type, tuple[str, str, int]]:
+        return type(self), (str(self), self.path, self.line)
 
 
 class ModelError(InvalidInput):

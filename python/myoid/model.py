@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,9 +10,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._speech import speaking
+from .series import Table
 
 if TYPE_CHECKING:
-    import numpy as np
+    from .series import Array
 
 __all__ = ["Model", "Coordinate", "Muscle", "Body", "MuscleKinematics"]
 
@@ -80,9 +83,9 @@ class MuscleKinematics:
     """
 
     muscles: list[str]
-    length: np.ndarray
-    velocity: np.ndarray
-    moment_arm: dict[str, np.ndarray]
+    length: Array
+    velocity: Array
+    moment_arm: dict[str, Array]
 
 
 class Model:
@@ -98,8 +101,21 @@ class Model:
     """
 
     def __init__(self, file: str | os.PathLike[str] = "arm4", *, compat: str = "exact") -> None:
-        self._model = _native.read_model({"file": file, "compat": compat})
+        self.file, self.compat = os.fspath(file), compat
+        with speaking():
+            self._model = _native.read_model({"file": self.file, "compat": compat})
         self.name: str = self._model.name()
+
+    def __fspath__(self) -> str:
+        """The file, or "arm4": a model stands wherever a path of a model does."""
+        return self.file
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A pickle carries the name of the file, which is read again."""
+        return {"file": os.path.abspath(self.file) if os.path.isfile(self.file) else self.file, "compat": self.compat}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__init__(state["file"], compat=state["compat"])  # type: ignore[misc]
 
     @cached_property
     def coordinates(self) -> dict[str, Coordinate]:
@@ -133,6 +149,12 @@ class Model:
 
     def __repr__(self) -> str:
         return f"Model({self.name!r}: {len(self.coordinates)} coordinates, {len(self.muscles)} muscles)"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the coordinates with their ranges."""
+        rows = [{"coordinate": c.name, "unit": c.unit, "lower": c.lower, "upper": c.upper, "default": c.default}
+                for c in self.coordinates.values()]  # fmt: skip
+        return f"<p>{html.escape(repr(self))}</p>{Table(rows)._repr_html_()}"
 
     def muscle_kinematics(
         self, posture: Mapping[str, Any] | None = None, *, speeds: Mapping[str, Any] | None = None
@@ -192,7 +214,7 @@ class Model:
         return _by_muscle(found.muscles, found.moment_arm[coordinate], posture)
 
 
-def _by_muscle(muscles: list[str], values: np.ndarray, posture: Mapping[str, Any] | None) -> dict[str, Any]:
+def _by_muscle(muscles: list[str], values: Array, posture: Mapping[str, Any] | None) -> dict[str, Any]:
     """The columns by muscle: arrays where the posture holds an array, else numbers."""
     import numpy as np
 

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import html
 import os
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from .series import Markers, TimeSeries, in_radians
+from ._speech import speaking
+from .series import Markers, Table, TimeSeries, in_radians
 
 if TYPE_CHECKING:
-    import numpy as np
+    from .series import Array
 
 __all__ = ["Recording", "ForcePlate", "Event", "read", "read_series"]
 
@@ -33,12 +35,12 @@ class ForcePlate:
 
     number: int
     type: int
-    time: np.ndarray
-    force: np.ndarray
-    moment: np.ndarray
-    pressure_center: np.ndarray
-    free_moment: np.ndarray
-    corners: np.ndarray
+    time: Array
+    force: Array
+    moment: Array
+    pressure_center: Array
+    free_moment: Array
+    corners: Array
 
 
 @dataclass(frozen=True)
@@ -66,12 +68,26 @@ class Recording:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fspath(path)
-        self._file = _native.read(self.path)
+        with speaking():
+            self._file = _native.read(self.path)
+
+    def __fspath__(self) -> str:
+        """The file: a recording stands wherever a path does."""
+        return self.path
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A pickle carries the name of the file, which is read again."""
+        return {"path": os.path.abspath(self.path)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__init__(state["path"])  # type: ignore[misc]
 
     @cached_property
     def markers(self) -> Markers:
         """Markers [m]; none for a file without markers."""
-        return self._file.markers()
+        markers = self._file.markers()
+        markers.source = self.path
+        return markers
 
     @cached_property
     def analog(self) -> TimeSeries:
@@ -114,6 +130,13 @@ class Recording:
             f"{len(self.events)} events)"
         )
 
+    def _repr_html_(self) -> str:
+        """For notebooks: the channels with their units, and the markers."""
+        rows = [{"channel": name, "unit": unit} for name, unit in self.units.items()]
+        text = f"<p>{html.escape(repr(self))}</p>"
+        text += self.markers._repr_html_() if self.markers.names else ""
+        return text + (Table(rows)._repr_html_() if rows else "")
+
     def to_xarray(self) -> dict[str, Any]:
         """`markers` and `analog` as arrays of xarray, with the names of pyomeca."""
         return {"markers": self.markers.to_xarray(), "analog": self.analog.to_xarray()}
@@ -143,5 +166,6 @@ def read_series(path: str | os.PathLike[str]) -> TimeSeries:
     Raises:
         ReadError: The file cannot be read.
     """
-    series, _ = _native.read_series(os.fspath(path))
+    with speaking():
+        series, _ = _native.read_series(os.fspath(path))
     return in_radians(series)

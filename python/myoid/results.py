@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .draws import Draws
-from .errors import InvalidInput
+from .errors import InvalidInput, MissingFileError
 from .series import Table, TimeSeries, in_radians
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Result", "Trial", "PredictResult", "TwinStudyResult"]
 
-_COLORS = {
+VERDICT_COLORS = {
     "identified": "#2a7",
     "reproducible": "#7a3c8f",
     "weak": "#c90",
@@ -39,6 +39,11 @@ class _Folder:
     def __init__(self, folder: str | os.PathLike[str] | None) -> None:
         self._temporary = tempfile.TemporaryDirectory(prefix="myoid.") if folder is None else None
         self.path = Path(self._temporary.name if self._temporary else os.fspath(folder or ""))
+
+    def remove(self) -> None:
+        """Removes a temporary folder at once."""
+        if self._temporary is not None:
+            self._temporary.cleanup()
 
     def __getstate__(self) -> dict[str, Any]:
         """A pickle carries the files of a temporary folder, and the tables of a folder that the user named."""
@@ -148,8 +153,14 @@ class Result:
         self.found = dict(found or {})
         self.gates: list[dict[str, str]] | None = self.found.get("gates")
         self.remarks = list(self.found.get("remarks", []))
+        if not self.path.is_dir():
+            raise MissingFileError(f"{self.path}: there is no such folder; give that of a finished run", str(self.path))
         if not (self.path / "parameters.csv").is_file():
             raise InvalidInput(f"{self.path} holds no parameters.csv; give the folder of a finished run")
+
+    def __fspath__(self) -> str:
+        """The folder: a result stands wherever the path of a run does."""
+        return os.fspath(self.path)
 
     @cached_property
     def parameters(self) -> Table:
@@ -163,7 +174,8 @@ class Result:
         file = self.path / "run.json"
         if not file.is_file():
             raise InvalidInput(f"{self.path} holds no run.json; only `run` writes it")
-        return json.loads(file.read_text(encoding="utf-8"))
+        record: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        return record
 
     @cached_property
     def trials(self) -> dict[str, Trial]:
@@ -203,7 +215,8 @@ class Result:
         rows = self.parameters.where(muscle=muscle, parameter=parameter, method=method)
         if len(rows) != 1:
             raise KeyError(f"{len(rows)} rows have muscle={muscle!r}, parameter={parameter!r}, method={method!r}")
-        return rows[0]
+        row: Mapping[str, Any] = rows[0]
+        return row
 
     def to_pandas(self) -> pandas.DataFrame:
         """`parameters` as a data frame."""
@@ -232,8 +245,8 @@ class Result:
         return f"Result({str(self.path)!r}: {verdicts.count('identified')} of {len(verdicts)} numbers identified)"
 
     def _repr_html_(self) -> str:
-        """For notebooks: the parameters with bars for their intervals, and the report with its replay in a frame."""
-        return parameters_html(self.parameters) + self.report_html()
+        """For notebooks: the parameters with bars for their intervals. `report_html` shows the report."""
+        return parameters_html(self.parameters)
 
     def report_html(self, height: int = 720) -> str:
         """The report as a frame that needs no server; empty where there is none. `height` [px]"""
@@ -254,9 +267,9 @@ def _bar(row: Mapping[str, Any]) -> str:
     width = 160.0
 
     def x(value: float) -> float:
-        return min(max(0.5 * value / start, 0.0), 1.0) * width
+        return float(min(max(0.5 * value / start, 0.0), 1.0)) * width
 
-    color = _COLORS.get(row["verdict"], "#888")
+    color = VERDICT_COLORS.get(row["verdict"], "#888")
     return (
         f'<svg width="{width:g}" height="14"><line x1="{x(start):.1f}" x2="{x(start):.1f}" y1="0" y2="14" '
         f'stroke="#ccc"/><line x1="{x(low):.1f}" x2="{x(high):.1f}" y1="7" y2="7" stroke="{color}" stroke-width="3"/>'

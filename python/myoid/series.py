@@ -7,12 +7,16 @@ import html
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
+
+from .errors import InvalidInput
 
 if TYPE_CHECKING:
-    import numpy as np
+    from numpy.typing import NDArray
     import pandas
     import xarray
+
+    Array = NDArray[Any]
 
 __all__ = ["TimeSeries", "Markers", "Table"]
 
@@ -28,6 +32,15 @@ def _package(name: str, debian: bool = True) -> Any:
         raise ModuleNotFoundError(f"this conversion needs the package {name}: {remedy}", name=name) from error
 
 
+def _array(values: Array, dtype: Any, copy: Any) -> Array:
+    """The values for NumPy's protocol `__array__`."""
+    import numpy as np
+
+    if copy:
+        return np.array(values, dtype=dtype)
+    return np.asarray(values, dtype=dtype)
+
+
 @dataclass(eq=False)
 class TimeSeries:
     """Samples of several channels on one clock.
@@ -39,8 +52,8 @@ class TimeSeries:
         units: Unit of each channel: "V", "N", "N m", "m", "rad", "1" (without dimension), ...
     """
 
-    time: np.ndarray
-    values: np.ndarray
+    time: Array
+    values: Array
     channels: list[str]
     units: list[str]
 
@@ -50,12 +63,70 @@ class TimeSeries:
     def __contains__(self, channel: object) -> bool:
         return channel in self.channels
 
-    def __getitem__(self, channel: str) -> np.ndarray:
-        """The samples of one channel, in its unit."""
+    def __post_init__(self) -> None:
+        import numpy as np
+
+        self.time, self.values = np.asarray(self.time, dtype=float), np.asarray(self.values, dtype=float)
+        if self.values.shape != (len(self.time), len(self.channels)) or len(self.units) != len(self.channels):
+            raise InvalidInput(
+                f"found {len(self.time)} times, values {self.values.shape}, {len(self.channels)} channels and "
+                f"{len(self.units)} units; expected samples x channels, and a unit for each channel"
+            )
+
+    @overload
+    def __getitem__(self, key: str) -> Array: ...
+    @overload
+    def __getitem__(self, key: slice | list[str] | Array) -> TimeSeries: ...
+    def __getitem__(self, key: Any) -> Any:
+        """`series["BIC"]`: the samples of one channel, in its unit. `series[["BIC", "TRI"]]`: these channels.
+        `series[100:200]` or `series[series["BIC"] > 0.5]`: these samples."""
+        if isinstance(key, str):
+            return self.values[:, self._index(key)]
+        if isinstance(key, int):
+            raise TypeError("a number names no channel; series.values[3] is one sample, series[3:4] a series of it")
+        if isinstance(key, (list, tuple)) and key and all(isinstance(name, str) for name in key):
+            columns = [self._index(name) for name in key]
+            return TimeSeries(self.time, self.values[:, columns], list(key), [self.units[c] for c in columns])
+        return TimeSeries(self.time[key], self.values[key], self.channels, self.units)
+
+    def _index(self, channel: str) -> int:
         try:
-            return self.values[:, self.channels.index(channel)]
+            return self.channels.index(channel)
         except ValueError:
             raise KeyError(f"there is no channel {channel!r}; there are {', '.join(self.channels)}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the channels, as of a data frame and a dict: `dict(series)` has an array for each."""
+        return iter(self.channels)
+
+    def keys(self) -> list[str]:
+        """The names of the channels."""
+        return list(self.channels)
+
+    def items(self) -> Iterator[tuple[str, Array]]:
+        """Each channel's name and samples."""
+        return ((name, self[name]) for name in self.channels)
+
+    def between(self, start: float, end: float) -> TimeSeries:
+        """The samples from `start` to `end` [s], both included."""
+        return self[(self.time >= start) & (self.time <= end)]
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Array:
+        return _array(self.values, dtype, copy)
+
+    def _repr_html_(self) -> str:
+        """For notebooks: a row for each channel with its range."""
+        import numpy as np
+
+        def row(name: str, unit: str) -> Mapping[str, Any]:
+            finite = self[name][np.isfinite(self[name])]
+            low, high = (float(finite.min()), float(finite.max())) if len(finite) else (None, None)
+            return {"channel": name, "unit": unit, "least": low, "greatest": high}
+
+        span = f"{self.time[0]:.4g} to {self.time[-1]:.4g} s" if len(self) else "empty"
+        rows = [row(name, unit) for name, unit in zip(self.channels, self.units)]
+        table = Table(rows, ["channel", "unit", "least", "greatest"])
+        return f"<p>{len(self)} samples, {span}</p>{table._repr_html_()}"
 
     def __repr__(self) -> str:
         span = f"{self.time[0]:g} to {self.time[-1]:g} s" if len(self) else "empty"
@@ -72,9 +143,7 @@ class TimeSeries:
 
     def unit(self, channel: str) -> str:
         """The unit of one channel."""
-        if channel not in self.channels:
-            raise KeyError(f"there is no channel {channel!r}; there are {', '.join(self.channels)}")
-        return self.units[self.channels.index(channel)]
+        return self.units[self._index(channel)]
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with the index `time` [s] and a column for each channel; `attrs["units"]` has the units."""
@@ -85,7 +154,7 @@ class TimeSeries:
 
     def to_xarray(self) -> xarray.DataArray:
         """An array `channel` x `time`, as pyomeca has it. `attrs["units"]` is the unit of all channels, or a dict."""
-        array = _package("xarray").DataArray(
+        array: xarray.DataArray = _package("xarray").DataArray(
             self.values.T, dims=("channel", "time"), coords={"channel": self.channels, "time": self.time}
         )
         same = len(set(self.units)) == 1
@@ -113,11 +182,23 @@ class Markers:
         time: Times of the frames [s].
         positions: Frames x markers x 3 [m]; NaN where a marker is missing.
         names: Names of the markers.
+        source: Recording whose laboratory the frame is; empty: no recording says which way is up.
     """
 
-    time: np.ndarray
-    positions: np.ndarray
+    time: Array
+    positions: Array
     names: list[str]
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        import numpy as np
+
+        self.time, self.positions = np.asarray(self.time, dtype=float), np.asarray(self.positions, dtype=float)
+        if self.positions.shape != (len(self.time), len(self.names), 3):
+            raise InvalidInput(
+                f"found {len(self.time)} times, {len(self.names)} names and positions {self.positions.shape}; expected "
+                "frames x markers x 3"
+            )
 
     def __len__(self) -> int:
         return len(self.time)
@@ -125,12 +206,53 @@ class Markers:
     def __contains__(self, name: object) -> bool:
         return name in self.names
 
-    def __getitem__(self, name: str) -> np.ndarray:
-        """The positions of one marker, frames x 3 [m]."""
+    @overload
+    def __getitem__(self, key: str) -> Array: ...
+    @overload
+    def __getitem__(self, key: slice | list[str] | Array) -> Markers: ...
+    def __getitem__(self, key: Any) -> Any:
+        """`markers["RSHO"]`: the positions of one marker, frames x 3 [m]. `markers[["RSHO", "LSHO"]]`: these markers.
+        `markers[100:200]`: these frames."""
+        if isinstance(key, str):
+            return self.positions[:, self._index(key), :]
+        if isinstance(key, int):
+            raise TypeError("a number names no marker; markers.positions[3] is a frame, markers[3:4] are Markers of it")
+        if isinstance(key, (list, tuple)) and key and all(isinstance(name, str) for name in key):
+            return Markers(self.time, self.positions[:, [self._index(n) for n in key]], list(key), self.source)
+        return Markers(self.time[key], self.positions[key], self.names, self.source)
+
+    def _index(self, name: str) -> int:
         try:
-            return self.positions[:, self.names.index(name), :]
+            return self.names.index(name)
         except ValueError:
             raise KeyError(f"there is no marker {name!r}; there are {', '.join(self.names)}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the markers."""
+        return iter(self.names)
+
+    def keys(self) -> list[str]:
+        """The names of the markers."""
+        return list(self.names)
+
+    def items(self) -> Iterator[tuple[str, Array]]:
+        """Each marker's name and positions."""
+        return ((name, self[name]) for name in self.names)
+
+    def between(self, start: float, end: float) -> Markers:
+        """The frames from `start` to `end` [s], both included."""
+        return self[(self.time >= start) & (self.time <= end)]
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Array:
+        return _array(self.positions, dtype, copy)
+
+    def _repr_html_(self) -> str:
+        """For notebooks: a row for each marker with the share of its frames."""
+        import numpy as np
+
+        seen = np.isfinite(self.positions).all(axis=2).mean(axis=0) if len(self) else np.zeros(len(self.names))
+        rows = [{"marker": name, "seen": f"{100 * share:.0f} %"} for name, share in zip(self.names, seen)]
+        return f"<p>{len(self)} frames</p>{Table(rows, ['marker', 'seen'])._repr_html_()}"
 
     def __repr__(self) -> str:
         names = ", ".join([*self.names[:8], *["..."] * (len(self.names) > 8)])
@@ -148,7 +270,7 @@ class Markers:
 
     def to_xarray(self) -> xarray.DataArray:
         """An array `axis` x `channel` x `time` [m], as pyomeca has it."""
-        array = _package("xarray").DataArray(
+        array: xarray.DataArray = _package("xarray").DataArray(
             self.positions.transpose(2, 1, 0),
             dims=("axis", "channel", "time"),
             coords={"axis": ["x", "y", "z"], "channel": self.names, "time": self.time},
@@ -156,6 +278,8 @@ class Markers:
         array.attrs["units"] = "m"
         return array
 
+
+_SHOWN_ROWS = 60
 
 # Columns of text, whatever stands in them: the unit "1", a muscle "1".
 _TEXTS = frozenset(
@@ -193,7 +317,7 @@ class Table(Sequence[Mapping[str, Any]]):
         csv.field_size_limit(2**31 - 1)  # names may be long
         with open(path, encoding="utf-8", newline="") as file:
             reader = csv.reader(line for line in file if not line.startswith("#"))
-            columns = next(reader, [])
+            columns: list[str] = next(reader, [])
             return cls([{c: _cell(c, text) for c, text in zip(columns, row)} for row in reader], columns)
 
     def __len__(self) -> int:
@@ -227,12 +351,14 @@ class Table(Sequence[Mapping[str, Any]]):
         return f"Table({len(self)} rows: {', '.join(self.columns)})"
 
     def _repr_html_(self) -> str:
+        """For notebooks: at most 60 rows."""
         head = "".join(f"<th>{html.escape(column)}</th>" for column in self.columns)
         body = "".join(
             "<tr>" + "".join(f"<td>{html.escape(_shown(row[column]))}</td>" for column in self.columns) + "</tr>"
-            for row in self._rows
+            for row in self._rows[:_SHOWN_ROWS]
         )
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        more = f"<p>and {len(self) - _SHOWN_ROWS} more rows</p>" if len(self) > _SHOWN_ROWS else ""
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
 
 
 def _shown(value: Any) -> str:

@@ -13,5 +13,6 @@ void bind_stages(pybind11::module_& module);
 void bind_muscles(pybind11::module_& module);
 void bind_studies(pybind11::module_& module);
 void bind_twins(pybind11::module_& module);
+void bind_cohorts(pybind11::module_& module);
 
 }  // namespace myoid::python

@@ -1,3 +1,6 @@
+#include <filesystem>
+#include <system_error>
+
 #include <pybind11/pybind11.h>
 
 #include "myoid/ground/core/error.h"
@@ -20,7 +23,9 @@ void bind_errors() {
     try {
       std::rethrow_exception(failure);
     } catch (const ReadError& error) {
-      const py::object type = error_class("ReadError");
+      std::error_code ignored;
+      const bool is_there = std::filesystem::exists(error.path(), ignored);
+      const py::object type = error_class(is_there ? "ReadError" : "MissingFileError");
       PyErr_SetObject(type.ptr(), type(error.what(), error.path().string(), error.line()).ptr());
     } catch (const ModelError& error) {
       raise("ModelError", error.what());
@@ -46,4 +51,5 @@ PYBIND11_MODULE(_native, module) {
   myoid::python::bind_muscles(module);
   myoid::python::bind_studies(module);
   myoid::python::bind_twins(module);
+  myoid::python::bind_cohorts(module);
 }

@@ -6,14 +6,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/output_file.h"
 #include "myoid/program/commands/convert.h"
+#include "myoid/program/commands/convert_parts.h"
 #include "myoid/program/commands/info.h"
 #include "myoid/recording/channel_choice.h"
+#include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/result_units.h"
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
+#include "myoid/recording/tables/trc_writer.h"
+#include "myoid/results/mat/results_mat.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -78,6 +84,53 @@ TimeSeries series_of(const Recording& recording, std::size_t clock) {
   return alone([&] { return channels.series(); });
 }
 
+using Numbers = py::array_t<double, py::array::f_style | py::array::forcecast>;
+
+Eigen::MatrixXd matrix_of(const Numbers& values) {
+  if (values.ndim() != 2) throw py::value_error("expected an array of two dimensions");
+  return Eigen::Map<const Eigen::MatrixXd>(values.data(), values.shape(0), values.shape(1));
+}
+
+Eigen::VectorXd vector_of(const Numbers& values) {
+  if (values.ndim() != 1) throw py::value_error("expected an array of one dimension");
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
+}
+
+/// Writes arrays as a storage file or a table, by the ending of the name, so that a command reads them as it reads
+/// other files. `units`: units of the numbers; an empty word is none.
+void write_series(const std::string& path,
+                  const Numbers& time_s,
+                  const Numbers& values,
+                  const std::vector<std::string>& names,
+                  const std::vector<std::string>& units) {
+  Eigen::MatrixXd si = matrix_of(values);
+  std::vector<Channel> channels;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto unit = units.at(i).empty() ? ScaledUnit{} : parse_unit(units[i]);
+    if (!unit) throw InvalidInput("{}: '{}' is no unit that is known", names[i], units[i]);
+    const auto column = static_cast<Eigen::Index>(i);
+    if (unit->to_si != 1.0 && column < si.cols()) si.col(column) *= unit->to_si;
+    channels.push_back({names[i], unit->unit});
+  }
+  const TimeSeries series(vector_of(time_s), std::move(channels), std::move(si));
+  alone([&] { recording::write_series(path, series, "Array"); });
+}
+
+/// Writes positions, frames x (3 markers) [m], as a .trc file, with the names that `convert` gives.
+void write_markers(const std::string& path,
+                   const Numbers& time_s,
+                   const Numbers& positions_m,
+                   std::vector<std::string> names) {
+  MarkerSeries markers{.time_s = vector_of(time_s), .names = std::move(names), .positions_m = matrix_of(positions_m)};
+  std::vector<Repair> repairs;
+  program::without_blanks(markers, repairs);
+  if (markers.positions_m.rows() != markers.frame_count() || markers.positions_m.cols() != 3 * markers.marker_count())
+    throw InvalidInput("found {} x {} numbers, expected {} frames of {} markers with x, y, z",
+                       markers.positions_m.rows(), markers.positions_m.cols(), markers.frame_count(),
+                       markers.marker_count());
+  alone([&] { recording::write_trc(path, markers); });
+}
+
 /// A JSON document as Python's own objects.
 py::object from_json(const nlohmann::ordered_json& json) {
   return py::module_::import("json").attr("loads")(json.dump());
@@ -117,7 +170,15 @@ py::object convert(py::dict given) {
   k.take("overwrite", o.overwrite);
   k.refuse_others();
   o.call = work.call();
-  return py::cast(work.run([&] { return program::convert(o); }).files);
+  if (std::filesystem::path(o.out).extension() != ".mat")
+    return py::cast(work.run([&] { return program::convert(o); }).files);
+  (void)work.run([&] {
+    results::check_mat_file(o.out);
+    check_output(o.out, {o.in}, o.overwrite);
+    results::write_results_mat(o.in, o.out);
+    return true;
+  });
+  return py::cast(std::vector<std::string>{o.out});
 }
 
 }  // namespace
@@ -171,6 +232,12 @@ void bind_recordings(py::module_& module) {
     series.attr("units") = units;
     return series;
   });
+  module.def("laboratory_up", [](const std::string& path) {
+    const recording::LaboratoryUp up = alone([&] { return recording::read_laboratory_up(path); });
+    return up.up_L ? recording::axis_name(*up.up_L) : std::string();
+  });
+  module.def("write_series", &write_series);
+  module.def("write_markers", &write_markers);
   module.def("info", &info);
   module.def("convert", &convert);
 }

@@ -231,6 +231,7 @@ py::dict sweep(py::dict given) {
   }
   py::dict d;
   d["coordinate"] = result.coordinate;
+  d["unit"] = result.is_angle ? "rad" : "m";
   d["values"] = to_array(std::move(result.muscles.front().path.values));
   d["moment_arm"] = arm;
   d["length"] = length;

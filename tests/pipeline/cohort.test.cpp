@@ -81,12 +81,12 @@ class Cohort : public testing::Test {
 };
 
 TEST_F(Cohort, HasTheSameBytesForOneJobAndForThreeAndNamesWhoFailed) {
-  const Finished one = cohort("one", {"--jobs", "1", "--threads", "1"});
+  const Finished one = cohort("one", {"--jobs", "1", "--threads", "1", "--keep", "all"});
   EXPECT_EQ(one.exit_code, 5) << one.err;
   EXPECT_THAT(one.err, HasSubstr("P2 failed: "));
   EXPECT_THAT(one.err, HasSubstr("lift.trc"));
   EXPECT_THAT(one.out, HasSubstr("P4"));
-  EXPECT_EQ(cohort("three", {"--jobs", "3"}).exit_code, 5);
+  EXPECT_EQ(cohort("three", {"--jobs", "3", "--keep", "all"}).exit_code, 5);
   const auto first = files("one");
   EXPECT_GT(first.size(), 60U);
   expect_same(first, files("three"));
@@ -102,6 +102,33 @@ TEST_F(Cohort, HasTheSameBytesForOneJobAndForThreeAndNamesWhoFailed) {
   EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.at("person") == "P2"; }), 0);
   EXPECT_EQ(rows.back().at("age"), "34");
   EXPECT_EQ(read_rows(folder / "one/persons.csv").at(1).at("outcome"), "failed");
+}
+
+TEST_F(Cohort, APersonIsAFewSmallFilesUnlessAllAreKept) {
+  constexpr std::size_t kMostFiles = 30, kMostBytes = 2'000'000;
+  ASSERT_EQ(cohort("out").exit_code, 5);
+  const auto of_person = [&](const char* ending) {
+    std::size_t count = 0, bytes = 0;
+    for (const auto& [name, text] : files("out")) {
+      if (!name.starts_with("persons/P1/") || !name.ends_with(ending)) continue;
+      ++count;
+      bytes += text.size();
+    }
+    return std::pair(count, bytes);
+  };
+  EXPECT_LE(of_person("").first, kMostFiles);
+  EXPECT_LE(of_person("").second, kMostBytes);
+  EXPECT_EQ(of_person("report.html").first, 1U);
+  EXPECT_EQ(of_person(".sto").first, 0U);
+  const std::string parameters = files("out").at("persons/P1/parameters.csv");
+  // Another wish computes the person again, and leaves nothing of the former.
+  ASSERT_EQ(cohort("out", {"--keep", "tables"}).exit_code, 5);
+  EXPECT_EQ(of_person("report.html").first, 0U);
+  EXPECT_EQ(files("out").at("persons/P1/parameters.csv"), parameters);
+  ASSERT_EQ(cohort("out", {"--keep", "all", "--work-dir", folder / "work"}).exit_code, 5);
+  EXPECT_GT(of_person(".sto").first, 5U);
+  EXPECT_TRUE(fs::exists(folder / "work/P1/.stages"));
+  EXPECT_FALSE(fs::exists(folder / "out/persons/P1/.stages"));
 }
 
 TEST_F(Cohort, AKilledCohortGoesOnWhereItStoppedWithTheSameBytes) {

@@ -18,7 +18,7 @@ TERMINAL = {"help", "json", "quiet", "verbose", "strict", "each_muscle", "paper_
 PAGE = {"html", "motion", "forces", "activations", "markers", "meshes", "up", "start", "end", "overwrite"}
 COMMANDS = [
     "run", "identify", "predict", "check", "compare", "design", "emg", "ik", "id", "paths", "so", "muscle", "simulate",
-    "twin", "twin_study", "run_tool", "info", "convert",
+    "twin", "twin_study", "run_tool", "info", "convert", "cohort", "report", "init",
 ]  # fmt: skip
 
 
@@ -33,8 +33,10 @@ def test_keywords_are_the_options_of_the_command_line(command):
     parameters = inspect.signature(getattr(myoid, command)).parameters
     keywords = {p.name.rstrip("_") for p in parameters.values() if p.kind == p.KEYWORD_ONLY} - {"progress"}
     positional = {p.name for p in parameters.values() if p.kind == p.POSITIONAL_OR_KEYWORD}
-    if command == "convert":
-        keywords -= {"out"}
+    if command == "cohort":
+        options -= {"entity", "n_cpus", "mem_mb"}  # of workflows and BIDS Apps; threads, jobs
+    if command in ("convert", "emg"):
+        keywords -= {"out"} if command == "convert" else {"rate"}  # of arrays
     assert keywords == options - positional
 
 

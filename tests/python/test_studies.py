@@ -110,7 +110,8 @@ def test_a_pickled_result_carries_its_tables_and_series(recording, tmp_path):
 
 
 def test_a_notebook_shows_bars_and_the_report_without_a_server(result):
-    page = result._repr_html_()
+    assert "srcdoc=" not in result._repr_html_()
+    page = result._repr_html_() + result.report_html()
     assert page.count("<svg") >= 10 and "srcdoc=" in page and "http://" not in page.split("srcdoc=")[0]
     frame = re.search(r'srcdoc="([^"]*)"', page)
     assert frame and "&lt;html" in frame.group(1)[:200].lower().replace("&lt;!doctype html&gt;", "&lt;html")

@@ -32,3 +32,8 @@ grep -q 'N m (.* to .*)' said
 here=$(dirname "$page")/../../tests/realtime
 cc -std=c99 -Wall -Wextra -Werror -I"$include" "$here/faults.c" -L"$library" -lmyoid -lm -Wl,-rpath,"$library" -o faults
 ./faults results
+if command -v python3 >/dev/null; then
+  python3 "$here/../../examples/realtime/with_ctypes.py" results "$library/libmyoid.so" | tee said
+  grep -q 'N m (.* to .*)' said
+  python3 "$here/damaged.py" "$library/libmyoid.so" results damage
+fi

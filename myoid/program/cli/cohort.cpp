@@ -14,6 +14,9 @@
 namespace myoid::program {
 namespace {
 
+/// Memory that a person under way needs at most, with markers and EMG of some minutes.
+constexpr std::size_t kPersonMemory_mb = 500;
+
 using results::OutcomeKind;
 using results::PersonOutcome;
 
@@ -87,6 +90,63 @@ void run_cohort(Context& context,
   if (steps.group && !context.json) say("\nreport: {}/report.html\n", folder.string());
 }
 
+/// The options of the files of each person, and of the persons under way.
+void add_file_options(CLI::App& command, program::CohortOptions& o) {
+  command
+      .add_option("--keep", o.kept,
+                  "Files of each person: tables; page (default), also a report without the moving model; all, as run "
+                  "writes them")
+      ->transform(one_of<page::Kept>());
+  command.add_option("-w,--work-dir,--work_dir", o.work,
+                     "Folder for the stages of persons under way (default: in the folder of each person)");
+  command
+      .add_option("--jobs", o.jobs,
+                  "Persons at a time (default: as many as threads; the files are the same for every number)")
+      ->check(between(1, 1024));
+}
+
+/// Adds NAME=VALUE to the filter.
+void add_entities(const std::vector<std::string>& pairs, results::BidsFilter& filter) {
+  for (const std::string& pair : pairs) {
+    const std::size_t equals = pair.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      throw CLI::ValidationError("--entity", pair + ": expected NAME=VALUE, as run=1");
+    filter[pair.substr(0, equals)].push_back(pair.substr(equals + 1));
+  }
+}
+
+/// The options of BIDS Apps that choose trials and limit the computer.
+void add_bids_options(CLI::App& command, Context& context, program::CohortOptions& o) {
+  const auto add_values = [&o](const char* entity) {
+    return [&o, entity](const std::vector<std::string>& values) {
+      for (std::string value : values) {
+        const std::string begin = std::string(entity) + "-";
+        o.filter[entity].push_back(value.starts_with(begin) ? value.substr(begin.size()) : value);
+      }
+    };
+  };
+  command.option_defaults()->group("BIDS App");
+  command.add_option_function<std::vector<std::string>>("--session-label,--session_label", add_values("ses"),
+                                                        "Only trials of these sessions, by the names of their files");
+  command.add_option_function<std::vector<std::string>>("--task-label,--task_label,--task-id", add_values("task"),
+                                                        "Only trials of these tasks");
+  command.add_option_function<std::vector<std::string>>(
+      "--entity", [&o](const std::vector<std::string>& pairs) { add_entities(pairs, o.filter); },
+      "Only trials with this entity in the names of their files, NAME=VALUE; several");
+  command.add_option_function<std::string>(
+      "--bids-filter-file,--bids_filter_file",
+      [&o](const std::string& file) { results::add_bids_filter(file, o.filter); },
+      "The same as a file: {\"motion\": {\"session\": \"01\", \"task\": [\"lift\"]}}");
+  command.add_option("--n-cpus,--n_cpus", context.threads, "Processor cores, as --threads")->check(between(1, 1024));
+  command
+      .add_option_function<std::size_t>(
+          "--mem-mb,--mem_mb",
+          [&o](std::size_t memory_mb) { o.most_jobs = std::max<std::size_t>(1, memory_mb / kPersonMemory_mb); },
+          "Memory [MB]: a person at a time for every 500")
+      ->check(between(1, 100000000));
+  command.option_defaults()->group("Options");
+}
+
 }  // namespace
 
 void add_cohort(CLI::App& app, Context& context) {
@@ -126,10 +186,8 @@ void add_cohort(CLI::App& app, Context& context) {
       ->excludes(person)
       ->excludes(group_only)
       ->excludes(steps);
-  command
-      .add_option("--jobs", options->jobs,
-                  "Persons at a time (default: as many as threads; the files are the same for every number)")
-      ->check(between(1, 1024));
+  add_file_options(command, *options);
+  add_bids_options(command, context, *options);
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options, out, level, group, engine] {
     if (*engine) {

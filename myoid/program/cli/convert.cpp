@@ -10,6 +10,7 @@
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/option_checks.h"
 #include "myoid/program/cli/say.h"
+#include "myoid/results/mat/results_mat.h"
 
 namespace myoid::program {
 namespace {
@@ -37,8 +38,18 @@ void print_updated(const Context& context, const program::ConvertResult& result)
                 fmt::format("version {} -> {}\n{}", result.old_version, result.version, file));
 }
 
+/// Writes results or a storage file for MATLAB.
+void convert_to_mat(const CLI::App& command, const Context& context, const program::ConvertOptions& o) {
+  warn_of_idle_options(command, context, {"--overwrite"}, "a MATLAB file");
+  results::check_mat_file(o.out);
+  context.prepare_file(o.out, {o.in});
+  results::write_results_mat(o.in, o.out);
+  context.print({{"files", {o.out}}}, o.out);
+}
+
 /// Converts, and prints the written files.
 void run_convert(const CLI::App& command, Context& context, program::ConvertOptions& o) {
+  if (std::filesystem::path(o.out).extension() == ".mat") return convert_to_mat(command, context, o);
   const program::Conversion kind = program::conversion_of(o);
   const std::filesystem::path out = o.out;
   if (kind == program::Conversion::derivative) {
@@ -80,7 +91,8 @@ void add_convert(CLI::App& app, Context& context) {
       ->required();
   command
       .add_option("out", o->out,
-                  ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it; .osim, .xml of an OpenSim file")
+                  ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it; .osim, .xml of an OpenSim file; "
+                  ".mat of a storage file or of the folder of a run")
       ->required();
   command
       .add_option("--what", o->what,

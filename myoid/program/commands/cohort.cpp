@@ -58,27 +58,28 @@ Outcome computed(const CohortOptions& o, const fs::path& study, const fs::path& 
                   .progress = {.report = {}, .stop = o.call.progress.stop},
                   .listener = {}};
   options.study = study.string();
-  options.store = folder / kStageFolder;
+  const fs::path store = o.work.empty() ? folder / kStageFolder : o.work / folder.filename() / kStageFolder;
+  options.store = store;
   RunResult result = run(options);
   result.study.times.clear();  // the same bytes however long the job takes, and on every day
   result.study.analysed.clear();
-  write_run(result, folder);
-  Outcome outcome{.kind = OutcomeKind::done, .message = {}, .build = {}, .inputs = result.provenance.inputs};
+  write_run(result, folder, o.kept);
+  if (o.kept != page::Kept::all) fs::remove_all(store);  // only an interrupted job goes on from it
+  Outcome outcome{
+      .kind = OutcomeKind::done, .message = {}, .build = {}, .kept = o.kept, .inputs = result.provenance.inputs};
   judge(result, outcome);
   return outcome;
 }
 
-Outcome failure(const std::string& message) {
-  return {.kind = OutcomeKind::failed, .message = message, .build = {}, .inputs = {}};
-}
+Outcome failure(const std::string& message) { return {.kind = OutcomeKind::failed, .message = message}; }
 
 /// Computes a person unless the results are current; records a failure.
 results::PersonOutcome job_in(const CohortOptions& o, const Person& person, const fs::path& folder) {
   Outcome outcome;
   try {
-    const fs::path study = results::person_study(person, folder);
+    const fs::path study = results::person_study(person, folder, o.filter);
     const auto earlier = results::recorded_outcome(folder);
-    if (earlier && results::is_current(*earlier, study))
+    if (earlier && earlier->kept == o.kept && results::is_current(*earlier, study))
       return {.person = person.name, .outcome = earlier, .reused = true};
     results::remove_outcome(folder);
     remove_earlier_results(folder);
@@ -128,16 +129,19 @@ std::vector<results::PersonOutcome> write_cohort_persons(const CohortOptions& o,
   std::mutex mutex;
   std::size_t done = 0;
   Remarks remarks(o.call);
-  in_jobs(persons.size(), o.jobs, [&](std::size_t i) {
-    o.call.progress.check();
-    PersonJob done_job = job(o, *persons[i], folder);
-    const std::scoped_lock lock(mutex);
-    outcomes[i] = std::move(done_job.outcome);
-    for (std::string& note : done_job.notes) remarks.note(std::move(note));
-    o.call.progress.tell(static_cast<double>(++done) / static_cast<double>(persons.size()),
-                         fmt::format("{} of {} persons", done, persons.size()));
-    if (o.heard) o.heard(outcomes[i]);
-  });
+  in_jobs(
+      persons.size(), o.jobs,
+      [&](std::size_t i) {
+        o.call.progress.check();
+        PersonJob done_job = job(o, *persons[i], folder);
+        const std::scoped_lock lock(mutex);
+        outcomes[i] = std::move(done_job.outcome);
+        for (std::string& note : done_job.notes) remarks.note(std::move(note));
+        o.call.progress.tell(static_cast<double>(++done) / static_cast<double>(persons.size()),
+                             fmt::format("{} of {} persons", done, persons.size()));
+        if (o.heard) o.heard(outcomes[i]);
+      },
+      o.most_jobs);
   return outcomes;
 }
 
@@ -155,6 +159,11 @@ results::Group write_cohort_group(const CohortOptions& o, const fs::path& folder
 std::string write_cohort_workflow(const CohortOptions& o, results::Engine engine, const fs::path& folder) {
   const results::Manifest manifest = results::read_manifest(o.manifest, o.study);
   std::string options;
+  for (const auto& [entity, values] : o.filter)
+    for (const std::string& value : values) options += fmt::format("--entity {} ", shell_word(entity + "=" + value));
+  if (o.kept != page::Kept::page) options += fmt::format("--keep {} ", choice_name(o.kept));
+  if (!o.work.empty())
+    options += fmt::format("--work-dir {} ", shell_word(fs::absolute(o.work).lexically_normal().string()));
   if (!o.study.empty()) options += "--study " + shell_word(fs::absolute(o.study).lexically_normal().string());
   const results::Workflow workflow = results::workflow(engine, manifest, folder, options);
   RecordedFolder held(folder / "workflow", "workflow");

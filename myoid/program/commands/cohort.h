@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "myoid/fit/measurement/options.h"
+#include "myoid/page/write_report.h"
 #include "myoid/program/commands/call.h"
 #include "myoid/results/cohort/group.h"
 #include "myoid/results/cohort/outcome.h"
+#include "myoid/results/cohort/person_study.h"
 #include "myoid/results/cohort/workflow.h"
 
 namespace myoid::program {
@@ -17,11 +19,15 @@ namespace myoid::program {
 /// Many persons, each with a study: `run` for each, then all results side by side.
 struct CohortOptions {
   Call call;
-  std::string manifest;              ///< Table of the persons, or folder of a BIDS data set.
-  std::string study;                 ///< BIDS: the study of every person; empty: code/study.toml.
-  std::vector<std::string> persons;  ///< Names or labels; empty: all persons.
-  bool overwrite = false;            ///< Also into folders with other content than a cohort's results.
-  std::size_t jobs = 0;              ///< Persons computed at the same time; 0: as many as threads.
+  std::string manifest;                ///< Table of the persons, or folder of a BIDS data set.
+  std::string study;                   ///< BIDS: the study of every person; empty: code/study.toml.
+  std::vector<std::string> persons;    ///< Names or labels; empty: all persons.
+  page::Kept kept = page::Kept::page;  ///< Files of each person.
+  results::BidsFilter filter;          ///< Trials in use.
+  std::filesystem::path work;          ///< Folder of the stages of persons under way; empty: the person's own.
+  bool overwrite = false;              ///< Also into folders with other content than a cohort's results.
+  std::size_t jobs = 0;                ///< Persons computed at the same time; 0: as many as threads.
+  std::size_t most_jobs = 1024;        ///< Memory permits so many persons at the same time.
   /// Receives the end of each person at once; may be empty. Called by one thread at a time.
   std::function<void(const results::PersonOutcome&)> heard;
 };

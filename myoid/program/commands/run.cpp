@@ -1,6 +1,7 @@
 #include "myoid/program/commands/run.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -87,12 +88,14 @@ RunResult run(const study::Study& study, const RunOptions& o) {
   return result;
 }
 
-void write_run(const RunResult& result, const std::filesystem::path& folder) {
+void write_run(const RunResult& result, const std::filesystem::path& folder, page::Kept kept) {
   remove_earlier_results(folder);
-  results::write_results(result.study, result.provenance, folder);
+  results::write_results(result.study, result.provenance, folder, kept);
   results::write_exports(result.exports, folder);
-  const page::Workbench workbench = results::study_workbench(result.study, folder);
-  page::write_report(results::study_report(result.study, result.provenance), folder, &workbench);
+  std::optional<page::Workbench> workbench;
+  if (kept == page::Kept::all) workbench = results::study_workbench(result.study, folder);
+  page::write_report(results::study_report(result.study, result.provenance), folder, workbench ? &*workbench : nullptr,
+                     kept);
 }
 
 }  // namespace myoid::program

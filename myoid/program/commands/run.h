@@ -9,6 +9,7 @@
 #include "myoid/fit/measurement/options.h"
 #include "myoid/ground/core/provenance.h"
 #include "myoid/page/report.h"
+#include "myoid/page/write_report.h"
 #include "myoid/program/commands/call.h"
 #include "myoid/results/exports/exported_project.h"
 #include "myoid/run/study_result.h"
@@ -52,6 +53,6 @@ struct RunResult {
 [[nodiscard]] RunResult run(const study::Study& study, const RunOptions& options);
 
 /// Writes all results and the report, in the place of the files of an earlier run.
-void write_run(const RunResult& result, const std::filesystem::path& folder);
+void write_run(const RunResult& result, const std::filesystem::path& folder, page::Kept kept = page::Kept::all);
 
 }  // namespace myoid::program

@@ -59,7 +59,7 @@ void warn_of_path_differences(const body::BodyModel& model, const std::string& n
 body::BodyModel load_model(const std::string& name, const std::string& compat, Remarks& remarks) {
   std::error_code ignored;
   if (!name.ends_with(".osim") && name != "arm4" && !std::filesystem::exists(name, ignored)) {
-    throw InvalidInput(fmt::format("--model {}: there is no such file, and the only built-in model is arm4", name));
+    throw ReadError(name, 0, "there is no such file, and the only built-in model is arm4");
   }
   const body::OsimOptions options{.compat = body::parse_compat(compat)};
   body::BodyModel model =

@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using page::Cell;
+
+constexpr std::size_t kMostInHeadline = 20;  // persons without results, in the headline
 using recording::CsvTable;
 
 page::Badge badge(const std::optional<Outcome>& outcome) {
@@ -91,19 +93,35 @@ void add_parameters(page::Table& table, const Person& person, const CsvTable& pa
   }
 }
 
+/// Returns the first rows of the persons for the page, those without results before the others.
+page::Table shown_persons(page::Table all) {
+  constexpr std::size_t kMostOnPage = 200;
+  if (all.rows.size() <= kMostOnPage) return all;
+  const auto is_done = [](const std::vector<Cell>& row) { return row[row.size() - 2].badge == page::Badge::good; };
+  std::ranges::stable_sort(all.rows, {}, is_done);
+  all.caption =
+      fmt::format("{} of {}, those that are not done first; all are in persons.csv.", kMostOnPage, all.rows.size());
+  all.rows.resize(kMostOnPage);
+  return all;
+}
+
 page::Report page_of(const Manifest& manifest, const Group& group, const std::vector<GroupPerson>& persons) {
   GroupPage beside = group_page(persons);
   page::Report page;
   page.title = "A cohort";
   page.subtitle = counted(group.outcomes.size(), "person");
   page.headline = fmt::format("{} of {} persons have results.", persons.size(), group.outcomes.size());
-  for (const std::string& line : failures(group.outcomes)) page.headline += " Without: " + line + ".";
+  const std::vector<std::string> failed = failures(group.outcomes);
+  for (std::size_t i = 0; i < std::min(failed.size(), kMostInHeadline); ++i)
+    page.headline += " Without: " + failed[i] + ".";
+  if (failed.size() > kMostInHeadline)
+    page.headline += fmt::format(" And {} more, named in persons.csv.", failed.size() - kMostInHeadline);
   if (!beside.outliers.empty()) page.headline += " " + outlier_sentence(beside.outliers);
   page.links = {{"every number of every person", "cohort.csv"}, {"the persons", "persons.csv"}};
   page::Section people;
   people.id = "people";
   people.heading = "The persons";
-  people.tables.push_back(group.persons);
+  people.tables.push_back(shown_persons(group.persons));
   page.sections = {std::move(beside.persons), std::move(people)};
   page.provenance = {{"program", fmt::format("myoid {}", version())}, {"manifest", manifest.file.string()}};
   return page;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -24,6 +26,8 @@ using page::StripGrid;
 
 constexpr double kRobust = 1.4826;  // standard deviation over the median absolute deviation, normal
 constexpr std::size_t kMostNamed = 3;
+// A page that a browser opens at once, whatever the number of persons.
+constexpr std::size_t kMostDrawn = 60, kMostCells = 6000, kMostRows = 200;
 
 /// Median and robust standard deviation.
 struct Spread {
@@ -170,6 +174,36 @@ std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons, std
   return grids;
 }
 
+/// Returns the persons that are drawn, in their order: those with the most outliers, then the first ones. `cells`:
+/// numbers of one person.
+std::vector<std::size_t> drawn_persons(const std::vector<GroupPerson>& persons,
+                                       const std::vector<Outlier>& outliers,
+                                       std::size_t cells) {
+  std::map<std::string_view, std::size_t> far;
+  for (const Outlier& o : outliers) ++far[o.person];
+  const auto count = [&](std::size_t i) {
+    const auto found = far.find(persons[i].name);
+    return found == far.end() ? std::size_t{0} : found->second;
+  };
+  std::vector<std::size_t> order(persons.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return count(a) > count(b); });
+  order.resize(
+      std::min({order.size(), kMostDrawn, std::max<std::size_t>(kMostCells / std::max<std::size_t>(cells, 1), 5)}));
+  std::ranges::sort(order);
+  return order;
+}
+
+/// Leaves the rows of these persons. Medians and spreads stay those of all.
+void draw_only(StripGrid& grid, const std::vector<std::size_t>& persons) {
+  if (persons.size() == grid.rows.size()) return;
+  grid.caption += fmt::format(" Drawn are {} of {} persons: those farthest from the others, then the first.",
+                              persons.size(), grid.rows.size());
+  std::vector<page::StripRow> rows;
+  for (const std::size_t i : persons) rows.push_back(std::move(grid.rows[i]));
+  grid.rows = std::move(rows);
+}
+
 /// Values and intervals of one reading of a number, over the persons.
 struct OverPersons {
   std::vector<double> values, half_widths;
@@ -252,6 +286,10 @@ page::Table outlier_table(const std::vector<Outlier>& outliers) {
                     .rows = {}};
   for (const Outlier& o : outliers) {
     const std::string unit = o.unit.empty() ? "" : " " + o.unit;
+    if (table.rows.size() == kMostRows) {
+      table.caption += fmt::format(" The first {} of {}.", kMostRows, outliers.size());
+      break;
+    }
     table.rows.push_back(page::text_row({o.person, o.number, page::format_value(o.value) + unit,
                                          page::format_value(o.median) + unit, fmt::format("{:+.1f}", o.distance)}));
   }
@@ -279,6 +317,11 @@ GroupPage group_page(const std::vector<GroupPerson>& persons) {
   StripGrid quality = quality_grid(persons, page.outliers);
   std::vector<StripGrid> grids = number_grids(persons, page.outliers);
   page::Table summary = summary_table(grids);
+  std::size_t cells = quality.columns.size();
+  for (const StripGrid& grid : grids) cells += grid.columns.size();
+  const std::vector<std::size_t> drawn = drawn_persons(persons, page.outliers, cells);
+  draw_only(quality, drawn);
+  for (StripGrid& grid : grids) draw_only(grid, drawn);
   if (!quality.columns.empty()) page.persons.grids.push_back(std::move(quality));
   for (StripGrid& grid : grids) page.persons.grids.push_back(std::move(grid));
   if (!page.outliers.empty()) page.persons.tables.push_back(outlier_table(page.outliers));

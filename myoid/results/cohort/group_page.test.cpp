@@ -78,6 +78,20 @@ TEST(GroupPage, ShowsBothReadingsOfEachPersonAndOfTheGroup) {
   EXPECT_EQ(summary.rows[0][9].text, "3");
 }
 
+TEST(GroupPage, DrawsSomeOfManyPersonsAndCountsAll) {
+  std::vector<GroupPerson> persons;
+  for (int i = 0; i < 1000; ++i) persons.push_back(person(i, 600.0 + 0.1 * i));
+  persons.push_back(person(1000, 1900.0));
+  const GroupPage page = group_page(persons);
+  const page::StripGrid& grid = page.persons.grids[1];
+  ASSERT_EQ(grid.rows.size(), 60U);
+  EXPECT_EQ(page.persons.grids[0].rows.size(), 60U);
+  EXPECT_EQ(grid.rows[0].person, "P0");
+  EXPECT_EQ(grid.rows[59].person, "P1000") << "the person far from the others is drawn";
+  EXPECT_DOUBLE_EQ(*grid.columns[0].middle, 650.0) << "the median of all";
+  EXPECT_EQ(page.persons.tables.at(1).rows[0][3].text, "1001 of 1001");
+}
+
 TEST(GroupPage, ANumberThatIsNotToldIsDrawnAndCountsNowhere) {
   std::vector<GroupPerson> persons;
   for (int i = 0; i < 6; ++i) persons.push_back(person(i, 600.0 + 10.0 * i));

@@ -12,7 +12,6 @@
 #include "myoid/ground/files/text_file.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/page/read_gates.h"
-#include "myoid/recording/tables/storage_reader.h"
 #include "myoid/results/change_sentences.h"
 
 namespace myoid::results {
@@ -92,14 +91,11 @@ void add_fit(const json& parameters, std::vector<Quality>& quality) {
   if (!rmse_nm.empty()) quality.push_back({"torque error, left out", "N m", math::median(rmse_nm)});
 }
 
-void add_markers(const fs::path& folder, std::vector<Quality>& quality) {
+void add_markers(const json& run, std::vector<Quality>& quality) {
   std::vector<double> errors_mm;
-  for (const fs::directory_entry& trial : fs::directory_iterator(folder)) {
-    const fs::path file = trial.path() / "ik_marker_errors.sto";
-    if (!fs::exists(file)) continue;
-    const TimeSeries series = recording::read_storage(file).data;
-    const Eigen::VectorXd rms = series.column("marker_error_RMS");
-    errors_mm.push_back(1000.0 * math::median({rms.begin(), rms.end()}));
+  for (const json& trial : run.value("trials", json::array())) {
+    const json error_m = trial.value("marker_error_m", json());
+    if (error_m.is_number()) errors_mm.push_back(1000.0 * error_m.get<double>());
   }
   if (!errors_mm.empty()) quality.push_back({"marker error, median frame", "mm", math::median(std::move(errors_mm))});
 }
@@ -181,16 +177,16 @@ std::vector<GroupNumber> group_numbers(const CsvTable& parameters) {
 
 std::vector<Quality> run_quality(const fs::path& folder) {
   std::vector<Quality> quality;
-  const fs::path report = folder / "report.json", parameters = folder / "parameters.json";
+  const fs::path report = folder / "report.json", parameters = folder / "parameters.json", run = folder / "run.json";
   try {
     if (fs::exists(report)) add_questions(page::read_gates(folder), quality);
     if (fs::exists(parameters)) add_fit(read_json(parameters), quality);
+    if (fs::exists(run)) add_markers(read_json(run), quality);
   } catch (const json::exception& error) {
     throw ReadError(
         folder, 0,
         fmt::format("is not the result of a run: {}; run the study again (myoid run)", json_error_text(error)));
   }
-  add_markers(folder, quality);
   return quality;
 }
 

@@ -47,7 +47,7 @@ struct GroupPerson {
 
 /// Returns the quality of the run in this folder, each number as far as the run has it: questions that were not
 /// answered well (report.json), R2 of the fitted samples and, as medians over trials, R2 and torque error of the trials
-/// left out (parameters.json), marker error (ik_marker_errors.sto of the trials). Throws ReadError for a damaged file.
+/// left out (parameters.json), marker error (run.json). Throws ReadError for a damaged file.
 [[nodiscard]] std::vector<Quality> run_quality(const std::filesystem::path& folder);
 
 /// A run of a group.

@@ -109,9 +109,15 @@ page::Report group_report(const GroupReportOptions& options) {
   if (std::optional<page::Gate> gate = kind_gate(persons)) page.gates.push_back(std::move(*gate));
   if (std::optional<page::Gate> gate = changed_gate(persons, options.after)) page.gates.push_back(std::move(*gate));
   page.provenance = {{"program", fmt::format("myoid {}", version())}};
-  for (const std::filesystem::path& folder : options.persons) page.provenance.push_back({"persons", folder.string()});
-  for (const std::filesystem::path& folder : options.after)
-    page.provenance.push_back({"second sessions", folder.string()});
+  const auto add_folders = [&](const char* what, const std::vector<std::filesystem::path>& folders) {
+    constexpr std::size_t kMostFolders = 200;
+    for (std::size_t i = 0; i < std::min(folders.size(), kMostFolders); ++i)
+      page.provenance.push_back({what, folders[i].string()});
+    if (folders.size() > kMostFolders)
+      page.provenance.push_back({what, fmt::format("and {} more", folders.size() - kMostFolders)});
+  };
+  add_folders("persons", options.persons);
+  add_folders("second sessions", options.after);
   return page;
 }
 

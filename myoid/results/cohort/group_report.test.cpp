@@ -42,9 +42,8 @@ fs::path run(const fs::path& folder, double strength) {
   write_file(folder / "report.json",
              R"({"gates": [{"name": "a", "status": "pass"}, {"name": "b", "status": "warn"}]})");
   write_file(folder / "report.html", "<html></html>");
-  write_file(folder / "lift/ik_marker_errors.sto",
-             "e\nversion=1\nnRows=3\nnColumns=2\nendheader\ntime\tmarker_error_RMS\n"
-             "0\t0.002\n0.1\t0.004\n0.2\t0.009\n");
+  write_file(folder / "run.json", R"({"trials": [{"name": "lift", "marker_error_m": 0.004}, {"name": "emg",
+             "marker_error_m": null}]})");
   return folder;
 }
 

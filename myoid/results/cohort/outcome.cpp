@@ -37,10 +37,12 @@ std::optional<Outcome> parse_outcome(const std::string& text) {
   try {
     const auto content = parse_ordered_json(text);
     const auto kind = choice_named<OutcomeKind>(content.at("outcome").get<std::string>());
-    if (!kind) return std::nullopt;
+    const auto kept = choice_named<page::Kept>(content.at("kept").get<std::string>());
+    if (!kind || !kept) return std::nullopt;
     Outcome outcome{.kind = *kind,
                     .message = content.at("message").get<std::string>(),
                     .build = content.at("build").get<std::string>(),
+                    .kept = *kept,
                     .inputs = {}};
     for (const ordered_json& input : content.at("inputs"))
       outcome.inputs.push_back({input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
@@ -69,6 +71,7 @@ void write_outcome(const Outcome& outcome, const fs::path& folder) {
   ordered_json record{{"outcome", std::string(choice_name(outcome.kind))},
                       {"message", outcome.message},
                       {"build", outcome.build},
+                      {"kept", std::string(choice_name(outcome.kept))},
                       {"inputs", ordered_json::array()}};
   for (const InputFile& input : outcome.inputs)
     record["inputs"].push_back({{"path", input.path}, {"sha256", input.sha256}});

@@ -8,6 +8,7 @@
 
 #include "myoid/ground/core/choice.h"
 #include "myoid/ground/core/provenance.h"
+#include "myoid/page/write_report.h"
 #include "myoid/results/cohort/manifest.h"
 
 namespace myoid::results {
@@ -26,6 +27,7 @@ struct Outcome {
   OutcomeKind kind = OutcomeKind::done;
   std::string message;  ///< Empty where all went well.
   std::string build;    ///< `build_identity` of the program.
+  page::Kept kept = page::Kept::page;
   std::vector<InputFile> inputs;
 };
 

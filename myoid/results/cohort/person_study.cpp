@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/json_text.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/quoted_text.h"
 #include "myoid/ground/files/text_file.h"
@@ -109,13 +111,49 @@ std::string filled_study(std::string_view text, const fs::path& file, const Pers
   return filled;
 }
 
-fs::path person_study(const Person& person, const fs::path& folder) {
+void add_bids_filter(const fs::path& file, BidsFilter& filter) {
+  static const std::map<std::string, std::string> shorts{{"session", "ses"}, {"acquisition", "acq"}};
+  using Entities = std::map<std::string, nlohmann::json>;
+  try {
+    for (const auto& [modality, entities] : parse_json(read_text_file(file)).get<std::map<std::string, Entities>>()) {
+      for (const auto& [name, values] : entities) {
+        const auto known = shorts.find(name);
+        std::vector<std::string>& of = filter[known == shorts.end() ? name : known->second];
+        if (values.is_string())
+          of.push_back(values.get<std::string>());
+        else
+          for (const auto& value : values.get<std::vector<std::string>>()) of.push_back(value);
+      }
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw ReadError(file, 0, "is no filter of BIDS, {{\"motion\": {{\"session\": \"01\"}}}}: {}",
+                    json_error_text(error));
+  }
+}
+
+bool passes(const study::TrialSpec& trial, const BidsFilter& filter) {
+  for (const auto* path : {&trial.markers, &trial.motion, &trial.emg}) {
+    if (!*path) continue;
+    std::string name = "_" + (*path)->stem().string() + "_";
+    for (const auto& [entity, values] : filter) {
+      const std::size_t at = name.find("_" + entity + "-");
+      if (at == std::string::npos) continue;
+      const std::size_t begin = at + entity.size() + 2;
+      if (std::ranges::find(values, name.substr(begin, name.find('_', begin) - begin)) == values.end()) return false;
+    }
+  }
+  return true;
+}
+
+fs::path person_study(const Person& person, const fs::path& folder, const BidsFilter& filter) {
   const std::string text = read_text_file(person.study);
   const std::string filled = filled_study(text, person.study, person);
-  if (filled == text) return person.study;
+  if (filled == text && filter.empty()) return person.study;
   // Absolute paths hold in the folder of the results, too.
   study::Study study = study::parse_study(filled, fs::absolute(person.study).lexically_normal());
   study.file = fs::absolute(folder / "study.toml").lexically_normal();
+  std::erase_if(study.trials, [&](const study::TrialSpec& trial) { return !passes(trial, filter); });
+  if (study.trials.empty()) throw ReadError(person.study, 0, "the filter of sessions and tasks leaves no trial");
   const std::string own = study::study_toml(study);
   const fs::path place = folder / "study.toml";
   write_file(place, own);

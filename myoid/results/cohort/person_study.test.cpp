@@ -71,5 +71,25 @@ TEST(PersonStudy, AFilledTemplateIsAStudyWhosePathsAreThoseOfTheTemplate) {
   EXPECT_EQ(person_study(person, folder / "other"), person.study) << "no template: the file itself";
 }
 
+TEST(PersonStudy, AFilterChoosesTrialsByTheNamesOfTheirRecordings) {
+  const test::TemporaryFolder folder;
+  study::TrialSpec trial;
+  trial.markers = "motion/sub-07_ses-02_task-lift_tracksys-omc_motion.tsv";
+  trial.emg = "emg/sub-07_ses-02_task-lift_emg.edf";
+  EXPECT_TRUE(passes(trial, {}));
+  EXPECT_TRUE(passes(trial, {{"task", {"walk", "lift"}}, {"ses", {"02"}}}));
+  EXPECT_FALSE(passes(trial, {{"task", {"lif"}}}));
+  EXPECT_FALSE(passes(trial, {{"task", {"lift"}}, {"ses", {"01"}}}));
+  EXPECT_TRUE(passes(trial, {{"run", {"1"}}})) << "a name without the entity";
+  write_file(folder / "f.json", R"({"motion": {"session": "02", "task": ["lift", "walk"]}, "emg": {"run": "1"}})");
+  BidsFilter filter;
+  add_bids_filter(folder / "f.json", filter);
+  EXPECT_EQ(filter, (BidsFilter{{"ses", {"02"}}, {"task", {"lift", "walk"}}, {"run", {"1"}}}));
+  for (const char* damaged : {"{", "[1]", R"({"motion": 1})", R"({"motion": {"task": [1]}})"}) {
+    write_file(folder / "f.json", damaged);
+    EXPECT_THROW(add_bids_filter(folder / "f.json", filter), InvalidInput) << damaged;
+  }
+}
+
 }  // namespace
 }  // namespace myoid::results

@@ -37,6 +37,9 @@ exec "${{MYOID:-myoid}}" cohort {0} --out {1} {2}--group
 constexpr const char* kSnakefile =
     R"py(# One person is one job. Start: snakemake --snakefile FILE --cores N
 
+import json
+import os
+
 HERE = {0}
 COHORT = {1}
 with open(HERE + "/persons.txt") as file:
@@ -46,13 +49,28 @@ rule all:
     input:
         COHORT + "/cohort.csv"
 
+def recordings(wildcards):
+    """The files that a person's results come from. A person who failed, or whose files are gone, depends on the end of
+    the group before, and is tried again."""
+    try:
+        with open(COHORT + "/persons/" + wildcards.person + "/outcome.json") as file:
+            outcome = json.load(file)
+    except (OSError, ValueError):
+        return []
+    files = [entry["path"] for entry in outcome["inputs"]]
+    if outcome["outcome"] != "failed" and all(map(os.path.exists, files)):
+        return files
+    return HERE + "/group_ended" if os.path.exists(HERE + "/group_ended") else []
+
 rule person:
+    input:
+        recordings
     output:
         COHORT + "/persons/{{person}}/outcome.json"
     retries: 2
     threads: 1
     shell:
-        "sh {{HERE:q}}/person.sh {{wildcards.person:q}}"
+        "sh {{HERE:q}}/person.sh {{wildcards.person:q}} && touch {{output:q}}"
 
 rule group:
     input:
@@ -60,7 +78,7 @@ rule group:
     output:
         COHORT + "/cohort.csv"
     shell:
-        "sh {{HERE:q}}/group.sh || [ $? -eq 5 ]"
+        "code=0; sh {{HERE:q}}/group.sh || code=$?; touch {{HERE:q}}/group_ended; [ $code -eq 0 -o $code -eq 5 ]"
 )py";
 
 constexpr const char* kSlurmPerson = R"sh(#!/bin/sh
@@ -97,11 +115,12 @@ jobs=
 while [ "$first" -lt "$persons" ]; do
   count=$((persons - first))
   if [ "$count" -gt {1} ]; then count={1}; fi
-  job=$(FIRST=$first sbatch --parsable --export=ALL --array="1-$count" --output=/dev/null "$@" "$here/person.sbatch")
+  log=$here/logs/slurm-%A_%a.log
+  job=$(FIRST=$first sbatch --parsable --export=ALL --array="1-$count" --output="$log" "$@" "$here/person.sbatch")
   jobs="$jobs:${{job%%;*}}"
   first=$((first + count))
 done
-sbatch --parsable --export=ALL --dependency="afterany$jobs" --output=/dev/null "$@" "$here/group.sbatch"
+sbatch --parsable --export=ALL --dependency="afterany$jobs" --output="$here/logs/slurm-%j.log" "$@" "$here/group.sbatch"
 )sh";
 
 constexpr const char* kParallel = R"sh(#!/bin/sh
@@ -135,7 +154,7 @@ Workflow workflow(Engine engine, const Manifest& manifest, const fs::path& cohor
             out);
       const std::string file = shell_word(place + "/Snakefile");
       result.files.push_back({"Snakefile", fmt::format(kSnakefile, python_text(place), python_text(out))});
-      result.start = fmt::format("snakemake --snakefile {} --cores all --keep-going", file);
+      result.start = fmt::format("snakemake --snakefile {} --cores all --keep-going --rerun-triggers mtime", file);
       break;
     }
     case Engine::slurm:

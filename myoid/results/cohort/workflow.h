@@ -28,7 +28,8 @@ struct Workflow {
 /// Returns the files by which an engine computes each person as one job and the group after them. All paths in them are
 /// absolute. `options`: further words of `myoid cohort`, as a shell reads them. Every engine calls person.sh ID,
 /// which writes logs/ID.log and returns 0 once the person's outcome is recorded, failed or not, so a person's bad
-/// data do not stop the others. A killed job is started again up to two times. Throws InvalidInput for Snakemake
+/// data do not stop the others. A killed job is started again up to two times. Snakemake starts a person again whose
+/// recordings are newer than the results, and one who failed. Throws InvalidInput for Snakemake
 /// where the path of the cohort has braces.
 [[nodiscard]] Workflow workflow(Engine engine,
                                 const Manifest& manifest,

@@ -37,6 +37,14 @@ TEST(Workflow, EveryEngineCallsOneScriptAPerson) {
   }
 }
 
+TEST(Workflow, OfSnakemakeDependsOnTheRecordingsAndSlurmKeepsLogs) {
+  const Workflow snakemake = workflow(Engine::snakemake, kManifest, "/out/c", "");
+  EXPECT_THAT(text_of(snakemake, "Snakefile"), HasSubstr("input:\n        recordings\n"));
+  EXPECT_THAT(snakemake.start, HasSubstr("--rerun-triggers mtime"));
+  EXPECT_THAT(text_of(workflow(Engine::slurm, kManifest, "/out/c", ""), "submit.sh"),
+              testing::AllOf(HasSubstr("/logs/slurm-%A_%a.log"), testing::Not(HasSubstr("/dev/null"))));
+}
+
 TEST(Workflow, OfSnakemakeRefusesBracesWhichItHasNoQuotesFor) {
   EXPECT_THROW((void)workflow(Engine::snakemake, kManifest, "/out/{c}", ""), InvalidInput);
   EXPECT_NO_THROW((void)workflow(Engine::parallel, kManifest, "/out/{c}", ""));

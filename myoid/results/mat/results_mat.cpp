@@ -189,22 +189,27 @@ void add_run(const fs::path& folder, MatStruct& variables) {
 
 }  // namespace
 
-MatStruct matlab_results(const fs::path& folder) {
-  const fs::path file = folder / "parameters.csv";
+MatStruct matlab_results(const fs::path& results) {
+  if (!fs::is_directory(results)) {
+    if (results.extension() == ".csv")
+      return {{{"parameters", std::vector<MatStruct>{parameters_of(recording::read_csv_table(results))}}}};
+    return {{{"series", std::vector<MatStruct>{series_of(results)}}}};
+  }
+  const fs::path file = results / "parameters.csv";
   const CsvTable parameters = recording::read_csv_table(file);
   MatStruct variables;
   variables.fields.emplace_back("parameters", std::vector<MatStruct>{parameters_of(parameters)});
-  if (fs::exists(folder / "posterior.csv"))
+  if (fs::exists(results / "posterior.csv"))
     variables.fields.emplace_back("draws",
-                                  std::vector<MatStruct>{draws_of(folder / "posterior.csv", parameters, file)});
-  if (fs::exists(folder / "run.json")) {
+                                  std::vector<MatStruct>{draws_of(results / "posterior.csv", parameters, file)});
+  if (fs::exists(results / "run.json")) {
     try {
-      add_run(folder, variables);
+      add_run(results, variables);
     } catch (const json::exception& error) {
-      throw ReadError(folder / "run.json", 0, "is no record of a run of this version: {}; run the study again",
+      throw ReadError(results / "run.json", 0, "is no record of a run of this version: {}; run the study again",
                       json_error_text(error));
     }
-  } else if (std::vector<MatStruct> trials = trials_by_folder(folder); !trials.empty()) {
+  } else if (std::vector<MatStruct> trials = trials_by_folder(results); !trials.empty()) {
     variables.fields.emplace_back("trials", std::move(trials));
   }
   return variables;
@@ -216,6 +221,6 @@ void check_mat_file(const fs::path& file) {
   require_matio();
 }
 
-void write_results_mat(const fs::path& folder, const fs::path& file) { write_mat_file(file, matlab_results(folder)); }
+void write_results_mat(const fs::path& results, const fs::path& file) { write_mat_file(file, matlab_results(results)); }
 
 }  // namespace myoid::results

@@ -6,7 +6,8 @@
 
 namespace myoid::results {
 
-/// Returns the results in a folder that `run` or `identify` wrote as variables of MATLAB, read from the files:
+/// Returns the results in a folder that `run` or `identify` wrote as variables of MATLAB, read from the files, or those
+/// of one file, parameters.csv or a storage file (variable `series`):
 ///
 ///   parameters  the columns of parameters.csv; the column `case` is called `fit_case`
 ///   trials      name, use, failure, series; a series has names, units, time [s], values,
@@ -17,11 +18,11 @@ namespace myoid::results {
 ///   run         program, version, command and study of run.json
 ///
 /// Variables whose files are not there are left out. Throws ReadError for a damaged file.
-[[nodiscard]] MatStruct matlab_results(const std::filesystem::path& folder);
+[[nodiscard]] MatStruct matlab_results(const std::filesystem::path& results);
 
 /// Throws InvalidInput, before anything is computed, if `file` does not end in .mat, or as `require_matio`.
 void check_mat_file(const std::filesystem::path& file);
-/// Writes the results in a folder as a MATLAB file.
-void write_results_mat(const std::filesystem::path& folder, const std::filesystem::path& file);
+/// Writes the results in a folder, or of one file, as a MATLAB file.
+void write_results_mat(const std::filesystem::path& results, const std::filesystem::path& file);
 
 }  // namespace myoid::results
