@@ -100,9 +100,9 @@ class GroundContacts {
       if (!is_on_the_ground(force)) continue;
       double largest = 0.0;
       for (Eigen::Index i = 0; i < n; i += step_) largest = std::max(largest, force.force->at(data_time(i)).norm());
-      if (largest < kLimits.contact_n) continue;
+      if (largest < kLimits.contacts.least_n) continue;
       forces_.push_back(&force);
-      threshold_n_.push_back(std::max(kLimits.contact_n, kLimits.contact_share * largest));
+      threshold_n_.push_back(std::max(kLimits.contacts.least_n, kLimits.contacts.least_share * largest));
     }
     of_force_.resize(forces_.size());
     walk();
@@ -120,8 +120,8 @@ class GroundContacts {
         above.push_back(m.above_m);
       }
     }
-    return !above.empty() && sum_n.dot(up_) >= kLimits.floor_cosine * sum_n.norm() &&
-           math::median(std::move(above)) <= kLimits.two_steps_m;
+    return !above.empty() && sum_n.dot(up_) >= kLimits.contacts.floor_cosine * sum_n.norm() &&
+           math::median(std::move(above)) <= kLimits.contacts.two_steps_m;
   }
 
  private:
@@ -138,7 +138,7 @@ class GroundContacts {
       const auto centers = centers_at(data_time(i));
       for (std::size_t k = 0; k < forces_.size(); ++k) {
         if (!centers[k]) continue;
-        if (now_s - last_s[k] > std::max(kLimits.contact_pause_s, 1.5 * (now_s - before_s)))
+        if (now_s - last_s[k] > std::max(kLimits.contacts.pause_s, 1.5 * (now_s - before_s)))
           of_force_[k].emplace_back();
         last_s[k] = now_s;
         of_force_[k].back().frames.push_back(frame_of(k, now_s, centers, lowest));
@@ -147,7 +147,8 @@ class GroundContacts {
       before_s = now_s;
     }
     for (std::vector<GroundContact>& contacts : of_force_)
-      std::erase_if(contacts, [](const GroundContact& c) { return c.end_s() - c.begin_s() < kLimits.contact_s; });
+      std::erase_if(contacts,
+                    [](const GroundContact& c) { return c.end_s() - c.begin_s() < kLimits.contacts.least_s; });
   }
 
   [[nodiscard]] std::vector<std::optional<Vec3>> centers_at(double data_time_s) const {
@@ -177,7 +178,8 @@ class GroundContacts {
         m.other_m = d;
         m.other = body;
       }
-      if (d < m.second_m && d <= kLimits.second_foot_m && stands(b, own, lowest) && !has_a_force(k, b, centers)) {
+      if (d < m.second_m && d <= kLimits.contacts.second_foot_m && stands(b, own, lowest) &&
+          !has_a_force(k, b, centers)) {
         m.second_m = d;
         m.second = body;
       }
@@ -196,8 +198,8 @@ class GroundContacts {
   /// Returns true for a body that does not move and is as low as the body of the force.
   [[nodiscard]] bool stands(std::size_t body, body::BodyIndex own, const Lowest& lowest) const {
     const auto& mine = lowest.point_m[static_cast<std::size_t>(own)];
-    return mine && lowest.point_m[body] && lowest.speed_m_per_s[body] < kLimits.still_mps &&
-           std::abs((*lowest.point_m[body] - *mine).dot(up_)) < kLimits.level_m;
+    return mine && lowest.point_m[body] && lowest.speed_m_per_s[body] < kLimits.contacts.still_mps &&
+           std::abs((*lowest.point_m[body] - *mine).dot(up_)) < kLimits.contacts.level_m;
   }
 
   /// Returns true if another force acts on the body, or under it.
@@ -207,7 +209,7 @@ class GroundContacts {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       if (k == but || !centers[k]) continue;
       if (forces_[k]->body == static_cast<body::BodyIndex>(body) ||
-          points_.distance(*centers[k], static_cast<body::BodyIndex>(body)) < kLimits.off_body_m)
+          points_.distance(*centers[k], static_cast<body::BodyIndex>(body)) < kLimits.contacts.off_body_m)
         return true;
     }
     return false;
@@ -232,14 +234,14 @@ double usual_distance(const std::vector<LoadedFrame>& frames) {
 /// Classifies a frame: 0 the body's own, 1 a foreign foot, 2 a second foot.
 int frame_kind(const LoadedFrame& m, bool others_are_near) {
   if (!std::isfinite(m.own_m)) return 0;
-  if (m.own_m > kLimits.off_body_m && m.other_m <= kLimits.much_nearer * m.own_m) return 1;
-  if (m.own_m > kLimits.far_from_foot_m && others_are_near) return 1;
-  if (m.own_m > kLimits.between_feet_m && m.second != 0) return 2;
+  if (m.own_m > kLimits.contacts.off_body_m && m.other_m <= kLimits.contacts.much_nearer * m.own_m) return 1;
+  if (m.own_m > kLimits.contacts.far_from_foot_m && others_are_near) return 1;
+  if (m.own_m > kLimits.contacts.between_feet_m && m.second != 0) return 2;
   return 0;
 }
 
 void close_stretch(std::vector<ForeignStretch>& found, const std::vector<LoadedFrame>& part, int kind) {
-  if (part.empty() || part.back().time_s - part.front().time_s < kLimits.contact_s) return;
+  if (part.empty() || part.back().time_s - part.front().time_s < kLimits.contacts.least_s) return;
   ForeignStretch s{.begin_s = part.front().time_s,
                    .end_s = part.back().time_s,
                    .frames = part.size(),
@@ -270,7 +272,7 @@ std::vector<ForeignStretch> foreign_stretches(const GroundContact& contact, bool
 }
 
 /// Returns true if another body of the model is near.
-bool is_of_another(const ForeignStretch& s) { return s.second_foot || s.other_m <= kLimits.second_foot_m; }
+bool is_of_another(const ForeignStretch& s) { return s.second_foot || s.other_m <= kLimits.contacts.second_foot_m; }
 
 std::string stretch_words(const body::BodyModel& model, const ForeignStretch& s) {
   if (!is_of_another(s)) return fmt::format("from {:.4g} to {:.4g} s {:.2g} m away", s.begin_s, s.end_s, s.own_m);
@@ -308,7 +310,7 @@ ForeignContacts foreign_contacts(const body::BodyModel& model,
       usual.push_back(usual_distance(c.frames));
       loaded += c.frames.size();
     }
-    const bool near = std::ranges::any_of(usual, [](double d) { return d < kLimits.off_body_m; });
+    const bool near = std::ranges::any_of(usual, [](double d) { return d < kLimits.contacts.off_body_m; });
     std::vector<std::string> said;
     std::size_t foreign = 0;
     std::size_t touched = 0;

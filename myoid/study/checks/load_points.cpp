@@ -127,11 +127,12 @@ class Placement {
   /// Finds a turn about the vertical that brings all points under their bodies.
   bool find_turn() {
     const auto measured = [](const Load& load) { return load.own_m() < kNone; };
-    if (std::ranges::none_of(loads_, [&](const Load& l) { return measured(l) && l.own_m() > kLimits.far_off_m; }))
+    if (std::ranges::none_of(loads_,
+                             [&](const Load& l) { return measured(l) && l.own_m() > kLimits.contacts.far_off_m; }))
       return false;
     for (std::size_t turn = 1; turn < 4; ++turn) {
-      if (std::ranges::any_of(loads_,
-                              [&](const Load& l) { return measured(l) && l.turned_m[turn] > kLimits.off_body_m; }))
+      if (std::ranges::any_of(
+              loads_, [&](const Load& l) { return measured(l) && l.turned_m[turn] > kLimits.contacts.off_body_m; }))
         continue;
       std::vector<std::string> now, then, names;
       for (const Load& load : loads_) {
@@ -152,7 +153,7 @@ class Placement {
 
   void find_far(std::size_t i) {
     const Load& load = loads_[i];
-    if (said_[i] || !(load.own_m() > kLimits.elsewhere_m) || load.own_m() == kNone) return;
+    if (said_[i] || !(load.own_m() > kLimits.contacts.elsewhere_m) || load.own_m() == kNone) return;
     said_[i] = true;
     add(Severity::error,
         fmt::format(
@@ -163,9 +164,9 @@ class Placement {
 
   void find_exchanged(std::size_t i, std::size_t j) {
     const Load &a = loads_[i], &b = loads_[j];
-    if (said_[i] || said_[j] || a.force->body == b.force->body || a.own_m() < kLimits.off_body_m ||
-        b.own_m() < kLimits.off_body_m || a.off_m(b.force->body) > kLimits.much_nearer * a.own_m() ||
-        b.off_m(a.force->body) > kLimits.much_nearer * b.own_m())
+    if (said_[i] || said_[j] || a.force->body == b.force->body || a.own_m() < kLimits.contacts.off_body_m ||
+        b.own_m() < kLimits.contacts.off_body_m || a.off_m(b.force->body) > kLimits.contacts.much_nearer * a.own_m() ||
+        b.off_m(a.force->body) > kLimits.contacts.much_nearer * b.own_m())
       return;
     said_[i] = said_[j] = true;
     add(Severity::error,
@@ -177,21 +178,21 @@ class Placement {
 
   void find_beside(std::size_t i) {
     const Load& load = loads_[i];
-    if (said_[i] || load.own_m() < kLimits.off_body_m || load.own_m() == kNone) return;
+    if (said_[i] || load.own_m() < kLimits.contacts.off_body_m || load.own_m() == kNone) return;
     const auto nearest = std::min_element(load.alone_m.begin() + 1, load.alone_m.end()) - load.alone_m.begin();
     const double least_m = load.alone_m[static_cast<std::size_t>(nearest)];
-    if (least_m <= kLimits.much_nearer * load.own_m()) {
+    if (least_m <= kLimits.contacts.much_nearer * load.own_m()) {
       add(Severity::warning,
           fmt::format("'{}' is applied to {}, but acts {:.2g} m from it (median while loaded) and {:.2g} m from {}; is "
                       "applied_to_body right?",
                       load.force->name, name(load.force->body), load.own_m(), least_m,
                       name(static_cast<body::BodyIndex>(nearest))));
-    } else if (load.own_m() > kLimits.far_off_m && load.above_lowest_m < kLimits.far_off_m) {
+    } else if (load.own_m() > kLimits.contacts.far_off_m && load.above_lowest_m < kLimits.contacts.far_off_m) {
       add(Severity::warning,
           fmt::format("'{}' is applied to {}, but acts {:.2g} m from it (median while loaded), expected under it (less "
                       "than {:g} m), and under no other body: are the loads on another clock than the motion, or in "
                       "other axes or another origin?",
-                      load.force->name, name(load.force->body), load.own_m(), kLimits.far_off_m));
+                      load.force->name, name(load.force->body), load.own_m(), kLimits.contacts.far_off_m));
     }
   }
 

@@ -56,7 +56,8 @@ std::vector<Contact> contacts_of(const Wrench& w, const Eigen::VectorXd& time_s)
     if (contacts.empty() || time_s[i] - time_s[contacts.back().end - 1] > kMerged_s) contacts.push_back({i, i});
     contacts.back().end = i + 1;
   }
-  std::erase_if(contacts, [&](const Contact& c) { return time_s[c.end - 1] - time_s[c.first] < kLimits.contact_s; });
+  std::erase_if(contacts,
+                [&](const Contact& c) { return time_s[c.end - 1] - time_s[c.first] < kLimits.contacts.least_s; });
   return contacts;
 }
 
