@@ -38,8 +38,8 @@ double start_of(const IsolatedModel& model, const std::string& name) {
   IsolatedModel copy = model;
   const double value = *field_of(copy.parameters, name).value;
   if (name == "eccentric_plateau" && model.laws.velocity == VelocityLaw::millard)
-    return model.millard.max_eccentric_multiplier;
-  if (name == "passive_strain" && model.laws.passive == PassiveLaw::millard) return model.millard.passive_strain_at_one;
+    return model.millard.velocity.max_eccentric_multiplier;
+  if (name == "passive_strain" && model.laws.passive == PassiveLaw::millard) return model.millard.passive.strain_at_one;
   return value;
 }
 
@@ -51,10 +51,10 @@ IsolatedModel with_values(const IsolatedModel& start,
     const double value = std::exp(logs[static_cast<Eigen::Index>(i)]);
     *field_of(model.parameters, names[i]).value = value;
     if (names[i] == "eccentric_plateau" && model.laws.velocity == VelocityLaw::millard)
-      model.millard.max_eccentric_multiplier = value;
+      model.millard.velocity.max_eccentric_multiplier = value;
     if (names[i] == "passive_strain" && model.laws.passive == PassiveLaw::millard) {
-      model.millard.passive_strain_at_one = value;
-      model.millard.passive_stiffness_at_one = 2.0 / value;
+      model.millard.passive.strain_at_one = value;
+      model.millard.passive.stiffness_at_one = 2.0 / value;
     }
   }
   return model;

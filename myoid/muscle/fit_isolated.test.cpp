@@ -42,17 +42,17 @@ TEST(FitIsolatedMuscle, FindsTheMuscleThatMadeTheForcesBehindItsElasticTendon) {
 
 TEST(FitIsolatedMuscle, MovesThePlateauOfMillardsCurveWithTheParameter) {
   IsolatedModel truth = test::small_muscle();
-  truth.millard.max_eccentric_multiplier = 1.6;
+  truth.millard.velocity.max_eccentric_multiplier = 1.6;
   const IsolatedFit fit =
       fit_isolated_muscle(test::small_muscle(), recordings_of(truth), {.parameters = {"eccentric_plateau"}});
   EXPECT_NEAR(fit.estimates[0].value, 1.6, 1e-3);
-  EXPECT_EQ(fit.model.millard.max_eccentric_multiplier, fit.estimates[0].value);
+  EXPECT_EQ(fit.model.millard.velocity.max_eccentric_multiplier, fit.estimates[0].value);
 }
 
 TEST(FitIsolatedMuscle, MovesThePassiveStrainOfMillardsCurveWithTheParameter) {
   IsolatedModel truth = test::small_muscle();
-  truth.millard.passive_strain_at_one = 0.55;
-  truth.millard.passive_stiffness_at_one = 2.0 / 0.55;
+  truth.millard.passive.strain_at_one = 0.55;
+  truth.millard.passive.stiffness_at_one = 2.0 / 0.55;
   std::vector<IsolatedRecording> recordings = recordings_of(truth);
   for (IsolatedRecording& r : recordings) {
     r.input.length_m.array() += 0.006;  // on the passive limb

@@ -4,20 +4,17 @@
 
 namespace myoid::muscle {
 
-/// Shape of the curves of Millard, Uchida, Seth & Delp (2013), J Biomech Eng 135:021005.
-/// Defaults are those of OpenSim's curves of these names. Lengths in optimal fiber lengths,
-/// velocities in v_max, forces in F_max.
-struct MillardShape {
-  double shortest_active_length = 0.4441;
+/// Active force over fiber length.
+struct MillardActive {
+  double shortest_length = 0.4441;
   double transition_length = 0.73;  ///< From the steep to the shallow ascending limb.
-  double longest_active_length = 1.8123;
+  double longest_length = 1.8123;
   double shallow_slope = 0.8616;  ///< Slope of the ascending limb near the optimum.
-  double active_minimum = 0.0;    ///< Value outside the active range; 0.1 where f_l is divided by.
-  double passive_strain_at_zero = 0.0;
-  double passive_strain_at_one = 0.7;
-  double passive_stiffness_low = 0.2;
-  double passive_stiffness_at_one = 2.0 / 0.7;
-  double passive_curviness = 0.75;
+  double minimum = 0.0;           ///< Value outside the active range; 0.1 where f_l is divided by.
+};
+
+/// Force over velocity.
+struct MillardVelocity {
   double slope_at_shortening_limit = 0.0;  ///< df_v/dv at v = -1.
   double slope_near_shortening_limit = 0.25;
   double slope_at_rest = 5.0;
@@ -26,9 +23,32 @@ struct MillardShape {
   double max_eccentric_multiplier = 1.4;
   double concentric_curviness = 0.6;
   double eccentric_curviness = 0.9;
-  double tendon_stiffness_at_one = 1.375;  ///< [F_max per e0]
-  double tendon_toe_force = 2.0 / 3.0;
-  double tendon_curviness = 0.5;
+};
+
+/// Passive force over the strain of the fiber.
+struct MillardPassive {
+  double strain_at_zero = 0.0;
+  double strain_at_one = 0.7;
+  double stiffness_low = 0.2;
+  double stiffness_at_one = 2.0 / 0.7;
+  double curviness = 0.75;
+};
+
+/// Tendon force over its strain.
+struct MillardTendon {
+  double stiffness_at_one = 1.375;  ///< [F_max per e0]
+  double toe_force = 2.0 / 3.0;
+  double curviness = 0.5;
+};
+
+/// Shape of the curves of Millard, Uchida, Seth & Delp (2013), J Biomech Eng 135:021005.
+/// Defaults are those of OpenSim's curves of these names. Lengths in optimal fiber lengths,
+/// velocities in v_max, forces in F_max.
+struct MillardShape {
+  MillardActive active;
+  MillardVelocity velocity;
+  MillardPassive passive;
+  MillardTendon tendon;
 };
 
 /// The four curves. Derivatives pass through their arguments, not through their shape.
@@ -37,11 +57,11 @@ struct MillardCurves {
   explicit MillardCurves(const MillardShape& shape = {});
 
   /// Active force over fiber length: a steep and a shallow ascending limb, plateau at 1, descending
-  /// limb; `active_minimum` outside.
+  /// limb; `MillardActive::minimum` outside.
   BezierCurve force_length;
   /// Force over velocity: 0 at -1, 1 at rest, the eccentric maximum at 1, straight beyond.
   BezierCurve force_velocity;
-  /// Passive force over fiber length: 0 to l = 1, 1 at 1 + `passive_strain_at_one`, straight beyond.
+  /// Passive force over fiber length: 0 to l = 1, 1 at 1 + `strain_at_one`, straight beyond.
   BezierCurve passive;
   /// Tendon force over strain / e0, where e0 is the strain at F_max (0.049 by default): 0 when
   /// slack, toe to 2/3, straight through (1, 1).

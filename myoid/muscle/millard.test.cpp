@@ -61,10 +61,10 @@ TEST(MillardCurves, HaveTheirDefiningPointsAndSlopes) {
 }
 
 TEST(MillardCurves, RefuseShapesThatMakeNoCurve) {
-  EXPECT_THROW(MillardCurves({.transition_length = 0.4}), InvalidInput);
-  EXPECT_THROW(MillardCurves({.passive_stiffness_at_one = 1.0}), InvalidInput);
-  EXPECT_THROW(MillardCurves({.concentric_curviness = 1.5}), InvalidInput);
-  EXPECT_THROW(MillardCurves({.max_eccentric_multiplier = 0.9}), InvalidInput);
+  EXPECT_THROW(MillardCurves({.active = {.transition_length = 0.4}}), InvalidInput);
+  EXPECT_THROW(MillardCurves({.passive = {.stiffness_at_one = 1.0}}), InvalidInput);
+  EXPECT_THROW(MillardCurves({.velocity = {.concentric_curviness = 1.5}}), InvalidInput);
+  EXPECT_THROW(MillardCurves({.velocity = {.max_eccentric_multiplier = 0.9}}), InvalidInput);
 }
 
 }  // namespace

@@ -81,14 +81,14 @@ MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path&
   number("pennation_deg", file.parameters.pennation_at_optimal_rad, kDegree);
   number("passive_strain", file.parameters.passive_strain);
   if (muscle->has("passive_strain"))
-    file.millard.passive_strain_at_one = file.parameters.passive_strain;
+    file.millard.passive.strain_at_one = file.parameters.passive_strain;
   else if (file.laws.passive == PassiveLaw::millard)
-    file.parameters.passive_strain = file.millard.passive_strain_at_one;
-  file.millard.passive_stiffness_at_one = 2.0 / file.millard.passive_strain_at_one;
+    file.parameters.passive_strain = file.millard.passive.strain_at_one;
+  file.millard.passive.stiffness_at_one = 2.0 / file.millard.passive.strain_at_one;
   number("passive_shape", file.parameters.passive_shape);
   number("optimal_length_shift", file.parameters.optimal_length_shift);
   if (muscle->has("eccentric_plateau")) {
-    file.millard.max_eccentric_multiplier = file.parameters.hill.eccentric_plateau;
+    file.millard.velocity.max_eccentric_multiplier = file.parameters.hill.eccentric_plateau;
   }
   muscle->finish();
 

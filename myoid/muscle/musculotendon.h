@@ -87,10 +87,21 @@ template <typename T>
                                                       const MusculotendonInput<T>& input,
                                                       const MusculotendonState<T>& state);
 
-/// Lengths, forces, powers and energies at one instant. A power is positive where its element gives
-/// it: the contractile element in shortening, a spring when it relaxes, the viscous one never.
-///   active + passive + viscous + tendon + kinetic = musculotendon power = -F_t dl_mt/dt.
-/// A stored energy is zero in a slack spring and in a fiber at rest: power = -dE/dt.
+/// Powers [W], positive where an element gives them: the contractile element in shortening, a spring when it relaxes,
+/// the viscous one never.
+///   active + passive + viscous + tendon + kinetic = musculotendon = -F_t dl_mt/dt
+template <typename T>
+struct MusculotendonPower {
+  T active{}, passive{}, viscous{}, tendon{}, kinetic{}, musculotendon{};
+};
+
+/// Stored energies [J], zero in a slack spring and in a fiber at rest: power = -dE/dt.
+template <typename T>
+struct MusculotendonEnergy {
+  T passive{}, tendon{}, kinetic{};
+};
+
+/// Lengths, forces, powers and energies at one instant.
 template <typename T = double>
 struct MusculotendonOutput {
   T fiber_length_m{}, fiber_velocity_mps{}, fiber_acceleration_mps2{};
@@ -100,9 +111,8 @@ struct MusculotendonOutput {
   T active_force_n{}, passive_force_n{}, viscous_force_n{};  ///< Along the fiber.
   T fiber_force_n{};                                         ///< Their sum, F_m.
   T tendon_force_n{};                                        ///< F_t
-  T active_power_w{}, passive_power_w{}, viscous_power_w{};
-  T tendon_power_w{}, kinetic_power_w{}, musculotendon_power_w{};
-  T passive_energy_j{}, tendon_energy_j{}, kinetic_energy_j{};
+  MusculotendonPower<T> power_w;
+  MusculotendonEnergy<T> energy_j;
   double fiber_stiffness_npm = 0.0;   ///< dF_m/dl_m at this activation and velocity.
   double tendon_stiffness_npm = 0.0;  ///< dF_t/dl_t; infinite is given as 0 in mode `rigid`.
   bool slack = false;                 ///< The tendon pulls nothing.

@@ -101,10 +101,10 @@ TEST(Musculotendon, PowersOfAllElementsAddUpToThatOfThePath) {
           const Input input{a, 0.40, velocity};
           const MusculotendonOutput<double> o = musculotendon_output(unit, input, {fiber, 0.7 * velocity});
           const double sum =
-              o.active_power_w + o.passive_power_w + o.viscous_power_w + o.tendon_power_w + o.kinetic_power_w;
-          const double scale = std::abs(o.active_power_w) + std::abs(o.passive_power_w) + std::abs(o.viscous_power_w) +
-                               std::abs(o.tendon_power_w) + std::abs(o.kinetic_power_w) + 1.0;
-          EXPECT_NEAR(sum, o.musculotendon_power_w, 1e-12 * scale) << c.name << " a " << a;
+              o.power_w.active + o.power_w.passive + o.power_w.viscous + o.power_w.tendon + o.power_w.kinetic;
+          const double scale = std::abs(o.power_w.active) + std::abs(o.power_w.passive) + std::abs(o.power_w.viscous) +
+                               std::abs(o.power_w.tendon) + std::abs(o.power_w.kinetic) + 1.0;
+          EXPECT_NEAR(sum, o.power_w.musculotendon, 1e-12 * scale) << c.name << " a " << a;
         }
       }
     }
@@ -261,14 +261,14 @@ TEST(Musculotendon, WorkOfAllElementsClosesWithTheStoredEnergies) {
     const double h = duration / steps;
     integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), duration, steps, [&](double t, const UnitState& s) {
       const auto o = musculotendon_output(unit, drive.at(t), s);
-      stored = o.passive_energy_j + o.tendon_energy_j + o.kinetic_energy_j;
+      stored = o.energy_j.passive + o.energy_j.tendon + o.energy_j.kinetic;
       if (t == 0.0) {
         stored_at_start = stored;
       } else {
-        path += 0.5 * h * (last.musculotendon_power_w + o.musculotendon_power_w);
-        active += 0.5 * h * (last.active_power_w + o.active_power_w);
-        viscous += 0.5 * h * (last.viscous_power_w + o.viscous_power_w);
-        size += h * std::abs(o.active_power_w);
+        path += 0.5 * h * (last.power_w.musculotendon + o.power_w.musculotendon);
+        active += 0.5 * h * (last.power_w.active + o.power_w.active);
+        viscous += 0.5 * h * (last.power_w.viscous + o.power_w.viscous);
+        size += h * std::abs(o.power_w.active);
       }
       last = o;
       before = t;
@@ -328,9 +328,9 @@ TEST(Musculotendon, ARigidTendonDoesNotPushAndLosesNoEnergyWhenItGoesSlack) {
   EXPECT_EQ(o.tendon_force_n, 0.0);
   EXPECT_GT(o.passive_force_n, 0.0);
   EXPECT_EQ(o.fiber_force_n, 0.0);
-  EXPECT_LT(o.viscous_power_w, 0.0);
-  const double slope = (at(length + h).passive_energy_j - at(length - h).passive_energy_j) / (2 * h);
-  EXPECT_NEAR(o.passive_power_w, -slope * velocity, 1e-6);  // truncation and 1e-16 / h
+  EXPECT_LT(o.power_w.viscous, 0.0);
+  const double slope = (at(length + h).energy_j.passive - at(length - h).energy_j.passive) / (2 * h);
+  EXPECT_NEAR(o.power_w.passive, -slope * velocity, 1e-6);  // truncation and 1e-16 / h
 }
 
 TEST(Musculotendon, TendonTakesWhatTheFiberGivesAlsoBelowTheShortestLength) {

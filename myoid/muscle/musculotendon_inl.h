@@ -261,26 +261,26 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
   o.viscous_force_n = mode == TendonMode::rigid ? now.viscous * f_max : unit.damping_nspm() * o.fiber_velocity_mps;
   o.fiber_force_n = o.active_force_n + o.passive_force_n + o.viscous_force_n;
   o.tendon_force_n = now.tendon.value * f_max;
-  o.active_power_w = -o.active_force_n * o.fiber_velocity_mps;
-  o.passive_power_w = -o.passive_force_n * o.fiber_velocity_mps;
-  o.viscous_power_w = -o.viscous_force_n * o.fiber_velocity_mps;
-  o.tendon_power_w = -o.tendon_force_n * o.tendon_velocity_mps;
-  o.musculotendon_power_w = -o.tendon_force_n * input.velocity_mps;
-  o.passive_energy_j = detail::passive_energy_j(unit, now.length_m);
-  o.kinetic_power_w = T(0.0);
-  o.kinetic_energy_j = T(0.0);
+  o.power_w.active = -o.active_force_n * o.fiber_velocity_mps;
+  o.power_w.passive = -o.passive_force_n * o.fiber_velocity_mps;
+  o.power_w.viscous = -o.viscous_force_n * o.fiber_velocity_mps;
+  o.power_w.tendon = -o.tendon_force_n * o.tendon_velocity_mps;
+  o.power_w.musculotendon = -o.tendon_force_n * input.velocity_mps;
+  o.energy_j.passive = detail::passive_energy_j(unit, now.length_m);
+  o.power_w.kinetic = T(0.0);
+  o.energy_j.kinetic = T(0.0);
   if (mode == TendonMode::rigid) {
     o.tendon_velocity_mps = T(0.0);
-    o.tendon_power_w = T(0.0);
-    o.tendon_energy_j = T(0.0);
+    o.power_w.tendon = T(0.0);
+    o.energy_j.tendon = T(0.0);
   } else {
-    o.tendon_energy_j = unit.curves().tendon_energy(now.strain) * f_max * p.hill.tendon_slack_length_m;
+    o.energy_j.tendon = unit.curves().tendon_energy(now.strain) * f_max * p.hill.tendon_slack_length_m;
     o.tendon_stiffness_npm = value_of(f_max) * now.tendon.slope / value_of(p.hill.tendon_slack_length_m);
   }
   if (mode == TendonMode::mass) {
     o.fiber_acceleration_mps2 = detail::imbalance(unit, now) * f_max / p.muscle_mass_kg;
-    o.kinetic_power_w = -p.muscle_mass_kg * o.fiber_velocity_mps * o.fiber_acceleration_mps2;
-    o.kinetic_energy_j = T(0.5) * p.muscle_mass_kg * o.fiber_velocity_mps * o.fiber_velocity_mps;
+    o.power_w.kinetic = -p.muscle_mass_kg * o.fiber_velocity_mps * o.fiber_acceleration_mps2;
+    o.energy_j.kinetic = T(0.5) * p.muscle_mass_kg * o.fiber_velocity_mps * o.fiber_velocity_mps;
   }
   const double share = now.floored ? 0.0 : value_of(input.activation) * now.length.slope;
   o.fiber_stiffness_npm = value_of(f_max) / value_of(p.hill.optimal_fiber_length_m) *

@@ -98,18 +98,18 @@ OpenSimMuscle muscle_of(const std::string& block, bool thelen) {
     m.parameters.damping = number(block, "fiber_damping", 0.1);
     m.parameters.tendon_strain = number(block, "strain_at_one_norm_force", 0.049);
     MillardShape& s = m.millard;
-    s.shortest_active_length = number(block, "min_norm_active_fiber_length", 0.4441);
-    s.transition_length = number(block, "transition_norm_fiber_length", 0.73);
-    s.longest_active_length = number(block, "max_norm_active_fiber_length", 1.8123);
-    s.shallow_slope = number(block, "shallow_ascending_slope", 0.8616);
+    s.active.shortest_length = number(block, "min_norm_active_fiber_length", 0.4441);
+    s.active.transition_length = number(block, "transition_norm_fiber_length", 0.73);
+    s.active.longest_length = number(block, "max_norm_active_fiber_length", 1.8123);
+    s.active.shallow_slope = number(block, "shallow_ascending_slope", 0.8616);
     const std::string fiber = block.substr(block.find("<FiberForceLengthCurve"));
     const std::string passive = fiber.substr(0, fiber.find("</FiberForceLengthCurve"));
-    s.passive_strain_at_zero = number(passive, "strain_at_zero_force", 0.0);
-    s.passive_strain_at_one = number(passive, "strain_at_one_norm_force", 0.7);
-    s.passive_stiffness_low = number(passive, "stiffness_at_low_force", 0.2);
-    s.passive_stiffness_at_one =
-        number(passive, "stiffness_at_one_norm_force", 2.0 / (s.passive_strain_at_one - s.passive_strain_at_zero));
-    s.passive_curviness = number(passive, "curviness", 0.75);
+    s.passive.strain_at_zero = number(passive, "strain_at_zero_force", 0.0);
+    s.passive.strain_at_one = number(passive, "strain_at_one_norm_force", 0.7);
+    s.passive.stiffness_low = number(passive, "stiffness_at_low_force", 0.2);
+    s.passive.stiffness_at_one =
+        number(passive, "stiffness_at_one_norm_force", 2.0 / (s.passive.strain_at_one - s.passive.strain_at_zero));
+    s.passive.curviness = number(passive, "curviness", 0.75);
     const std::string tendon = block.substr(block.find("<TendonForceLengthCurve"));
     m.parameters.tendon_strain = number(tendon, "strain_at_one_norm_force", 0.049);
   }

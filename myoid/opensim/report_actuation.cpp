@@ -14,13 +14,12 @@ namespace {
 /// Returns the model with muscles and actuators of unbounded control.
 body::BodyModel without_bounds(body::BodyModel model) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const auto free = [](auto& force) {
-    force.min_control = -kInfinity;
-    force.max_control = kInfinity;
-  };
-  for (body::Muscle& muscle : model.muscles) free(muscle.properties);
+  for (body::Muscle& muscle : model.muscles) muscle.properties.control = {-kInfinity, kInfinity};
   body::visit_actuators(model, [&](auto& list) {
-    for (auto& actuator : list) free(actuator);
+    for (auto& actuator : list) {
+      actuator.min_control = -kInfinity;
+      actuator.max_control = kInfinity;
+    }
   });
   return model;
 }

@@ -39,12 +39,12 @@ std::string too_strong(const study::Study& study, const body::BodyModel& model, 
     const double largest = torque.cwiseAbs().maxCoeff();
     const double beside = fit::beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
     const double strength = strength_nm(study, model, trial, name);
-    const double limit = study::kLimits.resting_share * strength;
+    const double limit = study::kLimits.joints.resting_share * strength;
     if (beside <= limit && largest <= limit + fit::kLargestWeight_nm) continue;
     return fmt::format(
         "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than {:g} % of its muscles' strength ({:.0f} N m) "
         "and {:g} N m of weight: no relaxed joint resists that much; N mm, or the instrument's offset?",
-        name, largest, beside, 100.0 * study::kLimits.resting_share, strength, fit::kLargestWeight_nm);
+        name, largest, beside, 100.0 * study::kLimits.joints.resting_share, strength, fit::kLargestWeight_nm);
   }
   return {};
 }
@@ -52,7 +52,7 @@ std::string too_strong(const study::Study& study, const body::BodyModel& model, 
 /// Returns the reason why a passive trial does not show a relaxed joint; empty if it does.
 std::string not_at_rest(const study::Study& study, const body::BodyModel& model, const RelaxedTrial& trial) {
   const bool mvc = study.emg.has_mvc;
-  const double limit = mvc ? study::kLimits.relaxed : study::kLimits.relaxed_without_mvc;
+  const double limit = mvc ? study::kLimits.joints.relaxed : study::kLimits.joints.relaxed_without_mvc;
   for (const Channel& channel : trial.activation->channels()) {
     const double mean = trial.activation->column(channel.name).mean();
     if (mean > limit) {

@@ -67,8 +67,8 @@ StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64
   if (wants_torque(study)) {
     const double delay_s = study.emg.delay_s.value_or(fit::EstimatorOptions{}.delay_prior_mean_s);
     found.exchanged = fit::exchanged_electrodes(input.data, delay_s);
-    found.shifted =
-        fit::shifted_emg(input.data, {recording::kLimits.earliest_offset_s, recording::kLimits.latest_offset_s});
+    found.shifted = fit::shifted_emg(
+        input.data, {recording::kLimits.clocks.earliest_offset_s, recording::kLimits.clocks.latest_offset_s});
   }
   const bool shared = shares_forces(study);
   for (const fit::Method method : study.identify.methods) {

@@ -185,12 +185,9 @@ std::map<std::string, std::size_t> large_structs() {
   return large;
 }
 
-TEST(Measures, StructsAboveTwentyFieldsBecomeFewer) {
+TEST(Measures, NoStructHasMoreThanTwentyFields) {
   const std::map<std::string, std::size_t> large = large_structs();
-  std::cout << testing::PrintToString(large) << "\n";
-  EXPECT_LE(large.size(), 13U) << testing::PrintToString(large);
-  for (const char* once : {"IdentificationResult", "EstimatorOptions", "ParameterEstimate", "NumberFacts"})
-    EXPECT_FALSE(large.contains(once)) << once;
+  EXPECT_TRUE(large.empty()) << testing::PrintToString(large);
 }
 
 }  // namespace

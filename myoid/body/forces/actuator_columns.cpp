@@ -33,7 +33,7 @@ std::vector<Actuator> actuators_of(const body::BodyModel& model) {
       if (!list[i].applies_force) continue;
       if constexpr (requires { list[i].properties; }) {
         const body::MuscleProperties& p = list[i].properties;
-        all.push_back({kind, i, list[i].name, p.min_control, p.max_control, p.max_isometric_force_n});
+        all.push_back({kind, i, list[i].name, p.control.least, p.control.most, p.max_isometric_force_n});
       } else {
         all.push_back({kind, i, list[i].name, list[i].min_control, list[i].max_control, list[i].optimal_force});
       }

@@ -33,7 +33,7 @@ OpensimMuscle::OpensimMuscle(const body::Muscle& muscle, const body::Compat& com
       least_cosine_(std::max(0.0, std::cos(p_.max_pennation_rad))),
       shortest_m_(height_m_ > 0.0 ? height_m_ / std::sin(p_.max_pennation_rad) : 0.0) {
   if (const auto* millard = std::get_if<body::MillardCurves>(&p_.curves))
-    shortest_m_ = std::max(shortest_m_, millard->active_min_length * p_.optimal_fiber_length_m);
+    shortest_m_ = std::max(shortest_m_, millard->shape.active.shortest_length * p_.optimal_fiber_length_m);
   if (const auto* de_groote = std::get_if<body::DeGrooteCurves>(&p_.curves)) width_ = de_groote->active_width_scale;
 }
 

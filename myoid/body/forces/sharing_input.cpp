@@ -47,7 +47,7 @@ void add_muscles(const body::BodyModel& model, body::MuscleKinematics muscles, S
                              .says = fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
                                                  model.muscles[at(m)].name, model.muscles[at(m)].class_name)});
     }
-    input.min_activation = std::min(input.min_activation, model.muscles[at(m)].properties.min_control);
+    input.min_activation = std::min(input.min_activation, model.muscles[at(m)].properties.control.least);
     input.max_isometric_force_n[m] = muscle.properties().max_isometric_force_n;
     for (Eigen::Index i = 0; i < frames; ++i)
       input.optimal_force_n(i, m) =

@@ -174,39 +174,6 @@ std::vector<Remark> remarks_on_ends(const body::BodyModel& model, const TimeSeri
            .remedy = "see whether their markers, or the ranges of the model, are right"}};
 }
 
-std::vector<std::string> undetermined_coordinates(const body::BodyModel& model,
-                                                  const MarkerSeries& markers,
-                                                  const IkOptions& options) {
-  std::vector<Remark> notes;
-  PoseFit fit(model, options, pair_markers(model, markers, options, notes));
-  // One frame with every marker that is ever seen; only the markers' places on the bodies matter.
-  MarkerSeries ever{Eigen::VectorXd::Zero(1), markers.names, Eigen::MatrixXd(1, markers.positions_m.cols())};
-  for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
-    bool seen = false;
-    for (Eigen::Index frame = 0; frame < markers.frame_count() && !seen; ++frame) seen = !markers.missing(frame, m);
-    ever.positions_m.middleCols(3 * m, 3).setConstant(seen ? 0.0 : std::numeric_limits<double>::quiet_NaN());
-  }
-  fit.set_targets(ever, 0);
-  std::vector<bool> open(fit.free().size(), true);
-  // A posture may hide a coordinate, as a straight elbow hides the turn of the upper arm: two bent ones tell.
-  for (const double share : {0.35, 0.6}) {
-    Eigen::VectorXd q = model.default_q();
-    for (const Eigen::Index c : fit.free()) {
-      const body::Coordinate& of = model.coordinates[at(c)];
-      const bool ranged = of.upper > of.lower && of.upper - of.lower < 2.0 * kPi;
-      if (of.motion == body::MotionType::rotational) q[c] = ranged ? of.lower + share * (of.upper - of.lower) : share;
-    }
-    std::vector<bool> here(open.size(), false);
-    (void)fit.place_within(q);
-    fit.collect_undetermined(here);
-    for (std::size_t k = 0; k < open.size(); ++k) open[k] = open[k] && here[k];
-  }
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < open.size(); ++k)
-    if (open[k]) names.push_back(model.coordinates[at(fit.free()[k])].name);
-  return names;
-}
-
 IkResult inverse_kinematics(const body::BodyModel& model, const MarkerSeries& markers, const IkOptions& options) {
   IkResult result;
   const Eigen::Index frames = markers.frame_count();

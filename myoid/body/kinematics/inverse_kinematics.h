@@ -66,10 +66,4 @@ struct CoordinateAtEnd {
 /// Returns the same as one warning; none if there is no such coordinate.
 [[nodiscard]] std::vector<Remark> remarks_on_ends(const body::BodyModel& model, const TimeSeries& q);
 
-/// Returns the free coordinates that no motion of these markers determines: directions in which the Jacobian of all
-/// markers that are seen in some frame is zero, in two bent postures. Nothing is solved. Throws as inverse_kinematics.
-[[nodiscard]] std::vector<std::string> undetermined_coordinates(const body::BodyModel& model,
-                                                                const MarkerSeries& markers,
-                                                                const IkOptions& options = {});
-
 }  // namespace myoid::body

@@ -44,12 +44,12 @@ PoseFit::Pull& PoseFit::Pull::operator+=(const Pull& other) {
 void PoseFit::gather_pulls() {
   std::fill(pulls_.begin(), pulls_.end(), Pull{});
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (!seen_[i]) continue;
+    if (!targets_.seen[i]) continue;
     const Vec3& p_G = place_[i];
-    const Vec3 first = pairs_[i].weight * scale_ * p_G;
-    const Vec3 force = first - pairs_[i].weight * scale_ * target_[i];
+    const Vec3 first = pairs_[i].weight * targets_.scale * p_G;
+    const Vec3 force = first - pairs_[i].weight * targets_.scale * targets_.place_m[i];
     Pull& pull = pulls_[at(model_.markers[pairs_[i].model].body)];
-    pull.weight += pairs_[i].weight * scale_;
+    pull.weight += pairs_[i].weight * targets_.scale;
     pull.first += first;
     pull.second.noalias() += first * p_G.transpose();
     pull.force += force;
@@ -69,27 +69,27 @@ void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull
   const Vec3 bent = v.cross(pull.force) + pull.lever * w - pull.lever.trace() * w;
   const Vec3 torque(pull.lever(1, 2) - pull.lever(2, 1), pull.lever(2, 0) - pull.lever(0, 2),
                     pull.lever(0, 1) - pull.lever(1, 0));
-  gradient_[kb] += v.dot(pull.force) + w.dot(torque);
+  slopes_.gradient[kb] += v.dot(pull.force) + w.dot(torque);
   for (std::size_t a = 0; a <= b; ++a) {
     const int ka = reduced_[at(chain.coordinates[a])];
     if (ka < 0) continue;
     const auto& [w_a, v_a] = motions_[at(chain.coordinates[a])];
     // Two coordinates of one free coordinate have both mixed derivatives on the diagonal.
     const double times = a != b && ka == kb ? 2.0 : 1.0;
-    gauss_(std::max(ka, kb), std::min(ka, kb)) += times * (v_a.dot(moved) + w_a.dot(turned));
+    slopes_.gauss(std::max(ka, kb), std::min(ka, kb)) += times * (v_a.dot(moved) + w_a.dot(turned));
     // The column of an outer coordinate turns with a: its derivative is w_a x column.
-    bend_(std::max(ka, kb), std::min(ka, kb)) += times * w_a.dot(bent);
+    slopes_.bend(std::max(ka, kb), std::min(ka, kb)) += times * w_a.dot(bent);
   }
 }
 
 /// Computes the derivatives of J at the posture of the last cost_at(q); of second ones the lower triangle.
 void PoseFit::linearize(const Eigen::VectorXd& q) {
   const auto n = static_cast<Eigen::Index>(free_.size());
-  stepped_ = q;
+  slopes_.stepped = q;
   update_gains(q);
-  gradient_.setZero(n);
-  gauss_.setZero(n, n);
-  bend_.setZero(n, n);
+  slopes_.gradient.setZero(n);
+  slopes_.gauss.setZero(n, n);
+  slopes_.bend.setZero(n, n);
   update_motions();
   gather_pulls();
   for (std::size_t j = model_.joints.size(); j-- > 0;) {
@@ -108,10 +108,10 @@ void PoseFit::linearize(const Eigen::VectorXd& q) {
     const int k = reduced_[at(c)];
     if (k < 0) continue;
     const double weight = options_.tasks[j].weight;
-    gradient_[k] += weight * gain_[c] * (q[c] - target_of(j));
-    gauss_(k, k) += weight * gain_[c] * gain_[c];
+    slopes_.gradient[k] += weight * gain_[c] * (q[c] - target_of(j));
+    slopes_.gauss(k, k) += weight * gain_[c] * gain_[c];
   }
-  if (barrier_.acts()) barrier_.add_derivatives(q, gradient_, gauss_);
+  if (barrier_.acts()) barrier_.add_derivatives(q, slopes_.gradient, slopes_.gauss);
 }
 
 }  // namespace myoid::body

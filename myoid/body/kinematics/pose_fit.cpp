@@ -61,31 +61,31 @@ PoseFit::PoseFit(const body::BodyModel& model, const IkOptions& options, std::ve
     chain.body_of.resize(chain.coordinates.size(), at(joint.child));
   }
   for (const CoordinateTask& task : options.tasks) task_index_.push_back(model.coordinate_index(task.coordinate));
-  seen_.assign(pairs_.size(), false);
-  target_.assign(pairs_.size(), Vec3::Zero());
+  targets_.seen.assign(pairs_.size(), false);
+  targets_.place_m.assign(pairs_.size(), Vec3::Zero());
   place_.assign(pairs_.size(), Vec3::Zero());
   motions_.resize(count);
 }
 
 void PoseFit::set_targets(const MarkerSeries& markers, Eigen::Index frame) {
-  stepped_.resize(0);
-  frame_ = frame;
-  time_s_ = markers.time_s[frame];
+  slopes_.stepped.resize(0);
+  targets_.frame = frame;
+  targets_.time_s = markers.time_s[frame];
   double sum = 0.0;
-  seen_count_ = 0;
+  targets_.count = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    seen_[i] = !markers.missing(frame, pairs_[i].file) && pairs_[i].weight > 0.0;
-    if (!seen_[i]) continue;
-    target_[i] = markers.position(frame, pairs_[i].file);
+    targets_.seen[i] = !markers.missing(frame, pairs_[i].file) && pairs_[i].weight > 0.0;
+    if (!targets_.seen[i]) continue;
+    targets_.place_m[i] = markers.position(frame, pairs_[i].file);
     sum += pairs_[i].weight;
-    ++seen_count_;
+    ++targets_.count;
   }
-  scale_ = sum > 0.0 ? 1.0 / sum : 0.0;
+  targets_.scale = sum > 0.0 ? 1.0 / sum : 0.0;
 }
 
 double PoseFit::target_of(std::size_t task) const {
   const CoordinateTask& t = options_.tasks[task];
-  return t.values.size() > 0 ? t.values[frame_] : t.value;
+  return t.values.size() > 0 ? t.values[targets_.frame] : t.value;
 }
 
 /// Applies locks, prescriptions, ranges, couplers and constraints.
@@ -94,7 +94,7 @@ void PoseFit::obey(Eigen::VectorXd& q) const {
     const body::Coordinate& coordinate = model_.coordinates[c];
     double& value = q[static_cast<Eigen::Index>(c)];
     if (coordinate.prescribed) {
-      value = evaluate(*coordinate.prescribed, time_s_).value;
+      value = evaluate(*coordinate.prescribed, targets_.time_s).value;
     } else if (coordinate.locked) {
       value = coordinate.default_value;
     } else if (coordinate.clamped && coupler_of_[c] < 0) {
@@ -117,7 +117,7 @@ double PoseFit::cost_at(const Eigen::VectorXd& q) {
   }
   double cost = 0.0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (seen_[i]) cost += pairs_[i].weight * scale_ * (place_[i] - target_[i]).squaredNorm();
+    if (targets_.seen[i]) cost += pairs_[i].weight * targets_.scale * (place_[i] - targets_.place_m[i]).squaredNorm();
   }
   for (std::size_t j = 0; j < task_index_.size(); ++j) {
     const double off = q[task_index_[j]] - target_of(j);
@@ -161,7 +161,7 @@ std::vector<bool> PoseFit::held_at_ends(const Eigen::VectorXd& q) const {
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const auto& coordinate = model_.coordinates[at(free_[k])];
     const double value = q[free_[k]];
-    const double slope = gradient_[static_cast<Eigen::Index>(k)];
+    const double slope = slopes_.gradient[static_cast<Eigen::Index>(k)];
     held[k] = coordinate.clamped &&
               ((value <= coordinate.lower && slope > 0.0) || (value >= coordinate.upper && slope < 0.0));
   }
@@ -175,22 +175,22 @@ std::optional<Eigen::VectorXd> PoseFit::damped_step(const Eigen::VectorXd& q,
                                                     const Eigen::MatrixXd& N,
                                                     bool second_order,
                                                     double shift) {
-  hessian_ = gauss_;
-  if (second_order) hessian_ += bend_;
-  for (Eigen::Index k = 0; k < hessian_.rows(); ++k) {
+  slopes_.hessian = slopes_.gauss;
+  if (second_order) slopes_.hessian += slopes_.bend;
+  for (Eigen::Index k = 0; k < slopes_.hessian.rows(); ++k) {
     if (!held[at(k)]) continue;
-    gradient_[k] = 0.0;
-    hessian_.row(k).setZero();
-    hessian_.col(k).setZero();
-    hessian_(k, k) = 1.0;
+    slopes_.gradient[k] = 0.0;
+    slopes_.hessian.row(k).setZero();
+    slopes_.hessian.col(k).setZero();
+    slopes_.hessian(k, k) = 1.0;
   }
-  Eigen::VectorXd step = -gradient_;
+  Eigen::VectorXd step = -slopes_.gradient;
   if (N.size() > 0) {
-    hessian_ = (N.transpose() * hessian_.selfadjointView<Eigen::Lower>() * N).eval();
+    slopes_.hessian = (N.transpose() * slopes_.hessian.selfadjointView<Eigen::Lower>() * N).eval();
     step = (N.transpose() * step).eval();
   }
-  hessian_.diagonal().array() += shift;
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(hessian_);
+  slopes_.hessian.diagonal().array() += shift;
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(slopes_.hessian);
   if (factor.info() != Eigen::Success) return std::nullopt;
   factor.solveInPlace(step);
   if (N.size() > 0) step = (N * step).eval();
@@ -209,7 +209,7 @@ void PoseFit::descend(Search& search) {
   linearize(pose.q);
   const std::vector<bool> held = held_at_ends(pose.q);
   const Eigen::MatrixXd N = model_.constraints.empty() ? Eigen::MatrixXd() : allowed_directions(pose.q);
-  const double size = std::max(gauss_.diagonal().maxCoeff(), 1e-300);
+  const double size = std::max(slopes_.gauss.diagonal().maxCoeff(), 1e-300);
   bool second_order = true;
   for (;;) {
     const auto step = damped_step(pose.q, held, N, second_order, (damping + 1e-13) * size);
@@ -320,7 +320,7 @@ double PoseFit::place_within(Eigen::VectorXd q) {
 double PoseFit::part_of(const std::vector<std::size_t>& pairs) const {
   double part = 0.0;
   for (const std::size_t i : pairs)
-    if (seen_[i]) part += pairs_[i].weight * scale_ * (place_[i] - target_[i]).squaredNorm();
+    if (targets_.seen[i]) part += pairs_[i].weight * targets_.scale * (place_[i] - targets_.place_m[i]).squaredNorm();
   return part;
 }
 
@@ -328,8 +328,8 @@ double PoseFit::mean_square(const std::vector<std::size_t>& pairs) const {
   double sum = 0.0;
   int seen = 0;
   for (const std::size_t i : pairs) {
-    if (!seen_[i]) continue;
-    sum += (place_[i] - target_[i]).squaredNorm();
+    if (!targets_.seen[i]) continue;
+    sum += (place_[i] - targets_.place_m[i]).squaredNorm();
     ++seen;
   }
   return seen > 0 ? sum / seen : 0.0;
@@ -341,19 +341,20 @@ double PoseFit::work() const {
 
 void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
   linearize(state_.q);
-  const math::SymmetricEigen eigen = math::symmetric_eigen(Eigen::MatrixXd(gauss_.selfadjointView<Eigen::Lower>()));
+  const math::SymmetricEigen eigen =
+      math::symmetric_eigen(Eigen::MatrixXd(slopes_.gauss.selfadjointView<Eigen::Lower>()));
   const double largest = eigen.values.size() > 0 ? eigen.values[eigen.values.size() - 1] : 0.0;
-  for (Eigen::Index k = 0; k < gauss_.cols(); ++k) {
+  for (Eigen::Index k = 0; k < slopes_.gauss.cols(); ++k) {
     // Eigenvalues are squared singular values of the Jacobian: the limit is 1e-7 of the largest singular value.
     if (eigen.values[k] > 1e-14 * largest) continue;
-    for (Eigen::Index j = 0; j < gauss_.cols(); ++j) {
+    for (Eigen::Index j = 0; j < slopes_.gauss.cols(); ++j) {
       if (std::abs(eigen.vectors(j, k)) > 1e-3) undetermined[at(j)] = true;
     }
   }
 }
 
 Eigen::MatrixXd PoseFit::curvature(const Eigen::VectorXd& q, const std::vector<Eigen::Index>& coordinates) {
-  if (stepped_.size() == 0 || (q - stepped_).cwiseAbs().maxCoeff() > kNear) {
+  if (slopes_.stepped.size() == 0 || (q - slopes_.stepped).cwiseAbs().maxCoeff() > kNear) {
     (void)cost_at(q);
     linearize(q);
   }
@@ -366,15 +367,15 @@ Eigen::MatrixXd PoseFit::curvature(const Eigen::VectorXd& q, const std::vector<E
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       const int a = free_index(i), b = free_index(j);
-      if (a >= 0 && b >= 0) block(i, j) = gauss_(std::max(a, b), std::min(a, b));
+      if (a >= 0 && b >= 0) block(i, j) = slopes_.gauss(std::max(a, b), std::min(a, b));
     }
   }
   return block;
 }
 
 double PoseFit::error(std::size_t pair) const {
-  if (!seen_[pair]) return std::numeric_limits<double>::quiet_NaN();
-  return (place_[pair] - target_[pair]).norm();
+  if (!targets_.seen[pair]) return std::numeric_limits<double>::quiet_NaN();
+  return (place_[pair] - targets_.place_m[pair]).norm();
 }
 
 void PoseFit::locate(Eigen::MatrixXd& table, Eigen::Index row) const {

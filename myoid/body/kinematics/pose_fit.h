@@ -34,14 +34,14 @@ class PoseFit {
 
   void set_targets(const MarkerSeries& markers, Eigen::Index frame);
   /// Returns one over the sum of the weights of the markers seen, by which J is scaled.
-  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] double scale() const { return targets_.scale; }
   /// Sets another scale until the next set_targets: that of a whole of which this model is a part.
-  void set_scale(double scale) { scale_ = scale; }
+  void set_scale(double scale) { targets_.scale = scale; }
   /// Returns where a marker was seen in the frame; nothing if it was not.
   [[nodiscard]] std::optional<Vec3> target(std::size_t pair) const {
-    return seen_[pair] ? std::optional(target_[pair]) : std::nullopt;
+    return targets_.seen[pair] ? std::optional(targets_.place_m[pair]) : std::nullopt;
   }
-  [[nodiscard]] int seen_count() const { return seen_count_; }
+  [[nodiscard]] int seen_count() const { return targets_.count; }
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
   [[nodiscard]] const std::vector<Eigen::Index>& free() const { return free_; }
 
@@ -110,6 +110,25 @@ class PoseFit {
     Pull& operator+=(const Pull& other);
   };
 
+  /// The markers of one frame.
+  struct Targets {
+    Eigen::Index frame = 0;
+    double time_s = 0.0;
+    double scale = 0.0;         ///< One over the sum of the weights of the markers seen.
+    int count = 0;              ///< Number of the markers seen.
+    std::vector<bool> seen;     ///< Per pair.
+    std::vector<Vec3> place_m;  ///< Per pair.
+  };
+
+  /// Derivatives of J by the free coordinates.
+  struct Slopes {
+    Eigen::VectorXd stepped;  ///< Posture of the latest step in this frame; empty before the first.
+    Eigen::MatrixXd hessian;  ///< Of the latest step, then its factor.
+    Eigen::VectorXd gradient;
+    Eigen::MatrixXd gauss;  ///< First-order part of the second derivatives.
+    Eigen::MatrixXd bend;   ///< Remaining second derivatives, from the turning of the chains.
+  };
+
   void obey(Eigen::VectorXd& q) const;
   double cost_at(const Eigen::VectorXd& q);
   void update_motions();
@@ -141,22 +160,13 @@ class PoseFit {
   std::vector<Chain> chains_;  ///< Per body.
   std::vector<int> task_index_;
   body::BodyState state_;
-  std::vector<bool> seen_;
-  std::vector<Vec3> target_;
-  Eigen::Index frame_ = 0;
-  double time_s_ = 0.0;
-  double scale_ = 0.0;
-  int seen_count_ = 0;
+  Targets targets_;
   bool posed_ = false;  ///< The bodies of state_ stand as its coordinates say.
   double evaluations_ = 0.0;
   std::vector<Vec3> place_;      ///< Per pair: the marker's place in the posture of state_.
   std::vector<Motion> motions_;  ///< Per coordinate.
-  Eigen::VectorXd stepped_;      ///< Posture of the latest step in this frame; empty before the first.
-  Eigen::MatrixXd hessian_;      ///< Of the latest step, then its factor.
-  Eigen::VectorXd gradient_;     ///< Gradient of J by the free coordinates.
-  Eigen::MatrixXd gauss_;        ///< First-order part of the second derivatives of J.
-  Eigen::MatrixXd bend_;         ///< Remaining second derivatives, from the turning of the chains.
-  std::vector<Pull> pulls_;      ///< Per body.
+  Slopes slopes_;
+  std::vector<Pull> pulls_;  ///< Per body.
 };
 
 }  // namespace myoid::body

@@ -371,17 +371,5 @@ TEST(CoordinatesAtEnds, AreThoseThatLieThereInAQuarterOfTheFrames) {
   EXPECT_EQ(remarks_on_ends(m, motion)[0].about, "turn_r, elbow_l");
 }
 
-TEST(UndeterminedCoordinates, AreThoseThatNoMarkerSees) {
-  const body::BodyModel m = person();
-  Draws random(2);
-  MarkerSeries markers = made_markers(m, movement(m, random, 3), 0.0, random);
-  EXPECT_TRUE(undetermined_coordinates(m, markers).empty());
-  for (const char* name : {"w1_r", "w2_r"}) {
-    const auto column = std::find(markers.names.begin(), markers.names.end(), name) - markers.names.begin();
-    markers.positions_m.middleCols(3 * column, 3).setConstant(NAN);
-  }
-  EXPECT_EQ(undetermined_coordinates(m, markers), std::vector<std::string>{"elbow_r"});
-}
-
 }  // namespace
 }  // namespace myoid::body

@@ -6,23 +6,15 @@
 
 #include "myoid/body/model/functions.h"
 #include "myoid/body/model/path_geometry.h"
+#include "myoid/muscle/millard.h"
 
 namespace myoid::body {
 
-/// Corner points and slopes of Millard's curves (force by normalized length, velocity or strain).
+/// Properties of Millard2012EquilibriumMuscle beside MuscleProperties.
 struct MillardCurves {
-  double active_min_length = 0.4441, active_transition_length = 0.73, active_max_length = 1.8123;
-  double active_shallow_slope = 0.8616, active_minimum = 0.1;
-  double concentric_slope_at_vmax = 0.0, concentric_slope_near_vmax = 0.25;
-  double isometric_slope = 5.0;
-  double eccentric_slope_at_vmax = 0.0, eccentric_slope_near_vmax = 0.15, eccentric_force = 1.4;
-  double concentric_curviness = 0.6, eccentric_curviness = 0.9;
-  double fiber_strain_at_zero_force = 0.0, fiber_strain_at_one_force = 0.7;
-  /// A negative number stands for the value that the class computes.
-  double fiber_stiffness_at_low_force = -1.0, fiber_stiffness_at_one_force = -1.0;
-  double fiber_curviness = -1.0;
-  double tendon_strain_at_one_force = 0.049, tendon_stiffness_at_one_force = -1.0;
-  double tendon_force_at_toe_end = -1.0, tendon_curviness = -1.0;
+  muscle::MillardShape shape{.active = {.minimum = 0.1}};
+  std::optional<double> passive_stiffness_at_one;  ///< Empty: 2 over the strain from zero force to F_max.
+  double tendon_strain_at_one_force = 0.049;
   double fiber_damping = 0.1;
   bool ignore_tendon_compliance = false, ignore_activation_dynamics = false;
 };
@@ -40,6 +32,11 @@ struct DeGrooteCurves {
   double passive_fiber_strain_at_one_force = 0.6, tendon_strain_at_one_force = 0.049;
   bool ignore_passive_fiber_force = false, ignore_tendon_compliance = false;
   bool ignore_activation_dynamics = false, tendon_dynamics_implicit = false;
+};
+
+/// The range of excitation or control.
+struct ControlRange {
+  double least = 0.0, most = 1.0;
 };
 
 /// The numbers of a muscle in the model file, in SI. Fields that a muscle class lacks keep Thelen's defaults.
@@ -62,8 +59,7 @@ struct MuscleProperties {
   double minimum_activation = 0.01;
   double default_activation = 0.05;
   double default_fiber_length_m = 0.1;
-  double min_control = 0.01;
-  double max_control = 1.0;
+  ControlRange control{0.01, 1.0};
   std::variant<std::monostate, MillardCurves, SchutteCurves, DeGrooteCurves> curves;
 };
 

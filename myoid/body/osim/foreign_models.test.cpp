@@ -87,7 +87,7 @@ std::string digest(const std::string& xml) {
     for (const Muscle& muscle : m.muscles) {
       const MuscleProperties& p = muscle.properties;
       for (const double v : {p.max_isometric_force_n, p.optimal_fiber_length_m, p.tendon_slack_length_m,
-                             p.pennation_at_optimal_rad, p.max_contraction_velocity, p.min_control, p.max_control,
+                             p.pennation_at_optimal_rad, p.max_contraction_velocity, p.control.least, p.control.most,
                              p.default_fiber_length_m, p.activation_time_s, p.concentric_shape})
         text << v << ' ';
       compute_path(m, muscle.path, state, workspace, path);

@@ -66,48 +66,23 @@ muscle::MusculotendonParameters<double> musculotendon_parameters(const MusclePro
   const auto* millard = std::get_if<MillardCurves>(&p.curves);
   if (millard != nullptr && laws.tendon == muscle::TendonLaw::millard) {
     result.tendon_strain = millard->tendon_strain_at_one_force;
-    result.passive_strain = millard->fiber_strain_at_one_force;
+    result.passive_strain = millard->shape.passive.strain_at_one;
     // The class's default stiffness at F_max is twice that of the line from zero strain.
-    const double stiffness = millard->fiber_stiffness_at_one_force;
-    result.passive_shape = passive_shape(stiffness > 0.0 ? stiffness * result.passive_strain : 2.0);
+    const std::optional<double>& stiffness = millard->passive_stiffness_at_one;
+    result.passive_shape = passive_shape(stiffness ? *stiffness * result.passive_strain : 2.0);
     result.damping = millard->fiber_damping;
   }
   return result;
 }
 
 muscle::MillardShape millard_shape(const MuscleProperties& p) {
-  muscle::MillardShape s;
-  const auto* file = std::get_if<MillardCurves>(&p.curves);
-  if (file == nullptr) return s;
-  const MillardCurves& c = *file;
-  s.shortest_active_length = c.active_min_length;
-  s.transition_length = c.active_transition_length;
-  s.longest_active_length = c.active_max_length;
-  s.shallow_slope = c.active_shallow_slope;
-  s.active_minimum = c.active_minimum;
-  s.slope_at_shortening_limit = c.concentric_slope_at_vmax;
-  s.slope_near_shortening_limit = c.concentric_slope_near_vmax;
-  s.slope_at_rest = c.isometric_slope;
-  s.slope_at_lengthening_limit = c.eccentric_slope_at_vmax;
-  s.slope_near_lengthening_limit = c.eccentric_slope_near_vmax;
-  s.max_eccentric_multiplier = c.eccentric_force;
-  s.concentric_curviness = c.concentric_curviness;
-  s.eccentric_curviness = c.eccentric_curviness;
-  s.passive_strain_at_zero = c.fiber_strain_at_zero_force;
-  s.passive_strain_at_one = c.fiber_strain_at_one_force;
-  s.passive_stiffness_at_one = c.fiber_stiffness_at_one_force > 0.0
-                                   ? c.fiber_stiffness_at_one_force
-                                   : 2.0 / (s.passive_strain_at_one - s.passive_strain_at_zero);
-  const auto given = [](double value, double& target) {
-    if (value >= 0.0) target = value;
-  };
-  given(c.fiber_stiffness_at_low_force, s.passive_stiffness_low);
-  given(c.fiber_curviness, s.passive_curviness);
-  if (c.tendon_stiffness_at_one_force > 0.0)
-    s.tendon_stiffness_at_one = c.tendon_stiffness_at_one_force * c.tendon_strain_at_one_force;
-  given(c.tendon_force_at_toe_end, s.tendon_toe_force);
-  given(c.tendon_curviness, s.tendon_curviness);
-  return s;
+  const auto* millard = std::get_if<MillardCurves>(&p.curves);
+  if (millard == nullptr) return {};
+  muscle::MillardShape shape = millard->shape;
+  muscle::MillardPassive& passive = shape.passive;
+  passive.stiffness_at_one =
+      millard->passive_stiffness_at_one.value_or(2.0 / (passive.strain_at_one - passive.strain_at_zero));
+  return shape;
 }
 
 }  // namespace myoid::body

@@ -38,24 +38,18 @@ TEST(MuscleLaws, AreThoseOfTheClass) {
 
 TEST(MuscleLaws, OpenNumbersOfMillardsCurvesAreTheClasss) {
   MuscleProperties p;
-  MillardCurves c{.fiber_strain_at_zero_force = 0.1, .fiber_strain_at_one_force = 0.5};
+  MillardCurves c{.shape = {.passive = {.strain_at_zero = 0.1, .strain_at_one = 0.5}}};
   p.curves = c;
   // OpenSim: the stiffness at F_max is 2 over the strain from zero force to F_max.
-  EXPECT_DOUBLE_EQ(millard_shape(p).passive_stiffness_at_one, 2.0 / 0.4);
-  EXPECT_EQ(millard_shape(p).tendon_toe_force, 2.0 / 3.0);
-  c.fiber_stiffness_at_one_force = 7.0;
-  c.tendon_stiffness_at_one_force = 30.0;
-  c.tendon_strain_at_one_force = 0.05;
-  c.tendon_force_at_toe_end = 0.6;
+  EXPECT_DOUBLE_EQ(millard_shape(p).passive.stiffness_at_one, 2.0 / 0.4);
+  c.passive_stiffness_at_one = 7.0;
   p.curves = c;
-  EXPECT_EQ(millard_shape(p).passive_stiffness_at_one, 7.0);
-  EXPECT_DOUBLE_EQ(millard_shape(p).tendon_stiffness_at_one, 30.0 * 0.05);  // per e0
-  EXPECT_EQ(millard_shape(p).tendon_toe_force, 0.6);
+  EXPECT_EQ(millard_shape(p).passive.stiffness_at_one, 7.0);
 }
 
 TEST(MuscleLaws, TheExponentialHasTheSlopeOfMillardsCurveAtMaximalForce) {
   MuscleProperties p;
-  p.curves = MillardCurves{.fiber_strain_at_one_force = 0.7, .fiber_stiffness_at_one_force = 4.0};
+  p.curves = MillardCurves{.shape = {.passive = {.strain_at_one = 0.7}}, .passive_stiffness_at_one = 4.0};
   const auto unit = musculotendon_parameters(p, class_laws(p, muscle::TendonMode::equilibrium));
   const double k = unit.passive_shape;
   EXPECT_NEAR(k / unit.passive_strain / -std::expm1(-k), 4.0, 1e-12);

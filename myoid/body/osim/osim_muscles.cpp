@@ -15,35 +15,22 @@ namespace {
 template <typename Object>
 using Field = std::pair<const char*, double Object::*>;
 
-constexpr Field<MillardCurves> kActiveCurve[] = {
-    {"min_norm_active_fiber_length", &MillardCurves::active_min_length},
-    {"transition_norm_fiber_length", &MillardCurves::active_transition_length},
-    {"max_norm_active_fiber_length", &MillardCurves::active_max_length},
-    {"shallow_ascending_slope", &MillardCurves::active_shallow_slope},
-    {"minimum_value", &MillardCurves::active_minimum}};
+constexpr Field<muscle::MillardActive> kActiveCurve[] = {
+    {"min_norm_active_fiber_length", &muscle::MillardActive::shortest_length},
+    {"transition_norm_fiber_length", &muscle::MillardActive::transition_length},
+    {"max_norm_active_fiber_length", &muscle::MillardActive::longest_length},
+    {"shallow_ascending_slope", &muscle::MillardActive::shallow_slope},
+    {"minimum_value", &muscle::MillardActive::minimum}};
 
-constexpr Field<MillardCurves> kVelocityCurve[] = {
-    {"concentric_slope_at_vmax", &MillardCurves::concentric_slope_at_vmax},
-    {"concentric_slope_near_vmax", &MillardCurves::concentric_slope_near_vmax},
-    {"isometric_slope", &MillardCurves::isometric_slope},
-    {"eccentric_slope_at_vmax", &MillardCurves::eccentric_slope_at_vmax},
-    {"eccentric_slope_near_vmax", &MillardCurves::eccentric_slope_near_vmax},
-    {"max_eccentric_velocity_force_multiplier", &MillardCurves::eccentric_force},
-    {"concentric_curviness", &MillardCurves::concentric_curviness},
-    {"eccentric_curviness", &MillardCurves::eccentric_curviness}};
-
-constexpr Field<MillardCurves> kFiberCurve[] = {
-    {"strain_at_zero_force", &MillardCurves::fiber_strain_at_zero_force},
-    {"strain_at_one_norm_force", &MillardCurves::fiber_strain_at_one_force},
-    {"stiffness_at_low_force", &MillardCurves::fiber_stiffness_at_low_force},
-    {"stiffness_at_one_norm_force", &MillardCurves::fiber_stiffness_at_one_force},
-    {"curviness", &MillardCurves::fiber_curviness}};
-
-constexpr Field<MillardCurves> kTendonCurve[] = {
-    {"strain_at_one_norm_force", &MillardCurves::tendon_strain_at_one_force},
-    {"stiffness_at_one_norm_force", &MillardCurves::tendon_stiffness_at_one_force},
-    {"norm_force_at_toe_end", &MillardCurves::tendon_force_at_toe_end},
-    {"curviness", &MillardCurves::tendon_curviness}};
+constexpr Field<muscle::MillardVelocity> kVelocityCurve[] = {
+    {"concentric_slope_at_vmax", &muscle::MillardVelocity::slope_at_shortening_limit},
+    {"concentric_slope_near_vmax", &muscle::MillardVelocity::slope_near_shortening_limit},
+    {"isometric_slope", &muscle::MillardVelocity::slope_at_rest},
+    {"eccentric_slope_at_vmax", &muscle::MillardVelocity::slope_at_lengthening_limit},
+    {"eccentric_slope_near_vmax", &muscle::MillardVelocity::slope_near_lengthening_limit},
+    {"max_eccentric_velocity_force_multiplier", &muscle::MillardVelocity::max_eccentric_multiplier},
+    {"concentric_curviness", &muscle::MillardVelocity::concentric_curviness},
+    {"eccentric_curviness", &muscle::MillardVelocity::eccentric_curviness}};
 
 constexpr Field<MuscleProperties> kProperties[] = {
     {"max_contraction_velocity", &MuscleProperties::max_contraction_velocity},
@@ -60,16 +47,32 @@ constexpr Field<MuscleProperties> kProperties[] = {
     {"minimum_activation", &MuscleProperties::minimum_activation},
     {"default_activation", &MuscleProperties::default_activation}};
 
+/// A negative number stands for the value that the class computes.
 MillardCurves millard_curves(const OsimReading& r, pugi::xml_node node) {
   MillardCurves c;
-  const auto read = [&](const char* curve_name, const auto& fields) {
+  const auto read = [&](const char* curve_name, auto& shape, const auto& fields) {
     const auto curve = r.xml.property(node, curve_name);
-    for (const auto& [name, field] : fields) c.*field = r.xml.number(curve, name, c.*field);
+    for (const auto& [name, field] : fields) shape.*field = r.xml.number(curve, name, shape.*field);
   };
-  read("ActiveForceLengthCurve", kActiveCurve);
-  read("ForceVelocityCurve", kVelocityCurve);
-  read("FiberForceLengthCurve", kFiberCurve);
-  read("TendonForceLengthCurve", kTendonCurve);
+  read("ActiveForceLengthCurve", c.shape.active, kActiveCurve);
+  read("ForceVelocityCurve", c.shape.velocity, kVelocityCurve);
+  const auto given = [&](pugi::xml_node curve, const char* name, double& value) {
+    if (const double number = r.xml.number(curve, name, -1.0); number >= 0.0) value = number;
+  };
+  const auto fiber = r.xml.property(node, "FiberForceLengthCurve");
+  muscle::MillardPassive& passive = c.shape.passive;
+  passive.strain_at_zero = r.xml.number(fiber, "strain_at_zero_force", passive.strain_at_zero);
+  passive.strain_at_one = r.xml.number(fiber, "strain_at_one_norm_force", passive.strain_at_one);
+  given(fiber, "stiffness_at_low_force", passive.stiffness_low);
+  given(fiber, "curviness", passive.curviness);
+  if (const double stiffness = r.xml.number(fiber, "stiffness_at_one_norm_force", -1.0); stiffness > 0.0)
+    c.passive_stiffness_at_one = stiffness;
+  const auto tendon = r.xml.property(node, "TendonForceLengthCurve");
+  c.tendon_strain_at_one_force = r.xml.number(tendon, "strain_at_one_norm_force", c.tendon_strain_at_one_force);
+  if (const double stiffness = r.xml.number(tendon, "stiffness_at_one_norm_force", -1.0); stiffness > 0.0)
+    c.shape.tendon.stiffness_at_one = stiffness * c.tendon_strain_at_one_force;
+  given(tendon, "norm_force_at_toe_end", c.shape.tendon.toe_force);
+  given(tendon, "curviness", c.shape.tendon.curviness);
   c.fiber_damping = r.xml.number(node, "fiber_damping", 0.1);
   c.ignore_tendon_compliance = r.xml.flag(node, "ignore_tendon_compliance", false);
   c.ignore_activation_dynamics = r.xml.flag(node, "ignore_activation_dynamics", false);
@@ -152,8 +155,8 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
     p.activation_time_s = de_groote ? 0.015 : 0.01;
     p.deactivation_time_s = de_groote ? 0.06 : 0.04;
   }
-  if (!thelen && !millard) p.min_control = 0.0;
-  const double class_min_control = p.min_control;
+  if (!thelen && !millard) p.control.least = 0.0;
+  const double class_min_control = p.control.least;
   set("max_isometric_force", p.max_isometric_force_n);
   p.optimal_fiber_length_m = positive(r, node, "optimal_fiber_length", p.optimal_fiber_length_m);
   set("tendon_slack_length", p.tendon_slack_length_m);
@@ -163,9 +166,9 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   // OpenSim starts every muscle at its classes' default of 0.1 m.
   if (!r.compat.class_fiber_length) p.default_fiber_length_m = p.optimal_fiber_length_m;
   set("default_fiber_length", p.default_fiber_length_m);
-  set("min_control", p.min_control);
-  set("max_control", p.max_control);
-  if (r.xml.version(node) < 30513 && p.min_control == 0.0) p.min_control = class_min_control;
+  set("min_control", p.control.least);
+  set("max_control", p.control.most);
+  if (r.xml.version(node) < 30513 && p.control.least == 0.0) p.control.least = class_min_control;
   if (millard) {
     p.curves = millard_curves(r, node);
   } else if (schutte) {

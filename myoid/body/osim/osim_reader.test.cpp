@@ -97,13 +97,36 @@ std::string arm_replacing(const std::string& old, const std::string& piece) {
   return text.replace(at, old.size(), piece);
 }
 
+TEST(ParseOsim, OpenNumbersOfMillardsCurvesAreTheClasss) {
+  const auto curves = [](const std::string& fiber, const std::string& tendon) {
+    std::string text = arm4_osim();
+    const std::string old = "Thelen2003Muscle", kind = "Millard2012EquilibriumMuscle";
+    for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + 1))
+      text.replace(at, old.size(), kind);
+    text.insert(text.find("</" + kind), "<FiberForceLengthCurve>" + fiber + "</FiberForceLengthCurve>" +
+                                            "<TendonForceLengthCurve>" + tendon + "</TendonForceLengthCurve>");
+    return std::get<MillardCurves>(parse_osim(text, "arm.osim").muscles.at(0).properties.curves);
+  };
+  const MillardCurves open = curves("<stiffness_at_one_norm_force>-1</stiffness_at_one_norm_force>", "");
+  EXPECT_FALSE(open.passive_stiffness_at_one);
+  EXPECT_EQ(open.shape.tendon.toe_force, 2.0 / 3.0);
+  EXPECT_EQ(open.shape.active.minimum, 0.1);
+  const MillardCurves given = curves("<stiffness_at_one_norm_force>7</stiffness_at_one_norm_force>",
+                                     "<strain_at_one_norm_force>0.05</strain_at_one_norm_force>"
+                                     "<stiffness_at_one_norm_force>30</stiffness_at_one_norm_force>"
+                                     "<norm_force_at_toe_end>0.6</norm_force_at_toe_end>");
+  EXPECT_EQ(given.passive_stiffness_at_one, 7.0);
+  EXPECT_DOUBLE_EQ(given.shape.tendon.stiffness_at_one, 30.0 * 0.05);  // per e0
+  EXPECT_EQ(given.shape.tendon.toe_force, 0.6);
+}
+
 // In OpenSim the least control of a muscle is 0, but for the classes that need an activation.
 TEST(ParseOsim, TheLeastControlIsThatOfTheMusclesClass) {
   const auto least = [](const char* kind) {
     std::string text = arm4_osim();
     for (auto at = text.find("Thelen2003Muscle"); at != std::string::npos; at = text.find("Thelen2003Muscle", at + 1))
       text.replace(at, 16, kind);
-    return parse_osim(text, "arm.osim").muscles.at(0).properties.min_control;
+    return parse_osim(text, "arm.osim").muscles.at(0).properties.control.least;
   };
   EXPECT_EQ(least("Thelen2003Muscle"), 0.01);
   EXPECT_EQ(least("Millard2012EquilibriumMuscle"), 0.01);

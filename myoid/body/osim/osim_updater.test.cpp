@@ -58,7 +58,7 @@ void expect_same(const BodyModel& a, const BodyModel& b, double digits = 0.0) {
     EXPECT_EQ(x.optimal_fiber_length_m, y.optimal_fiber_length_m);
     EXPECT_EQ(x.tendon_slack_length_m, y.tendon_slack_length_m);
     EXPECT_EQ(x.pennation_at_optimal_rad, y.pennation_at_optimal_rad);
-    EXPECT_EQ(x.min_control, y.min_control) << a.muscles[k].name;
+    EXPECT_EQ(x.control.least, y.control.least) << a.muscles[k].name;
     EXPECT_EQ(a.muscles[k].applies_force, b.muscles[k].applies_force);
   }
   std::mt19937_64 engine(41);
@@ -150,7 +150,7 @@ TEST(UpdatedOsim, HoldsTheSameModelInTheNewestForm) {
   EXPECT_EQ(model.document_version, kNewestOsimVersion);
   expect_same(old, model);
   EXPECT_EQ(model.muscles[0].properties.max_isometric_force_n, 321.0);
-  EXPECT_EQ(model.muscles[0].properties.min_control, 0.01);
+  EXPECT_EQ(model.muscles[0].properties.control.least, 0.01);
   for (const char* gone : {"isDisabled", "parent_body", "VisibleObject", "inertia_xx", "<defaults",
                            "NaturalCubicSpline", "<Joint>", "motion_type", "<body>"})
     EXPECT_EQ(updated.text.find(gone), std::string::npos) << gone;

@@ -109,12 +109,12 @@ void MovingModel::powers(double t, const double* y, double* p) {
     const auto o = muscle::musculotendon_output(skeleton_.unit(i), input_of(i), fiber(i, y));
     pull(i, o.tendon_force_n);
     double* w = p + SimulationRecord::kMuscleWorks * i;
-    w[0] = o.active_power_w;
-    w[1] = o.passive_power_w;
-    w[2] = o.viscous_power_w;
-    w[3] = o.tendon_power_w;
-    w[4] = o.musculotendon_power_w;
-    w[5] = o.kinetic_power_w;
+    w[0] = o.power_w.active;
+    w[1] = o.power_w.passive;
+    w[2] = o.power_w.viscous;
+    w[3] = o.power_w.tendon;
+    w[4] = o.power_w.musculotendon;
+    w[5] = o.power_w.kinetic;
   }
   skeleton_.accelerate(tau_.data(), prescribed_.data(), qddot_.data(), device_.data());
   double* w = p + SimulationRecord::kMuscleWorks * n_;
@@ -167,9 +167,9 @@ void MovingModel::record(double t, const double* y, const double* work, Eigen::I
     r.tendon_force(row, c) = o.tendon_force_n;
     if (works_ > 0) {
       const auto w = static_cast<Eigen::Index>(works_) + 3 * c;
-      r.energy(row, w) = o.passive_energy_j;
-      r.energy(row, w + 1) = o.tendon_energy_j;
-      r.energy(row, w + 2) = o.kinetic_energy_j;
+      r.energy(row, w) = o.energy_j.passive;
+      r.energy(row, w + 1) = o.energy_j.tendon;
+      r.energy(row, w + 2) = o.energy_j.kinetic;
     }
   }
   skeleton_.accelerate(tau_.data(), prescribed_.data(), qddot_.data(), device_.data());

@@ -59,7 +59,7 @@ ModelMuscle muscle_of(const body::Muscle& m, int index, const ModelSetup& setup)
 /// never a divisor and needs no minimum.
 muscle::MillardShape shape_of(const body::Muscle& m) {
   muscle::MillardShape shape = body::millard_shape(m.properties);
-  shape.active_minimum = 0.0;
+  shape.active.minimum = 0.0;
   return shape;
 }
 

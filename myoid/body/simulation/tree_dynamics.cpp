@@ -11,12 +11,10 @@ TreeDynamics::TreeDynamics(const body::BodyModel& model) : model_(&model), state
   gravity_.setZero(n);
   coriolis_.setZero(n);
   rest_.setZero(n);
-  composite_mass_.resize(model.bodies.size());
-  moment_.resize(model.bodies.size());
-  inertia_.resize(model.bodies.size());
+  composites_.resize(model.bodies.size());
   v_origin_.resize(model.coordinates.size());
-  bias_.setZero(n);
-  balance_.setZero(n);
+  reduced_.bias.setZero(n);
+  reduced_.balance.setZero(n);
   dependent_.assign(model.coordinates.size(), 0);
   for (const body::CoordinateCoupler& c : model.couplers) dependent_[at(c.dependent)] = 1;
   coupled_.resize(model.couplers.size());
@@ -61,12 +59,12 @@ void TreeDynamics::take_bodies() {
     const body::Body& body = model.bodies[b];
     const Mat3& R = state_.X_GB[b].R;
     const Vec3 c = state_.X_GB[b] * body.p_BBcm_B;
-    composite_mass_[b] = b == 0 ? 0.0 : body.mass_kg;
-    moment_[b] = composite_mass_[b] * c;
+    composites_[b].mass_kg = b == 0 ? 0.0 : body.mass_kg;
+    composites_[b].moment_kgm = composites_[b].mass_kg * c;
     const Mat3 cross = skew(c);
-    inertia_[b] =
-        b == 0 ? Mat3(Mat3::Zero()) : Mat3(R * body.I_BBcm_B * R.transpose() - composite_mass_[b] * cross * cross);
-    potential_ -= moment_[b].dot(model.gravity_G);
+    composites_[b].inertia_kgm2 =
+        b == 0 ? Mat3(Mat3::Zero()) : Mat3(R * body.I_BBcm_B * R.transpose() - composites_[b].mass_kg * cross * cross);
+    potential_ -= composites_[b].moment_kgm.dot(model.gravity_G);
   }
 }
 
@@ -85,9 +83,10 @@ void TreeDynamics::take_mass_matrix() {
     for (const int c : joint.coordinates) {
       const Vec3& w = state_.H_w_G[at(c)];
       const Vec3& v = v_origin_[at(c)];
-      const Vec3 momentum = composite_mass_[b] * v + w.cross(moment_[b]);
-      const Vec3 angular = moment_[b].cross(v) + inertia_[b] * w;
-      gravity_[c] = w.dot(moment_[b].cross(model.gravity_G)) + v.dot(composite_mass_[b] * model.gravity_G);
+      const Vec3 momentum = composites_[b].mass_kg * v + w.cross(composites_[b].moment_kgm);
+      const Vec3 angular = composites_[b].moment_kgm.cross(v) + composites_[b].inertia_kgm2 * w;
+      gravity_[c] =
+          w.dot(composites_[b].moment_kgm.cross(model.gravity_G)) + v.dot(composites_[b].mass_kg * model.gravity_G);
       for (body::BodyIndex up = joint.child; up != 0;) {
         const body::Joint& carrier = model.joints[at(model.joint_of_body[at(up)])];
         for (const int d : carrier.coordinates) {
@@ -97,9 +96,9 @@ void TreeDynamics::take_mass_matrix() {
       }
     }
     const std::size_t parent = at(joint.parent);
-    composite_mass_[parent] += composite_mass_[b];
-    moment_[parent] += moment_[b];
-    inertia_[parent] += inertia_[b];
+    composites_[parent].mass_kg += composites_[b].mass_kg;
+    composites_[parent].moment_kgm += composites_[b].moment_kgm;
+    composites_[parent].inertia_kgm2 += composites_[b].inertia_kgm2;
   }
 }
 
@@ -116,44 +115,45 @@ void TreeDynamics::add(const body::BodyWrench& wrench, Eigen::VectorXd& tau) con
 bool TreeDynamics::accelerate(const double* tau, const char* prescribed, double* qddot, double* device) {
   const body::BodyModel& model = *model_;
   const Eigen::Index n = mass_.rows();
-  free_.clear();
+  reduced_.free.clear();
   for (int k = 0; k < n; ++k) {
     device[k] = 0.0;
     const bool depends = dependent_[at(k)] != 0;
-    bias_[k] = prescribed[k] != 0 && !depends ? qddot[k] : 0.0;
-    if (prescribed[k] == 0 && !depends) free_.push_back(k);
+    reduced_.bias[k] = prescribed[k] != 0 && !depends ? qddot[k] : 0.0;
+    if (prescribed[k] == 0 && !depends) reduced_.free.push_back(k);
   }
-  const auto m = static_cast<Eigen::Index>(free_.size());
-  jacobian_.setZero(n, m);
-  for (Eigen::Index j = 0; j < m; ++j) jacobian_(free_[static_cast<std::size_t>(j)], j) = 1.0;
+  const auto m = static_cast<Eigen::Index>(reduced_.free.size());
+  reduced_.jacobian.setZero(n, m);
+  for (Eigen::Index j = 0; j < m; ++j) reduced_.jacobian(reduced_.free[static_cast<std::size_t>(j)], j) = 1.0;
   for (const std::size_t c : couplers_) {
     const body::CoordinateCoupler& coupler = model.couplers[c];
     const double rate = qdot_[coupler.independent];
-    bias_[coupler.dependent] = coupled_[c].second * rate * rate + coupled_[c].first * bias_[coupler.independent];
-    jacobian_.row(coupler.dependent) = coupled_[c].first * jacobian_.row(coupler.independent);
+    reduced_.bias[coupler.dependent] =
+        coupled_[c].second * rate * rate + coupled_[c].first * reduced_.bias[coupler.independent];
+    reduced_.jacobian.row(coupler.dependent) = coupled_[c].first * reduced_.jacobian.row(coupler.independent);
   }
   const Eigen::Map<const Eigen::VectorXd> given(tau, n);
   Eigen::Map<Eigen::VectorXd> result(qddot, n);
-  balance_ = given + gravity_ - coriolis_;
-  balance_.noalias() -= mass_ * bias_;
-  result = bias_;
+  reduced_.balance = given + gravity_ - coriolis_;
+  reduced_.balance.noalias() -= mass_ * reduced_.bias;
+  result = reduced_.bias;
   if (m > 0) {
-    mass_jacobian_.noalias() = mass_ * jacobian_;
-    reduced_.noalias() = jacobian_.transpose() * mass_jacobian_;
-    rhs_.noalias() = jacobian_.transpose() * balance_;
-    factor_.compute(reduced_);
-    if (factor_.info() != Eigen::Success) return false;
-    factor_.solveInPlace(rhs_);
-    result.noalias() += jacobian_ * rhs_;
-    balance_.noalias() -= mass_jacobian_ * rhs_;
+    reduced_.mass_jacobian.noalias() = mass_ * reduced_.jacobian;
+    reduced_.mass.noalias() = reduced_.jacobian.transpose() * reduced_.mass_jacobian;
+    reduced_.rhs.noalias() = reduced_.jacobian.transpose() * reduced_.balance;
+    reduced_.factor.compute(reduced_.mass);
+    if (reduced_.factor.info() != Eigen::Success) return false;
+    reduced_.factor.solveInPlace(reduced_.rhs);
+    result.noalias() += reduced_.jacobian * reduced_.rhs;
+    reduced_.balance.noalias() -= reduced_.mass_jacobian * reduced_.rhs;
   }
   // The rest acts on prescribed coordinates, also through the couplers.
   for (std::size_t c = couplers_.size(); c-- > 0;) {
     const body::CoordinateCoupler& coupler = model.couplers[couplers_[c]];
-    balance_[coupler.independent] += coupled_[couplers_[c]].first * balance_[coupler.dependent];
+    reduced_.balance[coupler.independent] += coupled_[couplers_[c]].first * reduced_.balance[coupler.dependent];
   }
   for (int k = 0; k < n; ++k) {
-    if (prescribed[k] != 0 && dependent_[at(k)] == 0) device[k] = -balance_[k];
+    if (prescribed[k] != 0 && dependent_[at(k)] == 0) device[k] = -reduced_.balance[k];
   }
   return true;
 }

@@ -44,6 +44,21 @@ class TreeDynamics {
   [[nodiscard]] bool accelerate(const double* tau, const char* prescribed, double* qddot, double* device);
 
  private:
+  /// A body with all that it carries, about the ground's origin.
+  struct Composite {
+    double mass_kg = 0.0;
+    Vec3 moment_kgm = Vec3::Zero();
+    Mat3 inertia_kgm2 = Mat3::Zero();
+  };
+
+  /// The equations of the free independent coordinates, (J' M J) x = J' balance.
+  struct Reduced {
+    std::vector<int> free;
+    Eigen::MatrixXd jacobian, mass_jacobian, mass;
+    Eigen::VectorXd bias, balance, rhs;
+    Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd::Identity(1, 1)};  ///< Factored: a copy reads its state.
+  };
+
   /// Mass, moment and inertia of each body about the ground's origin, and the potential energy.
   void take_bodies();
   /// Computes the mass matrix and gravity's torques, from the bodies inwards.
@@ -51,18 +66,15 @@ class TreeDynamics {
 
   const body::BodyModel* model_;
   body::BodyState state_;
-  Eigen::MatrixXd mass_, reduced_, jacobian_, mass_jacobian_;
-  Eigen::VectorXd gravity_, coriolis_, rest_, rhs_, q_, qdot_, bias_, balance_;
+  Eigen::MatrixXd mass_;
+  Eigen::VectorXd gravity_, coriolis_, rest_, q_, qdot_;
   /// Couplers, each after the one that determines its independent coordinate.
   std::vector<std::size_t> couplers_;
   std::vector<body::FunctionValue> coupled_;  ///< Value of each coupler's function.
   std::vector<char> dependent_;
-  std::vector<double> composite_mass_;
-  std::vector<Vec3> moment_;
-  std::vector<Mat3> inertia_;
-  std::vector<Vec3> v_origin_;
-  std::vector<int> free_;
-  Eigen::LLT<Eigen::MatrixXd> factor_{Eigen::MatrixXd::Identity(1, 1)};  ///< Factored: a copy reads its state.
+  std::vector<Composite> composites_;  ///< Per body.
+  std::vector<Vec3> v_origin_;         ///< Per coordinate.
+  Reduced reduced_;
   double kinetic_ = 0.0, potential_ = 0.0;
 };
 

@@ -63,8 +63,10 @@ struct StiffIntegrator::Parts {
   struct Vectors {
     std::vector<Vector> owned;
     std::vector<N_Vector> raw;
+    std::vector<const double*> in;  ///< Arguments and results of `sensitivity`.
+    std::vector<double*> out;
 
-    Vectors(std::size_t count, std::size_t length, sundials::Context context) {
+    Vectors(std::size_t count, std::size_t length, sundials::Context context) : in(count), out(count) {
       for (std::size_t k = 0; k < count; ++k) {
         owned.emplace_back(sundials::new_vector(static_cast<sunindextype>(length), context));
         if (!owned.back()) throw std::bad_alloc();
@@ -82,8 +84,6 @@ struct StiffIntegrator::Parts {
   Matrix matrix;
   Solver solver;
   Memory memory;
-  std::vector<const double*> s_in;
-  std::vector<double*> s_out;
   double time = 0.0, previous = 0.0;
   bool restart = false;
   bool begun = false;
@@ -126,10 +126,10 @@ struct StiffIntegrator::Parts {
                               N_Vector /*scratch*/) {
     auto& self = *static_cast<Parts*>(data);
     for (int k = 0; k < count; ++k) {
-      self.s_in[static_cast<std::size_t>(k)] = NV_DATA_S(s[k]);
-      self.s_out[static_cast<std::size_t>(k)] = NV_DATA_S(sdot[k]);
+      self.sensitivity->in[static_cast<std::size_t>(k)] = NV_DATA_S(s[k]);
+      self.sensitivity->out[static_cast<std::size_t>(k)] = NV_DATA_S(sdot[k]);
     }
-    return self.problem.sensitivity(t, NV_DATA_S(y), self.s_in.data(), self.s_out.data()) ? 0 : 1;
+    return self.problem.sensitivity(t, NV_DATA_S(y), self.sensitivity->in.data(), self.sensitivity->out.data()) ? 0 : 1;
   }
 
   OdeStatistics counted() const {
@@ -199,8 +199,6 @@ StiffIntegrator::StiffIntegrator(StiffProblem problem, const OdeOptions& options
   if (p.problem.sensitivity_count > 0) {
     const std::size_t count = p.problem.sensitivity_count;
     p.sensitivity = std::make_unique<Parts::Vectors>(count, p.problem.state_count, context);
-    p.s_in.resize(count);
-    p.s_out.resize(count);
     must(CVodeSensInit(memory, static_cast<int>(count), CV_STAGGERED, Parts::sensitivity_rate,
                        p.sensitivity->raw.data()));
     std::vector<double> absolute(count, options.absolute_tolerance);
@@ -305,10 +303,11 @@ OdeStatus StiffIntegrator::hop(double dt_s) {
   if (p.problem.sensitivity_count > 0) {
     std::vector<double> change(n * p.problem.sensitivity_count);
     for (std::size_t k = 0; k < p.problem.sensitivity_count; ++k) {
-      p.s_in[k] = NV_DATA_S(p.sensitivity->raw[k]);
-      p.s_out[k] = change.data() + k * n;
+      p.sensitivity->in[k] = NV_DATA_S(p.sensitivity->raw[k]);
+      p.sensitivity->out[k] = change.data() + k * n;
     }
-    if (!p.problem.sensitivity(p.time, y, p.s_in.data(), p.s_out.data())) return OdeStatus::rate_failed;
+    if (!p.problem.sensitivity(p.time, y, p.sensitivity->in.data(), p.sensitivity->out.data()))
+      return OdeStatus::rate_failed;
     for (std::size_t k = 0; k < p.problem.sensitivity_count; ++k) {
       for (std::size_t i = 0; i < n; ++i) NV_DATA_S(p.sensitivity->raw[k])[i] += dt_s * change[k * n + i];
     }

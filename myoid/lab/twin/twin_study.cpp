@@ -134,9 +134,9 @@ void add_given(const std::vector<const TwinRow*>& rows, TwinSummary& s) {
     widths.push_back(0.5 * (*e.given_ci_high - *e.given_ci_low) / unit);
     covered += *e.given_ci_low <= row->truth && row->truth <= *e.given_ci_high;
   }
-  s.given_coverage = errors.empty() ? std::nan("") : static_cast<double>(covered) / static_cast<double>(errors.size());
-  s.given_median_error = math::median(std::move(errors));
-  s.given_half_width = math::median(std::move(widths));
+  s.given.coverage = errors.empty() ? std::nan("") : static_cast<double>(covered) / static_cast<double>(errors.size());
+  s.given.median_error = math::median(std::move(errors));
+  s.given.half_width = math::median(std::move(widths));
 }
 
 TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
@@ -157,10 +157,10 @@ TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
       errors.push_back(error);
       squares += error * error;
     }
-    s.within_5 += size <= 0.05 ? 1.0 / count : 0.0;
-    s.within_10 += size <= 0.10 ? 1.0 / count : 0.0;
-    s.within_15 += size <= 0.15 ? 1.0 / count : 0.0;
-    s.within_20 += size <= 0.20 ? 1.0 / count : 0.0;
+    s.within.of_5 += size <= 0.05 ? 1.0 / count : 0.0;
+    s.within.of_10 += size <= 0.10 ? 1.0 / count : 0.0;
+    s.within.of_15 += size <= 0.15 ? 1.0 / count : 0.0;
+    s.within.of_20 += size <= 0.20 ? 1.0 / count : 0.0;
     const TwinRow before{row->seed, row->truth, {.parameter = e.parameter, .estimate = e.initial}};
     s.prior_within_10 += std::abs(before.error()) <= 0.10 ? 1.0 / count : 0.0;
     if (e.ci_low && e.ci_high) {
@@ -174,10 +174,10 @@ TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
     if (e.shrinkage) shrinkages.push_back(*e.shrinkage);
     const bool good = size <= 0.10;
     if (e.verdict == Verdict::identified) {
-      (good ? s.identified_good : s.identified_bad)++;
+      (good ? s.confusion.identified_good : s.confusion.identified_bad)++;
       s.identified_within_15 += size <= 0.15 ? 1 : 0;
     } else {
-      (good ? s.other_good : s.other_bad)++;
+      (good ? s.confusion.other_good : s.confusion.other_bad)++;
     }
     for (const muscle::HillField& field : muscle::kHillFields) {
       const bool outside = field.name == e.parameter && std::isfinite(e.estimate) &&
@@ -298,13 +298,14 @@ std::string summary_text(const TwinStudyResult& result) {
       "identified_and_within_10,identified_but_not,not_identified_but_within_10,not_identified_and_not,identified_"
       "within_15,outside_physical\n";
   for (const TwinSummary& s : summarize(result)) {
-    summary += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                           name(s.method), name(s.fit_case), s.muscle, s.parameter, s.count, cell(s.bias),
-                           cell(s.median_error), cell(s.mad), cell(s.rmse), cell(s.within_5), cell(s.within_10),
-                           cell(s.within_15), cell(s.within_20), cell(s.prior_within_10), cell(s.coverage),
-                           cell(s.half_width), cell(s.given_median_error), cell(s.given_coverage),
-                           cell(s.given_half_width), cell(s.shrinkage), fmt::join(s.verdicts, ","), s.identified_good,
-                           s.identified_bad, s.other_good, s.other_bad, s.identified_within_15, s.outside_physical);
+    summary +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", name(s.method),
+                    name(s.fit_case), s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error), cell(s.mad),
+                    cell(s.rmse), cell(s.within.of_5), cell(s.within.of_10), cell(s.within.of_15), cell(s.within.of_20),
+                    cell(s.prior_within_10), cell(s.coverage), cell(s.half_width), cell(s.given.median_error),
+                    cell(s.given.coverage), cell(s.given.half_width), cell(s.shrinkage), fmt::join(s.verdicts, ","),
+                    s.confusion.identified_good, s.confusion.identified_bad, s.confusion.other_good,
+                    s.confusion.other_bad, s.identified_within_15, s.outside_physical);
   }
   return summary;
 }

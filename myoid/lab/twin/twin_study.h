@@ -60,6 +60,21 @@ struct TwinStudyResult {
   bool interrupted = false;  ///< Stopped before all were finished.
 };
 
+/// Shares of the errors within 5, 10, 15 and 20 %.
+struct ErrorShares {
+  double of_5 = 0.0, of_10 = 0.0, of_15 = 0.0, of_20 = 0.0;
+};
+
+/// The reading given geometry and sensors; NaN by method `paper`.
+struct GivenErrors {
+  double median_error = 0.0, coverage = 0.0, half_width = 0.0;
+};
+
+/// The verdict `identified` against an error below 10 %: good.
+struct Confusion {
+  int identified_good = 0, identified_bad = 0, other_good = 0, other_bad = 0;
+};
+
 /// Errors of one parameter over the persons. Shares refer to all rows, except `truths`.
 struct TwinSummary {
   fit::Method method = fit::Method::torque;
@@ -71,17 +86,15 @@ struct TwinSummary {
   double median_error = 0.0;  ///< Median absolute error.
   double mad = 0.0;           ///< Median absolute deviation from the median.
   double rmse = 0.0;
-  double within_5 = 0.0, within_10 = 0.0, within_15 = 0.0, within_20 = 0.0;
+  ErrorShares within;
   double prior_within_10 = 0.0;  ///< Share of the starting values within 10 %.
   int with_interval = 0;
   double coverage = 0.0;    ///< Share of the 95 % intervals that hold the truth.
   double half_width = 0.0;  ///< Median, in the unit of the error.
-  /// The same of the reading given geometry and sensors; NaN by method `paper`.
-  double given_median_error = 0.0, given_coverage = 0.0, given_half_width = 0.0;
+  GivenErrors given;
   double shrinkage = 0.0;                                     ///< Median.
   std::array<int, std::size(fit::kVerdictNames)> verdicts{};  ///< As fit::Verdict.
-  /// Confusion: the verdict `identified` against an error below 10 %.
-  int identified_good = 0, identified_bad = 0, other_good = 0, other_bad = 0;
+  Confusion confusion;
   int identified_within_15 = 0;  ///< Identified numbers within 15 %.
   int outside_physical = 0;      ///< Reported beyond the physical bounds and not `non_physical`.
 };

@@ -44,12 +44,12 @@ TEST(TwinSummary, CountsErrorsCoverageAndVerdictsByHand) {
   EXPECT_NEAR(s.median_error, 0.08, 1e-12);
   EXPECT_NEAR(s.mad, 0.12, 1e-12);
   EXPECT_NEAR(s.rmse, std::sqrt((0.04 * 0.04 + 0.08 * 0.08 + 0.3 * 0.3) / 3.0), 1e-12);
-  EXPECT_NEAR(s.within_5, 1.0 / 3.0, 1e-12);
-  EXPECT_NEAR(s.within_10, 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(s.within.of_5, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(s.within.of_10, 2.0 / 3.0, 1e-12);
   EXPECT_NEAR(s.prior_within_10, 0.0, 1e-12);
   EXPECT_NEAR(s.coverage, 1.0 / 3.0, 1e-12);
-  EXPECT_EQ(s.identified_good, 2);
-  EXPECT_EQ(s.identified_bad, 1);
+  EXPECT_EQ(s.confusion.identified_good, 2);
+  EXPECT_EQ(s.confusion.identified_bad, 1);
   EXPECT_EQ(s.identified_within_15, 2);
   EXPECT_EQ(s.outside_physical, 0);
 }
@@ -59,8 +59,8 @@ TEST(TwinSummary, TheDelayIsCountedInTensOfMilliseconds) {
   result.rows = {row("emg_delay", 0.050, 0.058, 0.010, fit::Verdict::weak)};
   const TwinSummary s = summarize(result).front();
   EXPECT_NEAR(s.bias, 0.08, 1e-12);
-  EXPECT_EQ(s.within_5, 0.0);
-  EXPECT_EQ(s.within_10, 1.0);
+  EXPECT_EQ(s.within.of_5, 0.0);
+  EXPECT_EQ(s.within.of_10, 1.0);
   EXPECT_EQ(s.coverage, 1.0);
 }
 

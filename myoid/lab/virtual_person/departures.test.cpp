@@ -29,7 +29,7 @@ TrialScript loaded_swing() {
   TrialProtocol trial;
   trial.name = "swing";
   trial.held_mass_kg = 1.5;
-  trial.duration_s = 6.0;
+  trial.cycles.duration_s = 6.0;
   return make_script(trial, {}, 4);
 }
 

@@ -19,7 +19,7 @@ TrialProtocol swing() {
   trial.name = "swing";
   trial.kind = TrialKind::flexion;
   trial.held_mass_kg = 1.5;
-  trial.duration_s = 6.0;
+  trial.cycles.duration_s = 6.0;
   return trial;
 }
 

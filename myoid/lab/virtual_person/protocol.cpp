@@ -159,14 +159,14 @@ void read_isokinetic(TomlTable& table, TrialProtocol& trial) {
   trial.concentric = mode != "eccentric";
   trial.eccentric = mode != "concentric";
   number_into(table, "speed_deg_per_s", trial.speed_radps, 1.0, 600.0, kDegree);
-  number_into(table, "from_deg", trial.from_rad, 0.0, 150.0, kDegree);
-  number_into(table, "to_deg", trial.to_rad, 0.0, 150.0, kDegree);
+  number_into(table, "from_deg", trial.lift.from_rad, 0.0, 150.0, kDegree);
+  number_into(table, "to_deg", trial.lift.to_rad, 0.0, 150.0, kDegree);
   number_into(table, "rise_s", trial.rise_s, 0.3, kLongestPart_s);
   number_into(table, "rest_s", trial.rest_s, 0.2, kLongestPart_s);
   count_into(table, "repetitions", trial.repetitions, 1, 100);
-  if (!(trial.from_rad + 5.0 * kDegree < trial.to_rad)) {
+  if (!(trial.lift.from_rad + 5.0 * kDegree < trial.lift.to_rad)) {
     table.fail("to_deg", fmt::format("found {:g}, expected at least 5 more than from_deg = {:g}",
-                                     trial.to_rad / kDegree, trial.from_rad / kDegree));
+                                     trial.lift.to_rad / kDegree, trial.lift.from_rad / kDegree));
   }
 }
 
@@ -214,41 +214,42 @@ std::vector<TrialProtocol> read_held_still(TomlTable& table, TrialProtocol trial
 }
 
 void read_flexion(TomlTable& table, TrialProtocol& trial) {
-  number_into(table, "frequency_hz", trial.frequency_hz, 0.02, 3.0);
-  number_into(table, "centre_deg", trial.centre_rad, 0.0, 150.0, kDegree);
-  number_into(table, "amplitude_deg", trial.amplitude_rad, 0.0, 75.0, kDegree);
-  number_into(table, "variation", trial.variation, 0.0, 0.5);
+  number_into(table, "frequency_hz", trial.cycles.frequency_hz, 0.02, 3.0);
+  number_into(table, "centre_deg", trial.cycles.centre_rad, 0.0, 150.0, kDegree);
+  number_into(table, "amplitude_deg", trial.cycles.amplitude_rad, 0.0, 75.0, kDegree);
+  number_into(table, "variation", trial.cycles.variation, 0.0, 0.5);
   number_into(table, "warm_up_s", trial.warm_up_s, 0.0, 600.0);
-  number_into(table, "duration_s", trial.duration_s, 3.0, 600.0);
-  const double reach_rad = trial.amplitude_rad * (1.0 + 2.0 * trial.variation);
-  if (trial.centre_rad - trial.amplitude_rad < -1e-9 ||
-      trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad > 150.0 * kDegree) {
-    table.fail("amplitude_deg", fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within 0 to "
-                                            "150: choose another centre_deg or a smaller amplitude",
-                                            (trial.centre_rad - trial.amplitude_rad) / kDegree,
-                                            (trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad) / kDegree));
+  number_into(table, "duration_s", trial.cycles.duration_s, 3.0, 600.0);
+  const double reach_rad = trial.cycles.amplitude_rad * (1.0 + 2.0 * trial.cycles.variation);
+  if (trial.cycles.centre_rad - trial.cycles.amplitude_rad < -1e-9 ||
+      trial.cycles.centre_rad - trial.cycles.amplitude_rad + 2.0 * reach_rad > 150.0 * kDegree) {
+    table.fail("amplitude_deg",
+               fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within 0 to "
+                           "150: choose another centre_deg or a smaller amplitude",
+                           (trial.cycles.centre_rad - trial.cycles.amplitude_rad) / kDegree,
+                           (trial.cycles.centre_rad - trial.cycles.amplitude_rad + 2.0 * reach_rad) / kDegree));
   }
 }
 
 /// Reads a movement from one angle to another and back.
 void read_raising(TomlTable& table, TrialProtocol& trial) {
-  number_into(table, "from_deg", trial.from_rad, 0.0, 150.0, kDegree);
-  number_into(table, "to_deg", trial.to_rad, 0.0, 150.0, kDegree);
-  number_into(table, "raise_s", trial.raise_s, 0.3, kLongestPart_s);
-  number_into(table, "lower_s", trial.lower_s, 0.3, kLongestPart_s);
+  number_into(table, "from_deg", trial.lift.from_rad, 0.0, 150.0, kDegree);
+  number_into(table, "to_deg", trial.lift.to_rad, 0.0, 150.0, kDegree);
+  number_into(table, "raise_s", trial.lift.raise_s, 0.3, kLongestPart_s);
+  number_into(table, "lower_s", trial.lift.lower_s, 0.3, kLongestPart_s);
   number_into(table, "rest_s", trial.rest_s, 0.2, kLongestPart_s);
   count_into(table, "repetitions", trial.repetitions, 1, 100);
-  if (!(trial.from_rad < trial.to_rad)) {
-    table.fail("to_deg", fmt::format("found {:g}, expected more than from_deg = {:g}", trial.to_rad / kDegree,
-                                     trial.from_rad / kDegree));
+  if (!(trial.lift.from_rad < trial.lift.to_rad)) {
+    table.fail("to_deg", fmt::format("found {:g}, expected more than from_deg = {:g}", trial.lift.to_rad / kDegree,
+                                     trial.lift.from_rad / kDegree));
   }
 }
 
 /// Returns the time that a trial of repetitions takes at most [s], without what the movement itself needs.
 double most_length_s(const TrialProtocol& trial) {
-  if (trial.kind == TrialKind::flexion) return trial.duration_s;
+  if (trial.kind == TrialKind::flexion) return trial.cycles.duration_s;
   const bool raises = trial.kind == TrialKind::eccentric || trial.kind == TrialKind::passive;
-  const double once_s = raises ? trial.raise_s + trial.lower_s : 2.0 * trial.rise_s + trial.hold_s;
+  const double once_s = raises ? trial.lift.raise_s + trial.lift.lower_s : 2.0 * trial.rise_s + trial.hold_s;
   const int directions = !raises && trial.direction == Direction::both ? 2 : 1;
   return trial.repetitions * directions * (once_s + trial.rest_s);
 }

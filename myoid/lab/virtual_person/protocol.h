@@ -159,6 +159,23 @@ struct TorqueNoise {
   double bandwidth_hz = 5.0;
 };
 
+/// A movement to and fro.
+struct CycleSpec {
+  double frequency_hz = 0.5;
+  double centre_rad = 1.2;
+  double amplitude_rad = 0.8;
+  double variation = 0.08;  ///< Relative change of amplitude from cycle to cycle.
+  double duration_s = 10.0;
+};
+
+/// A movement up and down again.
+struct LiftSpec {
+  double from_rad = 0.35;  ///< Lowest angle.
+  double to_rad = 2.0;     ///< Highest angle.
+  double raise_s = 1.5;
+  double lower_s = 3.0;
+};
+
 struct TrialProtocol {
   std::string name;
   TrialKind kind = TrialKind::flexion;
@@ -167,17 +184,9 @@ struct TrialProtocol {
   double held_mass_kg = 0.0;
   std::optional<Range> co_contraction;  ///< Empty: ControlSpec's range.
 
-  double frequency_hz = 0.5;
-  double centre_rad = 1.2;
-  double amplitude_rad = 0.8;
-  double variation = 0.08;  ///< Relative change of amplitude from cycle to cycle.
-  double duration_s = 10.0;
-
-  double from_rad = 0.35;  ///< eccentric, passive: lowest angle.
-  double to_rad = 2.0;     ///< eccentric, passive: highest angle.
-  double raise_s = 1.5;    ///< eccentric: time of raising.
-  double lower_s = 3.0;    ///< eccentric: time of lowering.
-  int repetitions = 1;     ///< eccentric, isometric_ramp, mvc.
+  CycleSpec cycles;     ///< flexion
+  LiftSpec lift;        ///< eccentric, passive; of isokinetic the angles.
+  int repetitions = 1;  ///< eccentric, isometric_ramp, mvc.
 
   double angle_rad = 1.2;  ///< isometric_ramp, mvc.
   Direction direction = Direction::both;

@@ -36,7 +36,7 @@ TEST(Protocol, ReadsAnglesInDegreesAndKeepsDefaults) {
   EXPECT_EQ(protocol.truth.emg_delay_s.upper, 0.05);
   EXPECT_EQ(protocol.motion.rate_hz, 100.0);
   ASSERT_EQ(protocol.trials.size(), 1U);
-  EXPECT_DOUBLE_EQ(protocol.trials[0].centre_rad, 0.5 * kPi);
+  EXPECT_DOUBLE_EQ(protocol.trials[0].cycles.centre_rad, 0.5 * kPi);
   EXPECT_EQ(protocol.trials[0].plane, Plane::horizontal);
   EXPECT_EQ(protocol.trials[0].held_mass_kg, 2.0);
   EXPECT_EQ(protocol.trials[0].use, "calibration");

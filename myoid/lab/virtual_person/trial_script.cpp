@@ -43,7 +43,7 @@ void add_lifts(TrialScript& script, double irregularity, math::Random& random) {
     }
   };
   double time_s = 0.0;
-  double at_rad = p.from_rad;
+  double at_rad = p.lift.from_rad;
   const auto go_to = [&](double usual_rad, double usual_s) {
     time_s += lasting_s(p.rest_s);
     const double duration_s = lasting_s(usual_s);
@@ -54,28 +54,28 @@ void add_lifts(TrialScript& script, double irregularity, math::Random& random) {
     time_s += duration_s;
   };
   for (int k = 0; k < p.repetitions; ++k) {
-    go_to(p.to_rad, p.raise_s);
-    go_to(p.from_rad, p.lower_s);
+    go_to(p.lift.to_rad, p.lift.raise_s);
+    go_to(p.lift.from_rad, p.lift.lower_s);
   }
-  motion.start_rad = p.from_rad;
+  motion.start_rad = p.lift.from_rad;
   script.duration_s = time_s + p.rest_s;
 }
 
 void add_oscillation(TrialScript& script, math::Random& random) {
   const TrialProtocol& p = script.protocol;
   SmoothMotion& motion = script.motion;
-  motion.start_rad = p.centre_rad - p.amplitude_rad;
-  motion.amplitude_rad = p.amplitude_rad;
+  motion.start_rad = p.cycles.centre_rad - p.cycles.amplitude_rad;
+  motion.amplitude_rad = p.cycles.amplitude_rad;
   motion.oscillation_start_s = kMarginOfFlexion_s;
-  motion.frequency_hz = p.frequency_hz;
-  motion.pace_s = std::max(0.6, 0.5 / p.frequency_hz);
+  motion.frequency_hz = p.cycles.frequency_hz;
+  motion.pace_s = std::max(0.6, 0.5 / p.cycles.frequency_hz);
   motion.cycles = std::max(
-      1,
-      static_cast<int>(std::floor((p.duration_s - 2.0 * kMarginOfFlexion_s - motion.pace_s) * p.frequency_hz + 1e-9)));
-  motion.amplitude_variation = p.variation;
-  motion.variation_hz = 0.37 * p.frequency_hz;
+      1, static_cast<int>(std::floor(
+             (p.cycles.duration_s - 2.0 * kMarginOfFlexion_s - motion.pace_s) * p.cycles.frequency_hz + 1e-9)));
+  motion.amplitude_variation = p.cycles.variation;
+  motion.variation_hz = 0.37 * p.cycles.frequency_hz;
   motion.variation_phase_rad = random.uniform(0.0, 2.0 * kPi);
-  script.duration_s = std::max(p.duration_s, motion.end_s() + kMarginOfFlexion_s);
+  script.duration_s = std::max(p.cycles.duration_s, motion.end_s() + kMarginOfFlexion_s);
 }
 
 /// Draws the other differences from cycle to cycle.
@@ -86,10 +86,11 @@ void make_uneven(TrialScript& script, double irregularity, math::Random& random)
   const double wander_rad = random.uniform(0.0, 2.0 * kPi);
   if (p.kind == TrialKind::flexion) {
     script.motion.wander_rad = 0.25 * irregularity;
-    script.motion.wander_hz = 0.23 * p.frequency_hz;
+    script.motion.wander_hz = 0.23 * p.cycles.frequency_hz;
     script.motion.wander_phase_rad = wander_rad;
   }
-  const double cycle_s = p.kind == TrialKind::flexion ? 1.0 / p.frequency_hz : p.raise_s + p.lower_s + 2.0 * p.rest_s;
+  const double cycle_s =
+      p.kind == TrialKind::flexion ? 1.0 / p.cycles.frequency_hz : p.lift.raise_s + p.lift.lower_s + 2.0 * p.rest_s;
   if (p.kind == TrialKind::flexion || p.kind == TrialKind::eccentric) {
     script.co_contraction_change = {
         .depth = std::min(0.9, 0.9 * irregularity), .frequency_hz = 1.0 / cycle_s, .phase_rad = phase_rad};
@@ -110,9 +111,9 @@ void add_sweeps(TrialScript& script, const ControlSpec& control, math::Random& r
   constexpr double kReturn_s = 2.0;
   constexpr double kMargin_s = 0.1;
   SmoothMotion& motion = script.motion;
-  motion.start_rad = p.from_rad;
+  motion.start_rad = p.lift.from_rad;
   const double first_rad = random.uniform(0.0, 2.0 * kPi);
-  const double range_rad = p.to_rad - p.from_rad;
+  const double range_rad = p.lift.to_rad - p.lift.from_rad;
   bool low = true;
   double time_s = 0.0;
   const auto sweep = [&](bool flexion, bool upwards, int k) {

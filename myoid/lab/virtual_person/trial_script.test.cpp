@@ -18,7 +18,7 @@ TrialProtocol trial(TrialKind kind) {
 
 TEST(TrialScript, FlexionStaysBetweenItsAnglesAndRestsAtTheEnds) {
   const TrialScript script = make_script(trial(TrialKind::flexion), {}, 1);
-  const double variation = script.protocol.variation;
+  const double variation = script.protocol.cycles.variation;
   double low = 10.0;
   double high = -10.0;
   for (double t = 0.0; t <= script.duration_s; t += 0.01) {
@@ -62,11 +62,11 @@ TEST(TrialScript, UnevenLiftsEndNearTheirAnglesAndTakeAboutTheirTime) {
     jump = std::max(jump, std::abs(q.first));
   }
   // Within two standard deviations of 2 degrees of the angles.
-  EXPECT_NEAR(low, lifts.from_rad, 4.01 * kDegree);
-  EXPECT_NEAR(high, lifts.to_rad, 4.01 * kDegree);
-  EXPECT_GT(std::abs(high - lifts.to_rad), 0.5 * kDegree);
+  EXPECT_NEAR(low, lifts.lift.from_rad, 4.01 * kDegree);
+  EXPECT_NEAR(high, lifts.lift.to_rad, 4.01 * kDegree);
+  EXPECT_GT(std::abs(high - lifts.lift.to_rad), 0.5 * kDegree);
   // The smooth step's fastest is 2.7 of the mean; uneven pieces and times add.
-  EXPECT_LT(jump, 2.0 * 2.7 * (lifts.to_rad - lifts.from_rad) / lifts.raise_s);
+  EXPECT_LT(jump, 2.0 * 2.7 * (lifts.lift.to_rad - lifts.lift.from_rad) / lifts.lift.raise_s);
   EXPECT_NEAR(uneven.motion(uneven.duration_s).first, 0.0, 1e-12);
 }
 
@@ -79,7 +79,7 @@ TEST(TrialScript, UnevenSwingsStayBetweenTheirAngles) {
     high = std::max(high, script.motion(t).value);
   }
   EXPECT_NEAR(low, 0.4, 1e-3);
-  EXPECT_LE(high, 0.4 + 1.6 * (1.0 + script.protocol.variation));
+  EXPECT_LE(high, 0.4 + 1.6 * (1.0 + script.protocol.cycles.variation));
   EXPECT_NEAR(script.motion(script.duration_s).first, 0.0, 1e-12);
   // The antagonist comes and goes once a cycle and never quite leaves.
   EXPECT_EQ(script.co_contraction_change.frequency_hz, 0.5);

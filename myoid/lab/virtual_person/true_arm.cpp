@@ -42,9 +42,9 @@ double set_curves(const TruthSpec& spec, math::Random& random, TrueArm& arm) {
   const double passive_strain = random.uniform(kLeastPassiveStrain, kMostPassiveStrain);
   const bool millard = spec.curves == "millard" || (spec.curves == "any" && coin);
   arm.laws = millard ? muscle::millard_laws() : muscle::de_groote_laws();
-  arm.millard.max_eccentric_multiplier = eccentric;
-  arm.millard.passive_strain_at_one = passive_strain;
-  arm.millard.passive_stiffness_at_one = 2.0 / passive_strain;
+  arm.millard.velocity.max_eccentric_multiplier = eccentric;
+  arm.millard.passive.strain_at_one = passive_strain;
+  arm.millard.passive.stiffness_at_one = 2.0 / passive_strain;
   return passive_strain;
 }
 

@@ -32,9 +32,10 @@ void print_summary(const std::vector<lab::TwinSummary>& summaries, bool each_mus
     if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
     const int identified = s.verdicts[0];
     print(fit::name(s.method), fit::name(s.fit_case), s.muscle, s.parameter, s.count, percent(s.bias),
-          percent(s.median_error), percent(s.rmse), percent(s.within_5), percent(s.within_10), percent(s.within_20),
-          percent(s.prior_within_10), percent(s.coverage), percent(s.half_width), percent(s.given_median_error),
-          percent(s.given_coverage), percent(s.given_half_width), percent(static_cast<double>(identified) / s.count),
+          percent(s.median_error), percent(s.rmse), percent(s.within.of_5), percent(s.within.of_10),
+          percent(s.within.of_20), percent(s.prior_within_10), percent(s.coverage), percent(s.half_width),
+          percent(s.given.median_error), percent(s.given.coverage), percent(s.given.half_width),
+          percent(static_cast<double>(identified) / s.count),
           identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
   }
 }
@@ -75,10 +76,10 @@ void print_verdicts(const lab::TwinStudyResult& result, const std::vector<lab::T
     int outside = 0;
     for (const lab::TwinSummary& s : summaries) {
       if (s.method != method || (s.muscle != "all" && s.muscle != "subject")) continue;
-      good += s.identified_good;
-      bad += s.identified_bad;
-      other_good += s.other_good;
-      other_bad += s.other_bad;
+      good += s.confusion.identified_good;
+      bad += s.confusion.identified_bad;
+      other_good += s.confusion.other_good;
+      other_bad += s.confusion.other_bad;
       outside += s.outside_physical;
     }
     if (good + bad + other_good + other_bad == 0) continue;

@@ -184,8 +184,8 @@ body::ExternalLoads load_external_loads(const body::BodyModel& model,
   if (const auto wrong = body::wrong_support(model, loads, time_s);
       wrong && body::stands(model, motion.q.values().row(0).transpose()))
     remarks.warn(fmt::format("{}: {}", path.string(), wrong->sentence()));
-  for (Remark& found : study::misplaced_loads(model, loads, nullptr, &motion.q, path.string()))
-    remarks.add(std::move(found));
+  const study::ContactTable table = study::contact_table(model, loads, {model, nullptr, &motion.q});
+  for (Remark& found : study::misplaced_loads(model, table, path.string())) remarks.add(std::move(found));
   return loads;
 }
 

@@ -236,10 +236,10 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes, const TimeSe
   if (!offset) return faults;
   const auto [begin_s, end_s] = common_time(envelopes, motion);
   const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
-  const bool grave =
-      offset->lead_s - unsure_s > kLimits.latest_offset_s || offset->lead_s + unsure_s < kLimits.earliest_offset_s;
+  const bool grave = offset->lead_s - unsure_s > kLimits.clocks.latest_offset_s ||
+                     offset->lead_s + unsure_s < kLimits.clocks.earliest_offset_s;
   // An offset as uncertain as the expected range says nothing.
-  const bool tells = 2.0 * offset->sd_s < kLimits.latest_offset_s - kLimits.earliest_offset_s;
+  const bool tells = 2.0 * offset->sd_s < kLimits.clocks.latest_offset_s - kLimits.clocks.earliest_offset_s;
   if (grave || tells)
     faults.push_back({.code = RemarkCode::clock_offset,
                       .severity = grave ? Severity::warning : Severity::note,
@@ -249,11 +249,11 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes, const TimeSe
                       .says = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
                                           1000.0 * std::abs(offset->lead_s), 1000.0 * offset->sd_s,
                                           offset->lead_s < 0.0 ? "behind" : "ahead of"),
-                      .remedy = grave
-                                    ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
-                                                  "started together? Shift the clock of one of them",
-                                                  1000.0 * kLimits.earliest_offset_s, 1000.0 * kLimits.latest_offset_s)
-                                    : ""});
+                      .remedy = grave ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
+                                                    "started together? Shift the clock of one of them",
+                                                    1000.0 * kLimits.clocks.earliest_offset_s,
+                                                    1000.0 * kLimits.clocks.latest_offset_s)
+                                      : ""});
   constexpr double kLongEnough_s = 30.0;
   if (end_s - begin_s < kLongEnough_s) return faults;
   const auto first = estimate_clock_offset(third(envelopes, 0, begin_s, end_s), third(motion, 0, begin_s, end_s));
@@ -261,7 +261,7 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes, const TimeSe
   if (!first || !last) return faults;
   const double drift_s = last->lead_s - first->lead_s;
   const double sd_s = std::hypot(first->scatter_s, last->scatter_s);
-  if (std::abs(drift_s) < kLimits.drift_s || std::abs(drift_s) < 3.0 * sd_s) return faults;
+  if (std::abs(drift_s) < kLimits.clocks.drift_s || std::abs(drift_s) < 3.0 * sd_s) return faults;
   faults.push_back({.code = RemarkCode::clock_drift,
                     .severity = Severity::warning,
                     .about = "EMG and motion",
@@ -281,7 +281,7 @@ std::optional<Remark> check_clock_evenness(const Eigen::Ref<const Eigen::VectorX
   const Eigen::VectorXd intervals = time_s.tail(n - 1) - time_s.head(n - 1);
   const double mean = intervals.mean();
   const double sd = std::sqrt((intervals.array() - mean).square().mean());
-  if (sd <= kLimits.uneven_share * mean) return std::nullopt;
+  if (sd <= kLimits.clocks.uneven_share * mean) return std::nullopt;
   return Remark{.code = RemarkCode::clock_uneven,
                 .severity = Severity::note,
                 .about = what,

@@ -87,11 +87,11 @@ std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, dou
   if (usual_s > kLongestBeat_s || usual_s < 1.1 * kShortestBeat_s) return std::nullopt;
   std::vector<double> off;
   for (const double step : steps) off.push_back(std::abs(step - usual_s));
-  if (math::median(std::move(off)) > kLimits.ecg_irregular * usual_s) return std::nullopt;
+  if (math::median(std::move(off)) > kLimits.emg.ecg_irregular * usual_s) return std::nullopt;
   std::vector<double> alike = likeness(y, beats.at, beat_samples(kHalfWave_s, rate_hz));
   if (alike.size() < kFewestBeats) return std::nullopt;
   beats.alike = math::median(std::move(alike));
-  if (beats.alike < kLimits.ecg_alike) return std::nullopt;
+  if (beats.alike < kLimits.emg.ecg_alike) return std::nullopt;
   beats.rate_hz = 1.0 / usual_s;
   for (const Eigen::Index at : beats.at) beats.amplitude += std::abs(y[at]) / static_cast<double>(beats.at.size());
   const Eigen::VectorXd size = y.cwiseAbs();

@@ -16,8 +16,8 @@ struct EcgBeats {
 };
 
 /// Finds the heart's electric field in raw EMG, which lies over the trunk's: waves between 8 and 40 Hz that come 0.6 to
-/// 3 times a second at regular intervals (`kLimits.ecg_irregular`), with silence between them, and, unlike bursts of a
-/// muscle, have one shape (`kLimits.ecg_alike`). Empty for fewer than six beats, or a rate below 200 Hz.
+/// 3 times a second at regular intervals (`kLimits.emg.ecg_irregular`), with silence between them, and, unlike bursts
+/// of a muscle, have one shape (`kLimits.emg.ecg_alike`). Empty for fewer than six beats, or a rate below 200 Hz.
 [[nodiscard]] std::optional<EcgBeats> find_ecg(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz);
 
 /// Subtracts from each beat the mean beat of up to 30 around it, 0.2 s before to 0.4 s behind the steepest wave, scaled

@@ -159,7 +159,7 @@ void take_out_hum(EmgStages& stages) {
   Eigen::MatrixXd values = stages.filtered.values();
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
     const auto hum = find_hum(values.col(c), rate_hz);
-    if (!hum || hum->share < kLimits.hum_share) continue;
+    if (!hum || hum->share < kLimits.emg.hum_share) continue;
     values.col(c) = without_hum(values.col(c), rate_hz, *hum);
     stages.notches.push_back({stages.filtered.channels()[at(c)].name, hum->lines_hz});
   }

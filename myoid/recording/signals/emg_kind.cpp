@@ -21,14 +21,14 @@ bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
     above += (x[i] > median) != (x[i - 1] > median) ? 1 : 0;
     not_below += (x[i] >= median) != (x[i - 1] >= median) ? 1 : 0;
   }
-  return static_cast<double>(std::max(above, not_below)) * rate_hz <= kLimits.raw_hz * static_cast<double>(n);
+  return static_cast<double>(std::max(above, not_below)) * rate_hz <= kLimits.emg.raw_hz * static_cast<double>(n);
 }
 
 bool is_rectified(const Eigen::Ref<const Eigen::VectorXd>& x) {
   if (x.size() < 3 || !(x.minCoeff() >= 0.0) || !(x.maxCoeff() > x.minCoeff())) return false;
   const double median = math::upper_median({x.begin(), x.end()});
   const auto near = (x.array() < 0.1 * median).count();
-  return static_cast<double>(near) >= kLimits.rectified_share * static_cast<double>(x.size());
+  return static_cast<double>(near) >= kLimits.emg.rectified_share * static_cast<double>(x.size());
 }
 
 double flatness_of(const Eigen::VectorXd& x, double rate_hz, double highpass_hz) {
@@ -52,8 +52,8 @@ bool is_noise(const Eigen::VectorXd& x, double rate_hz, double highpass_hz) {
   const auto width = static_cast<Eigen::Index>(std::lround(0.5 * rate_hz));
   if (width < 1 || x.size() < width) return false;
   const Eigen::VectorXd levels = math::moving_mean(x.cwiseAbs(), width);
-  return levels.maxCoeff() < kLimits.noise_v && levels.maxCoeff() <= kLimits.noise_rises * levels.minCoeff() &&
-         flatness_of(x, rate_hz, highpass_hz) > kLimits.noise_flatness;
+  return levels.maxCoeff() < kLimits.noise.rms_v && levels.maxCoeff() <= kLimits.noise.rises * levels.minCoeff() &&
+         flatness_of(x, rate_hz, highpass_hz) > kLimits.noise.flatness;
 }
 
 }  // namespace myoid::recording

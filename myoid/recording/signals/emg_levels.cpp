@@ -25,7 +25,7 @@ struct Levels {
   double greatest_s = 0.0;
   double flatness = 0.0;  ///< `EmgStages::flatness`; 0 if unknown.
 
-  [[nodiscard]] bool rises() const { return greatest > kLimits.noise_rises * quietest; }
+  [[nodiscard]] bool rises() const { return greatest > kLimits.noise.rises * quietest; }
 };
 
 constexpr double kEffort_s = 0.5;
@@ -75,7 +75,8 @@ std::optional<Remark> other_unit(const TrialEnvelope& trial,
     const auto found = own.find(channel);
     if (found == own.end()) continue;
     const Levels& here = found->second;
-    if (!(here.greatest > kLimits.other_unit * mvc.greatest) || !(here.least > kLimits.other_unit * mvc.least))
+    if (!(here.greatest > kLimits.levels.other_unit * mvc.greatest) ||
+        !(here.least > kLimits.levels.other_unit * mvc.least))
       return std::nullopt;
     least = std::min(least, here.greatest / mvc.greatest);
     most = std::max(most, here.greatest / mvc.greatest);
@@ -153,9 +154,9 @@ void add(const Levels& here, Levels& all) {
 }
 
 Remark low_signal(const std::string& channel, const Levels& all, double greatest_s, std::size_t trials) {
-  const bool noise = !all.rises() && all.flatness > kLimits.noise_flatness && all.greatest < kLimits.noise_v;
+  const bool noise = !all.rises() && all.flatness > kLimits.noise.flatness && all.greatest < kLimits.noise.rms_v;
   const bool works =
-      all.rises() && all.flatness > 0.0 && all.flatness <= kLimits.noise_flatness && all.least > kLimits.noise_v;
+      all.rises() && all.flatness > 0.0 && all.flatness <= kLimits.noise.flatness && all.least > kLimits.noise.rms_v;
   const char* const together = trials > 1 ? ", in all trials together" : "";
   Remark remark{.code = RemarkCode::emg_low_signal,
                 .severity = noise ? Severity::error : Severity::warning,
@@ -195,7 +196,7 @@ std::optional<double> rest_elsewhere(const std::string& channel, const LevelsByT
   if (quiet.size() < kTrials) return std::nullopt;
   std::nth_element(quiet.begin(), quiet.begin() + kTrials - 1, quiet.end());
   const double least = *std::min_element(quiet.begin(), quiet.begin() + kTrials);
-  return quiet[kTrials - 1] <= kLimits.noise_rises * least ? std::optional(least) : std::nullopt;
+  return quiet[kTrials - 1] <= kLimits.noise.rises * least ? std::optional(least) : std::nullopt;
 }
 
 /// True if the channel rises far above `level` in each of three or more other trials, and another channel does in this
@@ -207,11 +208,11 @@ bool works_elsewhere(const std::string& channel, double level, const LevelsByTri
     if (i == except) continue;
     const auto found = trials[i].second.find(channel);
     if (found == trials[i].second.end()) continue;
-    if (found->second.greatest < kLimits.signal_to_rest * level) return false;
+    if (found->second.greatest < kLimits.emg.signal_to_rest * level) return false;
     ++count;
   }
   return count >= kTrials && std::ranges::any_of(trials[except].second, [&](const auto& other) {
-           return other.first != channel && other.second.peak > kLimits.signal_to_rest * other.second.least;
+           return other.first != channel && other.second.peak > kLimits.emg.signal_to_rest * other.second.least;
          });
 }
 
@@ -224,9 +225,9 @@ void lost_in_trials(const std::string& channel, const LevelsByTrial& trials, std
     if (found == trials[i].second.end() || found->second.rises()) continue;
     const Levels& here = found->second;
     const std::optional<double> rest = rest_elsewhere(channel, trials, i);
-    const bool white = here.flatness > kLimits.noise_flatness;
-    const bool below = rest && here.greatest * kLimits.noise_level < *rest;
-    const bool above = rest && here.quietest > kLimits.noise_level * *rest && white;
+    const bool white = here.flatness > kLimits.noise.flatness;
+    const bool below = rest && here.greatest * kLimits.noise.level < *rest;
+    const bool above = rest && here.quietest > kLimits.noise.level * *rest && white;
     const bool silent = white && works_elsewhere(channel, here.greatest, trials, i);
     if (!below && !above && !silent) continue;
     const std::string level =
@@ -255,7 +256,7 @@ struct Ratio {
   [[nodiscard]] double mean() const { return std::sqrt(least * most); }
   /// True if all ratios are beyond `limit`, to the same side, and alike.
   [[nodiscard]] bool is_gain(double limit) const {
-    return most < kLimits.gain_alike * least && (least > limit || most * limit < 1.0);
+    return most < kLimits.levels.gain_alike * least && (least > limit || most * limit < 1.0);
   }
 };
 
@@ -266,7 +267,7 @@ std::optional<Ratio> ratio_of(const std::string& channel, const LevelsByTrial& t
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const auto found = trials[i].second.find(channel);
     if (found == trials[i].second.end()) continue;
-    const bool rises = found->second.greatest > kLimits.signal_to_rest * found->second.quietest;
+    const bool rises = found->second.greatest > kLimits.emg.signal_to_rest * found->second.quietest;
     if (i == trial && !rises) return std::nullopt;
     if (i == trial || !rises) continue;
     rests.push_back(found->second.quietest);
@@ -309,13 +310,13 @@ std::vector<std::size_t> other_gains(const LevelsByTrial& trials, std::vector<Re
       all.add(ratio->most);
     }
     const std::string& name = trials[i].first->trial;
-    if (ratios.size() > 1 && ratios.size() == trials[i].second.size() && all.is_gain(kLimits.gain)) {
+    if (ratios.size() > 1 && ratios.size() == trials[i].second.size() && all.is_gain(kLimits.levels.gain)) {
       faults.push_back(other_gain(name, "", all));
       whole.push_back(i);
       continue;
     }
     for (const auto& [channel, ratio] : ratios) {
-      if (ratio.is_gain(kLimits.gain_alone)) faults.push_back(other_gain(name, channel, ratio));
+      if (ratio.is_gain(kLimits.levels.gain_alone)) faults.push_back(other_gain(name, channel, ratio));
     }
   }
   return whole;
@@ -373,13 +374,13 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
       most_here = here;
       (trial->is_mvc ? mvc_trial : movement_trial) = trial->trial;
     }
-    if (all.peak < kLimits.signal_to_rest * all.least) {
+    if (all.peak < kLimits.emg.signal_to_rest * all.least) {
       const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
       faults.push_back(low_signal(channel, all, most.greatest_s, of_trials.size()));
     } else {
       lost_in_trials(channel, of_trials, faults);
     }
-    if (!mvc_trial.empty() && movement.greatest > kLimits.over_reference * mvc.greatest)
+    if (!mvc_trial.empty() && movement.greatest > kLimits.levels.over_reference * mvc.greatest)
       faults.push_back(above_reference(channel, movement, movement_trial, mvc, mvc_trial));
   }
   return faults;

@@ -69,7 +69,7 @@ class ChannelCheck {
     const bool smoothed = is_envelope(x_, rate_hz_);
     const bool rectified = !smoothed && is_rectified(x_);
     x_.array() -= x_.mean();
-    if (rms(x_) < kLimits.flat_v) {
+    if (rms(x_) < kLimits.emg.flat_v) {
       add(faults, RemarkCode::emg_flat, true, 0, x_.size() - 1, rms(x_),
           fmt::format("channel '{}' shows nothing: {:.2g} uV rms", name_, 1e6 * rms(x_)),
           remedy("was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }",
@@ -79,7 +79,7 @@ class ChannelCheck {
     }
     const bool railed = !smoothed && clipping(faults);
     const Run flat = longest_run(x_);
-    if (!railed && seconds(flat.length) >= kLimits.flat_s) {
+    if (!railed && seconds(flat.length) >= kLimits.emg.flat_s) {
       add(faults, RemarkCode::emg_flat, true, flat.begin, flat.begin + flat.length - 1, seconds(flat.length),
           fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_, time_s_[flat.begin],
                       time_s_[flat.begin + flat.length - 1]),
@@ -162,12 +162,12 @@ class ChannelCheck {
   void amplitude(std::vector<Remark>& faults) const {
     Eigen::Index at = 0;
     const double most = x_.cwiseAbs().maxCoeff(&at);
-    if (most <= kLimits.amplitude_v) return;
-    const auto beyond = (x_.array().abs() > kLimits.amplitude_v).count();
+    if (most <= kLimits.emg.amplitude_v) return;
+    const auto beyond = (x_.array().abs() > kLimits.emg.amplitude_v).count();
     add(faults, RemarkCode::emg_amplitude, true, at, at, most,
         fmt::format("channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); skin gives "
                     "millivolts, and no amplifier more than {:g} V",
-                    name_, most, time_s_[at], beyond, x_.size(), kLimits.amplitude_v, kLimits.amplitude_v),
+                    name_, most, time_s_[at], beyond, x_.size(), kLimits.emg.amplitude_v, kLimits.emg.amplitude_v),
         2 * beyond > x_.size() ? "is the unit wrong (an activation does not depend on it), or is it no EMG?"
                                : "leave out samples that are no measurement: they become the greatest effort");
   }
@@ -181,10 +181,10 @@ class ChannelCheck {
       const auto on = (x_.array() == extreme).count();
       const auto near = ((x_.array() - extreme).abs() <= 0.05 * range).count() - on;
       const double share = static_cast<double>(on) / static_cast<double>(x_.size());
-      if (longest.length < 3 || on < near || share < kLimits.clipped_share) continue;
+      if (longest.length < 3 || on < near || share < kLimits.emg.clipped_share) continue;
       railed = true;
       const char* side = top ? "largest" : "smallest";
-      if (seconds(longest.length) >= kLimits.saturated_s) {
+      if (seconds(longest.length) >= kLimits.emg.saturated_s) {
         add(faults, RemarkCode::emg_saturated, true, longest.begin, longest.begin + longest.length - 1,
             seconds(longest.length),
             fmt::format("channel '{}' stays at its {} value for {:.3g} s at {:.6g} s", name_, side,
@@ -206,7 +206,7 @@ class ChannelCheck {
 
   void hum(std::vector<Remark>& faults) {
     const auto found = find_hum(emg_, rate_hz_);
-    if (!found || found->share < kLimits.hum_share) return;
+    if (!found || found->share < kLimits.emg.hum_share) return;
     add(faults, RemarkCode::emg_hum, !treatment_.notched, 0, x_.size() - 1, found->share,
         fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz", name_, 100.0 * found->share,
                     fmt::join(found->lines_hz, ", ")),
@@ -223,7 +223,7 @@ class ChannelCheck {
     for (Eigen::Index i = 0; i < count; ++i) means[i] = x_.segment(i * width, width).mean();
     means.array() -= means.mean();
     const double value = rms(means) / rms(emg_);
-    if (value < kLimits.drift_over_rms) return;
+    if (value < kLimits.emg.drift_over_rms) return;
     add(faults, RemarkCode::emg_drift, !treatment_.high_passed, 0, x_.size() - 1, value,
         fmt::format("channel '{}': its baseline wanders by {:.3g} uV, {:.2g} times the EMG", name_, 1e6 * rms(means),
                     value),
@@ -245,7 +245,7 @@ class ChannelCheck {
     double value = 0.0;
     for (Eigen::Index i = 0; i + width <= x_.size(); i += width) {
       const double here = rms(slow.segment(i, width)) / loudest;
-      count += here >= kLimits.artifact_over_rms ? 1 : 0;
+      count += here >= kLimits.emg.artifact_over_rms ? 1 : 0;
       if (here > value) {
         value = here;
         worst = i;
@@ -305,7 +305,7 @@ std::vector<Remark> check_emg(const TimeSeries& raw, const EmgTreatment& treatme
     for (std::size_t b = a + 1; b < signals.size(); ++b) {
       if (signals[a].size() == 0 || signals[b].size() == 0) continue;
       const double value = common_share(signals[a], signals[b], raw.mean_rate_hz());
-      if (value < kLimits.crosstalk) continue;
+      if (value < kLimits.emg.crosstalk) continue;
       const std::string& first = raw.channels()[a].name;
       const std::string& second = raw.channels()[b].name;
       constexpr double kSame = 0.98;

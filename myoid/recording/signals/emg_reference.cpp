@@ -93,10 +93,10 @@ std::vector<LonePeak> lone_peaks(std::span<const TrialEnvelope> trials, const st
     const auto inside = [&](const HalfSeconds& one, Eigen::Index i) { return apart(one, i) && !one.at_end(i); };
     Greatest next = greatest_half_second(all, inside);
     if (next.in == nullptr) next = greatest_half_second(all, apart);
-    const double limit = top.in->at_end(top.at) ? kLimits.lone_reference_at_end : kLimits.lone_reference;
+    const double limit = top.in->at_end(top.at) ? kLimits.levels.lone_reference_at_end : kLimits.levels.lone_reference;
     if (next.in == nullptr || !(top.mean > limit * next.mean)) break;
     peaks.push_back(lone_peak_of(top, next.mean));
-    peaks.back().replaced = next.mean > kLimits.signal_to_rest * quiet;
+    peaks.back().replaced = next.mean > kLimits.emg.signal_to_rest * quiet;
     if (!peaks.back().replaced) break;
   }
   return peaks;

@@ -23,9 +23,9 @@ struct LonePeak {
 };
 
 /// Returns the half seconds of a channel that no other effort confirms, the greatest first: each is more than
-/// `kLimits.lone_reference` times the next that does not overlap it. At the ends of a recording of 3 s or more, where
-/// amplifiers settle and cables are pulled, `kLimits.lone_reference_at_end` is enough, and half seconds at other
-/// ends do not count as the next. An effort of a muscle lasts, or comes again.
+/// `kLimits.levels.lone_reference` times the next that does not overlap it. At the ends of a recording of 3 s or more,
+/// where amplifiers settle and cables are pulled, `kLimits.levels.lone_reference_at_end` is enough, and half seconds at
+/// other ends do not count as the next. An effort of a muscle lasts, or comes again.
 [[nodiscard]] std::vector<LonePeak> lone_peaks(std::span<const TrialEnvelope> trials, const std::string& channel);
 
 /// True if `count` samples from `first` of this trial touch a peak that another effort replaces.

@@ -56,13 +56,13 @@ std::vector<EmgSpike> find_spikes(const Eigen::Ref<const Eigen::VectorXd>& x, do
   const auto begin = [&](Eigen::Index w) { return w < count ? w * width : x.size(); };
   std::vector<Around> around;
   for (Eigen::Index w = 0; w < count; ++w) around.push_back(usual_values(x.segment(begin(w), begin(w + 1) - begin(w))));
-  const auto narrow = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kLimits.spike_s * rate_hz));
+  const auto narrow = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kLimits.emg.spike_s * rate_hz));
   for (Eigen::Index w = 0; w < count; ++w) {
     double high = 0.0;
     for (Eigen::Index v = std::max<Eigen::Index>(0, w - 1); v <= std::min(count - 1, w + 1); ++v)
       high = std::max(high, around[static_cast<std::size_t>(v)].high);
     const double median = around[static_cast<std::size_t>(w)].median;
-    const double limit = kLimits.spike_over_emg * high;
+    const double limit = kLimits.emg.spike_over_emg * high;
     for (Eigen::Index i = begin(w); i < begin(w + 1); ++i) {
       if (!(limit > 0.0) || !(std::abs(x[i] - median) > limit)) continue;
       if (!spikes.empty() && i < spikes.back().begin + spikes.back().length) continue;

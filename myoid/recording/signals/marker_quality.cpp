@@ -107,7 +107,8 @@ std::vector<Remark> check_marker_gaps(const MarkerSeries& markers) {
     const bool never = missing == markers.frame_count();
     faults.push_back(
         {.code = RemarkCode::marker_gap,
-         .severity = (longest_s > kLimits.gap_s || share > kLimits.missing_share) ? Severity::warning : Severity::note,
+         .severity = (longest_s > kLimits.markers.gap_s || share > kLimits.markers.missing_share) ? Severity::warning
+                                                                                                  : Severity::note,
          .about = marker,
          .when = Stretch{begin_s, end_s},
          .value = longest_s,
@@ -117,7 +118,7 @@ std::vector<Remark> check_marker_gaps(const MarkerSeries& markers) {
                                  marker, 100.0 * share, count, count == 1 ? "" : "s", count == 1 ? "" : ", the longest",
                                  begin_s, end_s),
          .remedy =
-             longest_s > kLimits.gap_s
+             longest_s > kLimits.markers.gap_s
                  ? "where its segment's other markers do not show it either, that segment's pose rests on fewer markers"
                  : ""});
     it = next;
@@ -145,7 +146,7 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers) {
       at.push_back(f);
     }
     if (away.empty()) continue;
-    const double limit = std::max({kLimits.jump_m, fast_m, 10.0 * math::upper_median(away)});
+    const double limit = std::max({kLimits.markers.jump_m, fast_m, 10.0 * math::upper_median(away)});
     const auto worst = std::max_element(away.begin(), away.end());
     if (*worst <= limit) continue;
     // The neighbors of a jump depart from their path too: separate jumps are at least five frames apart.

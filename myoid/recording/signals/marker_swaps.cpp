@@ -116,12 +116,12 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers) {
     std::vector<Candidate> off;
     for (Eigen::Index m = 0; m < count; ++m) {
       if (markers.missing(f, m)) continue;
-      const auto expected = paths[static_cast<std::size_t>(m)].expected(now_s, kLimits.gap_s);
+      const auto expected = paths[static_cast<std::size_t>(m)].expected(now_s, kLimits.markers.gap_s);
       const Vec3 p = markers.position(f, m);
-      if (expected && (p - *expected).norm() > 0.5 * kLimits.swap_m) off.push_back({m, p, *expected});
+      if (expected && (p - *expected).norm() > 0.5 * kLimits.markers.swap_m) off.push_back({m, p, *expected});
     }
     bool changed = false;
-    while (const auto pair = crossing(off, kLimits.swap_m)) {
+    while (const auto pair = crossing(off, kLimits.markers.swap_m)) {
       const auto [a, b] = *pair;
       std::swap(paths[static_cast<std::size_t>(a)], paths[static_cast<std::size_t>(b)]);
       std::swap(labels[static_cast<std::size_t>(a)], labels[static_cast<std::size_t>(b)]);
@@ -132,7 +132,8 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers) {
     }
     if (changed) since.emplace_back(f, labels);
     for (Eigen::Index m = 0; m < count; ++m) {
-      if (!markers.missing(f, m)) paths[static_cast<std::size_t>(m)].see(markers.position(f, m), now_s, kLimits.gap_s);
+      if (!markers.missing(f, m))
+        paths[static_cast<std::size_t>(m)].see(markers.position(f, m), now_s, kLimits.markers.gap_s);
     }
   }
   if (since.size() == 1) return {};

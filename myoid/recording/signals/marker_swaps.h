@@ -18,7 +18,7 @@ struct MarkerSwap {
 
 /// Finds the times in which two markers have exchanged labels. Each marker is then on the path of
 /// the other: with p the position in a frame and e its extrapolation from the last two positions
-/// (across gaps of up to `QualityLimits::gap_s`),
+/// (across gaps of up to `QualityLimits::markers.gap_s`),
 ///   |p_a - e_b| + |p_b - e_a| < (|p_a - e_a| + |p_b - e_b|) / 4.
 /// Markers nearer than `swap_m` are skipped. An exchange that takes a marker away from its usual distance to a marker
 /// of the same body is none. The labels of the greater part of the recording are

@@ -160,7 +160,7 @@ MendedMarkers mend_markers(MarkerSeries markers,
     if (gap.begin == 0 || gap.end == markers.frame_count()) continue;
     const double length_s = markers.time_s[gap.end] - markers.time_s[gap.begin - 1];
     const double interval_s = length_s / static_cast<double>(gap.end - gap.begin + 1);
-    const bool is_short = length_s - interval_s <= kLimits.gap_s * (1.0 + 1e-9);
+    const bool is_short = length_s - interval_s <= kLimits.markers.gap_s * (1.0 + 1e-9);
     const bool done = is_short ? fill_by_spline(markers, gap, result.markers)
                                : fill_from_segment(markers, shapes, gap, result.markers);
     if (!done) continue;

@@ -22,7 +22,7 @@ struct MendedMarkers {
 
 /// Undoes swaps (`find_swaps`), then fills gaps before and after which the marker is seen:
 ///
-/// - up to `QualityLimits::gap_s`: a cubic spline through four frames on either side, 0.03 s apart;
+/// - up to `QualityLimits::markers.gap_s`: a cubic spline through four frames on either side, 0.03 s apart;
 /// - longer: from the segment, if three other markers of it are seen. The segment's mean shape is laid on these markers
 ///   and shifted so that both ends of the gap match.
 ///

@@ -37,7 +37,7 @@ void check_offset(const ForcePlate& plate,
     offset_n = mean;
     at = i;
   }
-  if (at < 0 || least_n < kLimits.plate_offset_n) return;
+  if (at < 0 || least_n < kLimits.plates.offset_n) return;
   faults.push_back(
       {.code = RemarkCode::plate_offset,
        .severity = Severity::warning,
@@ -60,18 +60,18 @@ void check_pressure(const ForcePlate& plate,
   Eigen::Index worst = -1;
   double furthest_m = 0.0;
   for (Eigen::Index i = 0; i < normal_n.size(); ++i) {
-    if (!(std::abs(normal_n[i]) > kLimits.plate_loaded_n)) continue;
+    if (!(std::abs(normal_n[i]) > kLimits.plates.loaded_n)) continue;
     const Vec3 p = plate.R_GP.transpose() * (plate.pressure_center_m.row(i).transpose() - plate.p_GP_m);
     if (!p.allFinite()) continue;
     ++loaded;
     const double away_m = std::max(std::abs(p[0]) - half_x_m, std::abs(p[1]) - half_y_m);
-    if (away_m <= kLimits.plate_margin_m) continue;
+    if (away_m <= kLimits.plates.margin_m) continue;
     ++outside;
     if (away_m <= furthest_m) continue;
     furthest_m = away_m;
     worst = i;
   }
-  if (worst < 0 || static_cast<double>(outside) < kLimits.plate_outside_share * static_cast<double>(loaded)) return;
+  if (worst < 0 || static_cast<double>(outside) < kLimits.plates.outside_share * static_cast<double>(loaded)) return;
   faults.push_back({.code = RemarkCode::plate_pressure_outside,
                     .severity = Severity::warning,
                     .about = channel,

@@ -44,7 +44,7 @@ Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b) {
   }
   if (distances.empty()) return pair;
   pair.median_m = math::upper_median(distances);
-  const double limit = std::max(kLimits.rigid_m, kLimits.rigid_share * pair.median_m);
+  const double limit = std::max(kLimits.markers.rigid_m, kLimits.markers.rigid_share * pair.median_m);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double change = std::abs(distances[i] - pair.median_m);
     if (change <= limit) continue;

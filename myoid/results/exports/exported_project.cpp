@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 #include <set>
 #include <string_view>
@@ -17,8 +16,7 @@
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/name_ids.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/muscle/force_length.h"
-#include "myoid/muscle/force_velocity.h"
+#include "myoid/results/exports/exported_curves.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/study/study_model.h"
@@ -59,46 +57,6 @@ constexpr SharedNumber kShared[] = {
 double number_of(const SharedNumber& number, const MuscleValues& values) {
   const double value = values[static_cast<std::size_t>(number.field)];
   return number.over < 0 ? value : value / values[static_cast<std::size_t>(number.over)];
-}
-
-std::vector<double> evenly(double low, double high, double step) {
-  std::vector<double> x;
-  const std::int64_t last = std::llround(high / step);
-  for (std::int64_t k = std::llround(low / step); k <= last; ++k) x.push_back(step * static_cast<double>(k));
-  return x;
-}
-
-template <typename Law>
-opensim::ProjectCurve table(std::string name, std::vector<double> x, const Law& law) {
-  opensim::ProjectCurve curve{std::move(name), std::move(x), {}};
-  for (const double each : curve.x) curve.y.push_back(law(each));
-  return curve;
-}
-
-/// Our law of a muscle of unit force and length as tables. `speed`: v_max over that by which the table's velocities are
-/// normalised.
-std::vector<opensim::ProjectCurve> curves(const MuscleValues& unit, double speed, bool with_tendon) {
-  const muscle::HillParameters<double> hill = fit::hill_parameters(unit);
-  const auto passive = [&](double l) {
-    if (l <= 1.0) return 0.0;
-    const double k = unit[fit::kPassiveShape];
-    return unit[fit::kPassiveForce] * std::expm1(k * (l - 1.0) / unit[fit::kPassiveStrain]) / std::expm1(k);
-  };
-  std::vector<double> v{-10.0, -5.0, -2.0};
-  for (const double each : evenly(-1.2, 1.2, 0.02)) v.push_back(each);
-  for (const double each : {2.0, 5.0, 10.0}) v.push_back(each);
-  for (double& each : v) each *= speed;
-  std::vector<opensim::ProjectCurve> tables{
-      table("activeForceLength", evenly(0.0, 2.5, 0.02),
-            [&](double l) { return muscle::force_length(l, 1.0, unit[fit::kWidth]); }),
-      table("passiveForceLength", evenly(0.0, 2.5, 0.02), passive), table("forceVelocity", std::move(v), [&](double x) {
-        return muscle::force_velocity(hill.velocity_law(), x / speed).value;
-      })};
-  if (with_tendon)
-    tables.push_back(table("tendonForceStrain",
-                           evenly(0.0, 3.0 * unit[fit::kTendonStrain], unit[fit::kTendonStrain] / 40.0),
-                           [&](double s) { return 0.2 * std::expm1(std::log(6.0) * s / unit[fit::kTendonStrain]); }));
-  return tables;
 }
 
 /// Returns "BIC 5.9 (trial lift, 1.25 s)"; of a muscle that never differs "BIC 0".
@@ -245,7 +203,7 @@ class Exporter {
     for (std::size_t k = 0; k < std::size(kShared); ++k) unit[static_cast<std::size_t>(kShared[k].field)] = shared_[k];
     const bool is_elastic = unit[fit::kTendonStrain] > 0.0 && is(ExportFormat::ceinms);
     const double speed = is(ExportFormat::ceinms_rt) ? unit[fit::kSpeed] / kRtSpeed : 1.0;
-    project.curves = curves(unit, speed, is_elastic);
+    project.curves = exported_curves(unit, speed, is_elastic);
     project.common.percentage_change = unit[fit::kLengthActivation];
     project.common.damping = 0.0;
     if (is(ExportFormat::ceinms)) project.common.delay_s = theirs_.front().ceinms.delay_s;

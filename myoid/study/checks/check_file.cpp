@@ -62,7 +62,7 @@ std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::str
   for (Remark& fault : faults) {
     const auto c = one.front().envelope->find(fault.about);
     const bool noise =
-        fault.severity == Severity::error || (raw && c && stages.flatness[*c] > recording::kLimits.noise_flatness);
+        fault.severity == Severity::error || (raw && c && stages.flatness[*c] > recording::kLimits.noise.flatness);
     const bool resting = fault.code == RemarkCode::emg_low_signal && !noise;
     fault.severity = std::max(fault.severity, resting ? Severity::note : Severity::warning);
   }

@@ -158,10 +158,10 @@ class StudyCheck {
     together_->look_at(spec, input);
     add(unloaded_times(*model_, spec, input));
     if (input.markers) check_markers(*input.markers);
-    if (input.emg && study_.emg.kind == EmgKind::raw && input.emg->mean_rate_hz() < kLimits.slowest_raw_emg_hz) {
+    if (input.emg && study_.emg.kind == EmgKind::raw && input.emg->mean_rate_hz() < kLimits.emg.slowest_raw_emg_hz) {
       add(RemarkCode::emg_rate, Severity::warning, spec.name,
           fmt::format("EMG at {:.0f} Hz: raw EMG reaches 400 Hz and needs {:g} Hz or more", input.emg->mean_rate_hz(),
-                      kLimits.slowest_raw_emg_hz));
+                      kLimits.emg.slowest_raw_emg_hz));
     }
   }
 

@@ -75,7 +75,7 @@ std::optional<Products> compare(const Study& study,
   const TimeSeries a = recording::resample(trial.envelopes, t);
   const double from_s = trial.envelopes.time_s()[0];
   const double to_s = trial.envelopes.time_s()[trial.envelopes.sample_count() - 1];
-  const double enough = kLimits.dynamometer_torque * body::usual_peak(torque_nm);
+  const double enough = kLimits.joints.dynamometer_torque * body::usual_peak(torque_nm);
   Products sums;
   double most = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
@@ -89,7 +89,7 @@ std::optional<Products> compare(const Study& study,
     }
     sums.add({-pull * torque_nm[i], pull * pull, torque_nm[i] * torque_nm[i]});
   }
-  if (most < kLimits.active) return std::nullopt;
+  if (most < kLimits.joints.active) return std::nullopt;
   return sums;
 }
 
@@ -110,8 +110,8 @@ std::vector<Remark> dynamometer_signs(const Study& study,
   }
   for (const auto& [name, capacity] : joint_capacities(study, model)) {
     const Eigen::VectorXd strength = strengths_nm(study, model, name);
-    const double least_nm = std::max(kLimits.dynamometer_share * capacity.isometric_nm(),
-                                     kLimits.dynamometer_weights * weight_nm(model, name));
+    const double least_nm = std::max(kLimits.joints.dynamometer_share * capacity.isometric_nm(),
+                                     kLimits.joints.dynamometer_weights * weight_nm(model, name));
     Products all;
     std::size_t told = 0;
     std::vector<std::pair<const EffortTrial*, double>> against;
@@ -125,9 +125,9 @@ std::vector<Remark> dynamometer_signs(const Study& study,
       if (!sums) continue;
       ++told;
       all.add(*sums);
-      if (sums->cosine() < kLimits.reversed) against.emplace_back(&trial, sums->cosine());
+      if (sums->cosine() < kLimits.joints.reversed) against.emplace_back(&trial, sums->cosine());
     }
-    const bool certain = !against.empty() && against.size() == told && all.cosine() < kLimits.certainly_reversed;
+    const bool certain = !against.empty() && against.size() == told && all.cosine() < kLimits.joints.certainly_reversed;
     for (const auto& [trial, cosine] : against) {
       found.push_back(
           {.code = RemarkCode::dynamometer_sign,

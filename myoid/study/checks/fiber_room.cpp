@@ -42,7 +42,7 @@ FiberRoom fiber_room(const std::string& muscle, double length_m, double tendon_m
     return {true, fmt::format("length of {} of {:.4g} m and tendon_slack_length {:.4g} m leave no fiber", muscle,
                               length_m, tendon_m)};
   const double relative = fiber_m / optimal_m;
-  if (relative >= kLimits.shortest_fiber && relative <= kLimits.longest_fiber) return {};
+  if (relative >= kLimits.model.shortest_fiber && relative <= kLimits.model.longest_fiber) return {};
   return {false, fmt::format("fibers of {} are {:.2g} times their optimal length of {:.4g} m, expected about 1", muscle,
                              relative, optimal_m)};
 }

@@ -3,11 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "myoid/body/dynamics/external_loads.h"
 #include "myoid/body/model/body_model.h"
 #include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/stretch.h"
-#include "myoid/study/checks/body_points.h"
+#include "myoid/study/checks/contact_table.h"
 
 namespace myoid::study {
 
@@ -30,12 +29,9 @@ struct ForeignContacts {
 ///
 /// Gives one warning for each force, with the times, their share of the loaded time, the distances and the remedy. If
 /// no other body is within 0.4 m at any of these times, it says so, and asks for the clock if the loads have their own.
-/// If a plate's force is given at the middle of its surface, the center of pressure follows from its moment, in the
-/// horizontal plane through that point.
 [[nodiscard]] ForeignContacts foreign_contacts(const body::BodyModel& model,
                                                const std::string& trial,
-                                               const body::ExternalLoads& loads,
-                                               BodyPoints points,
+                                               const ContactTable& table,
                                                bool own_clock = false);
 
 }  // namespace myoid::study

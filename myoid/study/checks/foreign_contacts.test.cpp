@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "myoid/study/checks/body_points.h"
+#include "myoid/study/intake/body_points.h"
 
 namespace myoid::study {
 namespace {
@@ -106,7 +106,7 @@ struct PlateTrial {
     loads.forces.push_back(e);
   }
   [[nodiscard]] std::vector<Remark> findings(bool own_clock = false) const {
-    return foreign_contacts(model, "walk", loads, {model, &markers, nullptr}, own_clock).remarks;
+    return foreign_contacts(model, "walk", contact_table(model, loads, {model, &markers, nullptr}), own_clock).remarks;
   }
 };
 
@@ -134,7 +134,9 @@ TEST(ForeignContacts, OneContactOfSeveralIsSaidWithItsTimeShareAndDistances) {
     EXPECT_EQ(found[0].severity, Severity::warning);
     EXPECT_EQ(found[0].where, "walk");
     const std::vector<Stretch> times =
-        foreign_contacts(trial.model, "walk", trial.loads, {trial.model, &trial.markers, nullptr}, false).times;
+        foreign_contacts(trial.model, "walk",
+                         contact_table(trial.model, trial.loads, {trial.model, &trial.markers, nullptr}))
+            .times;
     ASSERT_FALSE(times.empty());
     EXPECT_NEAR(times.front().begin_s, 4.2, 0.05);
     EXPECT_NEAR(times.back().end_s, 4.9, 0.05);

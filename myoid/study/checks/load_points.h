@@ -1,12 +1,11 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "myoid/body/dynamics/external_loads.h"
 #include "myoid/body/model/body_model.h"
 #include "myoid/ground/core/remark.h"
-#include "myoid/ground/core/time_series.h"
-#include "myoid/ground/files/marker_series.h"
+#include "myoid/study/checks/contact_table.h"
 
 namespace myoid::study {
 
@@ -21,12 +20,9 @@ namespace myoid::study {
 /// - if a force is more than 2 m away (wrong unit or axes).
 ///
 /// It is a warning if a force is more than 0.2 m from its own body and half as far from another, or more than 0.4 m
-/// from a body that is a foot: at most 0.4 m above the lowest one. The motion holds the coordinates; markers come first
-/// where both are given, and without both nothing is said. `file` names the loads.
+/// from a body that is a foot: at most 0.4 m above the lowest one. `file` names the loads.
 [[nodiscard]] std::vector<Remark> misplaced_loads(const body::BodyModel& model,
-                                                  const body::ExternalLoads& loads,
-                                                  const MarkerSeries* markers,
-                                                  const TimeSeries* motion,
+                                                  const ContactTable& table,
                                                   const std::string& file);
 
 }  // namespace myoid::study

@@ -94,8 +94,9 @@ struct Walk {
     input.motion.reset();
   }
   [[nodiscard]] std::vector<Remark> findings() const {
-    return misplaced_loads(model, *input.loads, input.markers ? &*input.markers : nullptr,
-                           input.motion ? &*input.motion : nullptr, "grf.xml");
+    const MarkerSeries* markers = input.markers ? &*input.markers : nullptr;
+    const TimeSeries* motion = input.motion ? &*input.motion : nullptr;
+    return misplaced_loads(model, contact_table(model, *input.loads, {model, markers, motion}), "grf.xml");
   }
 };
 

@@ -58,7 +58,7 @@ std::string file_of(const TrialSpec& trial) {
 
 /// Returns true for a distance from the model that is good, and far better than as read.
 bool much_better(double then_m, double now_m) {
-  return then_m < kLimits.sides_better * now_m && then_m <= kLimits.sides_m;
+  return then_m < kLimits.markers.sides_better * now_m && then_m <= kLimits.markers.sides_m;
 }
 
 /// Returns true if two segments of the model have three markers or more: fewer fit a turned or mirrored model as well.
@@ -127,10 +127,10 @@ std::optional<Remark> exchanged_sides(const body::BodyModel& model,
     name = *other;
     ++renamed;
   }
-  if (renamed < 2 * kLimits.sides_pairs) return std::nullopt;
+  if (renamed < 2 * kLimits.markers.sides_pairs) return std::nullopt;
   try {
     const double now = rms_m(model, one_frame(markers), weights);
-    if (!(now > kLimits.sides_m)) return std::nullopt;
+    if (!(now > kLimits.markers.sides_m)) return std::nullopt;
     const double then = rms_m(model, one_frame(exchanged), weights);
     if (!much_better(then, now)) return std::nullopt;
     return Remark{.code = RemarkCode::sides_exchanged,
@@ -155,7 +155,7 @@ std::optional<Remark> turned_markers(const body::BodyModel& model,
     const MarkerSeries frame = one_frame(markers);
     if (!tell_the_way(model, frame)) return std::nullopt;
     const double now = rms_m(model, frame, weights);
-    if (!(now > kLimits.sides_m)) return std::nullopt;
+    if (!(now > kLimits.markers.sides_m)) return std::nullopt;
     std::optional<Reading> best;
     double least = now;
     for (Reading& reading : other_readings(model, frame, up_L)) {

@@ -26,13 +26,13 @@ std::vector<Remark> unlikely_mass(const Study& study, const body::BodyModel& mod
   const std::string found = fmt::format("the bodies of the model weigh {:.4g} kg", mass_kg);
   const auto& person_kg = study.subject.mass_kg;
   if (mass_kg > body::kModelLimits.heaviest_kg || mass_kg < body::kModelLimits.lightest_kg) return {};
-  if (person_kg && mass_kg > kLimits.heavier_than * *person_kg)
+  if (person_kg && mass_kg > kLimits.model.heavier_than * *person_kg)
     return finding(Severity::warning,
                    fmt::format("{}, {:.3g} times the person's {:g} kg ([subject] mass_kg): every torque by weight and "
                                "inertia is too large by that",
                                found, mass_kg / *person_kg, *person_kg),
                    kToScale + ", or correct mass_kg");
-  if (person_kg && kLimits.heavier_than * mass_kg < *person_kg && body::stands(model, model.default_q()))
+  if (person_kg && kLimits.model.heavier_than * mass_kg < *person_kg && body::stands(model, model.default_q()))
     return finding(Severity::warning,
                    fmt::format("{}, {:.3g} times the person's {:g} kg ([subject] mass_kg), though the model is a whole "
                                "person (mass_kg in pounds?)",

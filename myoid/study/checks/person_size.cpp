@@ -24,7 +24,8 @@ std::optional<double> steady_length(std::vector<double> lengths_m) {
   const auto at = [&](double share) {
     return lengths_m[static_cast<std::size_t>(share * static_cast<double>(lengths_m.size() - 1))];
   };
-  if (at(0.5) < kLimits.shortest_segment_m || at(0.95) - at(0.05) > kLimits.other_size * at(0.5)) return std::nullopt;
+  if (at(0.5) < kLimits.markers.shortest_segment_m || at(0.95) - at(0.05) > kLimits.markers.other_size * at(0.5))
+    return std::nullopt;
   return at(0.5);
 }
 
@@ -59,7 +60,7 @@ std::string by_size(const InTrials& sorted) {
     const double first_m = sorted[i].first;
     std::vector<std::string> names;
     std::size_t more = 0;
-    for (; i < sorted.size() && sorted[i].first <= (1.0 + 0.5 * kLimits.other_size) * first_m; ++i) {
+    for (; i < sorted.size() && sorted[i].first <= (1.0 + 0.5 * kLimits.markers.other_size) * first_m; ++i) {
       if (names.size() < kNamed)
         names.push_back("'" + sorted[i].second + "'");
       else
@@ -104,7 +105,7 @@ std::optional<Remark> unlike_sizes(const std::vector<TrialSize>& trials) {
     if (smallest == nullptr || size < least) smallest = &trial, least = size;
     if (largest == nullptr || size > most) largest = &trial, most = size;
   }
-  if (smallest == nullptr || !(most > (1.0 + kLimits.other_size) * least)) return std::nullopt;
+  if (smallest == nullptr || !(most > (1.0 + kLimits.markers.other_size) * least)) return std::nullopt;
   const std::pair<const std::string, InTrials>* longest = nullptr;
   for (const auto& entry : lengths) {
     if (!smallest->lengths_m.contains(entry.first) || !largest->lengths_m.contains(entry.first)) continue;

@@ -16,7 +16,7 @@ constexpr Eigen::Index kStretch = 32;
 constexpr std::uint64_t kOneIn = 4;
 constexpr std::size_t kFewestStretches = 8;  ///< fewer stretches allow no comparison
 /// Share of the shorter recording that adjacent windows of one file may have in common.
-constexpr double kEdges = kLimits.same_samples;
+constexpr double kEdges = kLimits.clocks.same_samples;
 
 /// Returns the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
 std::uint64_t mixed(std::uint64_t x) {

@@ -69,9 +69,9 @@ std::vector<Remark> unlike_stated_bodies(const Study& study) {
     if (trial.plates) read(trial.plates->file);
   }
   std::vector<Remark> found;
-  if (auto two = two_persons(heights, kLimits.other_height, "body height", "m")) found.push_back(std::move(*two));
+  if (auto two = two_persons(heights, kLimits.model.other_height, "body height", "m")) found.push_back(std::move(*two));
   if (masses.empty()) return found;
-  if (auto two = two_persons(masses, kLimits.other_mass, "body mass", "kg")) {
+  if (auto two = two_persons(masses, kLimits.model.other_mass, "body mass", "kg")) {
     found.push_back(std::move(*two));
   } else if (!study.subject.mass_kg) {
     found.push_back(finding(Severity::note,
@@ -79,7 +79,7 @@ std::vector<Remark> unlike_stated_bodies(const Study& study) {
                                         "none",
                                         masses[0].file, masses[0].value),
                             fmt::format("if it is right, write [subject] mass_kg = {:.4g}", masses[0].value)));
-  } else if (differ(masses[0].value, *study.subject.mass_kg, kLimits.other_mass)) {
+  } else if (differ(masses[0].value, *study.subject.mass_kg, kLimits.model.other_mass)) {
     found.push_back(finding(Severity::warning,
                             fmt::format("{} states a body mass of {:.4g} kg (PROCESSING:BODYMASS), [subject] mass_kg "
                                         "{:g} kg",

@@ -18,7 +18,8 @@ namespace {
 bool moves(const body::BodyModel& model, int muscle, int coordinate) {
   constexpr int kSteps = 8;
   const Eigen::VectorXd arms = body::arms_over_range_m(model, muscle, coordinate, kSteps);
-  return std::ranges::any_of(arms, [](double r) { return !std::isfinite(r) || std::abs(r) >= kLimits.least_arm_m; });
+  return std::ranges::any_of(arms,
+                             [](double r) { return !std::isfinite(r) || std::abs(r) >= kLimits.model.least_arm_m; });
 }
 
 }  // namespace
@@ -71,7 +72,7 @@ std::vector<Remark> idle_muscles(const Study& study, const body::BodyModel& mode
          .says = fmt::format(
              "[[muscle]] {}: {} of the model {} no moment arm about {} (expected {:g} mm or more at some angle): {}",
              spec.name, fmt::join(idle, ", "), idle.size() == 1 ? "has" : "have", fmt::join(coordinates, ", "),
-             1000.0 * kLimits.least_arm_m,
+             1000.0 * kLimits.model.least_arm_m,
              all ? "it can make none of the torque; a muscle of the other side?"
                  : "the mean moment arm of this muscle is too small by it"),
          .remedy = "name muscles that cross the joint in osim, or another coordinate in [model]"});

@@ -9,6 +9,7 @@
 #include "myoid/body/dynamics/ground_support.h"
 #include "myoid/body/model/model_plausibility.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/study/checks/contact_table.h"
 #include "myoid/study/checks/determined_joint.h"
 #include "myoid/study/checks/excluded_times.h"
 #include "myoid/study/checks/fiber_room.h"
@@ -107,18 +108,18 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
   found = sides ? std::vector<Remark>{*sides} : std::vector<Remark>{};
   const MarkerSeries* markers = input.markers ? &*input.markers : nullptr;
   const TimeSeries* motion = input.motion ? &*input.motion : nullptr;
-  if (found.empty() && !places_differ && input.loads) {
-    found = misplaced_loads(*model_, *input.loads, markers, motion, loads_of(trial));
-    for (Remark& remark : found) remark.where = trial.name;
-  }
   foreign_times_.clear();
   if (found.empty() && !places_differ && input.loads && (markers != nullptr || motion != nullptr)) {
-    ForeignContacts foreign = foreign_contacts(*model_, trial.name, *input.loads, {*model_, markers, motion},
-                                               trial.external_loads.has_value());
-    foreign_times_ = std::move(foreign.times);
-    found = std::move(foreign.remarks);
-    if (trial.exclude.foreign_contacts) {
-      for (Remark& remark : found) remark.severity = Severity::note;
+    const ContactTable table = contact_table(*model_, *input.loads, {*model_, markers, motion});
+    found = misplaced_loads(*model_, table, loads_of(trial));
+    for (Remark& remark : found) remark.where = trial.name;
+    if (found.empty()) {
+      ForeignContacts foreign = foreign_contacts(*model_, trial.name, table, trial.external_loads.has_value());
+      foreign_times_ = std::move(foreign.times);
+      found = std::move(foreign.remarks);
+      if (trial.exclude.foreign_contacts) {
+        for (Remark& remark : found) remark.severity = Severity::note;
+      }
     }
   }
   std::ranges::move(found, std::back_inserter(of_trials_));

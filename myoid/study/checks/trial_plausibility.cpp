@@ -15,7 +15,7 @@
 namespace myoid::study {
 namespace {
 
-constexpr double kBeyond_rad = kLimits.angle_beyond_deg * kDegree;
+constexpr double kBeyond_rad = kLimits.joints.angle_beyond_deg * kDegree;
 
 std::string whole_degrees(double angle_rad) { return fmt::format("{:.0f}", angle_rad / kDegree); }
 
@@ -37,7 +37,7 @@ void check_angles(const Study& study,
     const double share = static_cast<double>(outside) / static_cast<double>(q.size());
     const double far = std::max(c.lower - q.minCoeff(), q.maxCoeff() - c.upper);
     // A coordinate that is outside most of the time follows another convention.
-    const bool wrong = share > kLimits.angle_share && c.clamped;
+    const bool wrong = share > kLimits.joints.angle_share && c.clamped;
     const bool negated = (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
     findings.push_back(
         {.code = RemarkCode::angle_outside_range,
@@ -86,7 +86,7 @@ void check_held_mass(const Study& study,
     }
     const double moment_nm = held_kg * kStandardGravity * lever_m;
     const bool still = trial.use == Use::isometric || trial.use == Use::static_pose || trial.use == Use::mvc;
-    const double most_nm = (still ? 1.0 : kLimits.lift_share) * capacity.isometric_nm();
+    const double most_nm = (still ? 1.0 : kLimits.joints.lift_share) * capacity.isometric_nm();
     if (!(most_nm > 0.0) || moment_nm <= most_nm) continue;
     findings.push_back(
         {.code = RemarkCode::held_mass_impossible,
@@ -135,10 +135,10 @@ void check_vertical(const Study& study,
   const std::string told = recording::axis_name(input.up_L);
   const MarkerSeries laboratory = rotated(trunk, back);
   const std::optional<double> now = upright(model, laboratory, input.up_L);
-  if (!now || *now > kLimits.trunk_across) return;
+  if (!now || *now > kLimits.markers.trunk_across) return;
   for (const char* up : {"x", "y", "z", "-x", "-y", "-z"}) {
     const std::optional<double> other = upright(model, laboratory, *recording::axis_vector(up));
-    if (up == told || !other || *other < kLimits.trunk_upright) continue;
+    if (up == told || !other || *other < kLimits.markers.trunk_upright) continue;
     const bool settable = std::string_view(up).size() == 1;
     findings.push_back(
         {.code = RemarkCode::vertical_across_trunk,
@@ -150,11 +150,11 @@ void check_vertical(const Study& study,
              "unless the person {}, gravity pulls {} the body; {}",
              told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
              std::acos(std::clamp(*now, -1.0, 1.0)) / kDegree, std::acos(std::clamp(*other, -1.0, 1.0)) / kDegree, up,
-             *now < -kLimits.trunk_upright ? "stands on the head" : "lies",
-             *now < -kLimits.trunk_upright ? "up through" : "across",
+             *now < -kLimits.markers.trunk_upright ? "stands on the head" : "lies",
+             *now < -kLimits.markers.trunk_upright ? "up through" : "across",
              settable ? fmt::format("correct it: [markers] up = \"{}\"", up)
                       : fmt::format("turn the markers of the file, whose {} points down{}", up + 1,
-                                    *now < -kLimits.trunk_upright ? ", or exchange left and right" : ""))});
+                                    *now < -kLimits.markers.trunk_upright ? ", or exchange left and right" : ""))});
     return;
   }
 }

@@ -28,6 +28,6 @@ using Capacities = std::map<std::string, body::JointCapacity>;
                                               const TrialInput& input);
 
 /// Activation that a trial with active muscles exceeds at some time.
-inline constexpr double kFlatActivation = kLimits.flat_activation;
+inline constexpr double kFlatActivation = kLimits.emg.flat_activation;
 
 }  // namespace myoid::study

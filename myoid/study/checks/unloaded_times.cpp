@@ -64,15 +64,16 @@ std::vector<Remark> unloaded_times(const body::BodyModel& model, const TrialSpec
     }
     share[i] = sum / weight->weight_n;
   }
-  if (share.maxCoeff() < kLimits.bears) return {};  // forces on the hands do not carry the body
+  if (share.maxCoeff() < kLimits.weight.bears) return {};  // forces on the hands do not carry the body
   std::vector<std::string> times;
   double sum_s = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     const Eigen::Index first = i;
-    while (i < t.size() && share[i] < kLimits.bears_nothing) ++i;
-    if (i == first || t[i - 1] - t[first] < kLimits.unloaded_s || i - first < 4) continue;
+    while (i < t.size() && share[i] < kLimits.weight.bears_nothing) ++i;
+    if (i == first || t[i - 1] - t[first] < kLimits.weight.unloaded_s || i - first < 4) continue;
     // A body in the air falls without any plate.
-    if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) < -kLimits.falls * g) continue;
+    if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) < -kLimits.weight.falls * g)
+      continue;
     // As `run` measures it: as long as a quarter of the weight is not carried.
     const auto affected = [&](Eigen::Index k) { return share[k] <= 1.0 - body::kAffectedWeight; };
     Eigen::Index from = first, to = i - 1;

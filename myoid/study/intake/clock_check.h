@@ -15,7 +15,7 @@
 namespace myoid::study {
 
 /// Longest bridged pause of a clock: a spline across a longer one would invent data.
-inline constexpr double kLongestGap_s = kLimits.pause_s;
+inline constexpr double kLongestGap_s = kLimits.clocks.pause_s;
 
 /// Reports a clock with a pause of more than kLongestGap_s.
 class ClockPause : public ReadError {

@@ -36,7 +36,7 @@ std::string which_rate(const TrialLengths& t) {
 /// Finds the only two trials whose EMG and motion differ in length, if the EMG of each is as long as the other's
 /// motion.
 std::optional<Remark> exchanged_emg(const std::vector<TrialLengths>& trials) {
-  const auto unlike = [](double a_s, double b_s) { return std::abs(a_s - b_s) > kLimits.uncovered_s; };
+  const auto unlike = [](double a_s, double b_s) { return std::abs(a_s - b_s) > kLimits.clocks.uncovered_s; };
   std::vector<const TrialLengths*> apart;
   for (const TrialLengths& t : trials) {
     if (unlike(t.emg_s, t.motion_s)) apart.push_back(&t);
@@ -78,26 +78,26 @@ std::optional<Cover> check_cover(const std::filesystem::path& file,
   const double first_s = time_s[0], last_s = time_s[time_s.size() - 1];
   const Cover both{.begin_s = std::max(first_s, begin_s), .end_s = std::min(last_s, end_s), .lacks = {}};
   const double overlap = both.end_s - both.begin_s;
-  if (end_s - begin_s < kLimits.shortest_trial_s) {
+  if (end_s - begin_s < kLimits.clocks.shortest_trial_s) {
     throw ReadError(file, 0,
                     fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give start_s "
                                 "and end_s that are farther apart",
-                                end_s - begin_s, begin_s, end_s, kLimits.shortest_trial_s));
+                                end_s - begin_s, begin_s, end_s, kLimits.clocks.shortest_trial_s));
   }
-  if (overlap < std::max(kLimits.shortest_trial_s, kLimits.covered * (end_s - begin_s))) {
+  if (overlap < std::max(kLimits.clocks.shortest_trial_s, kLimits.clocks.covered * (end_s - begin_s))) {
     throw ReadError(file, 0,
                     fmt::format("the {} ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} to {:.5g} s); "
                                 "are both in seconds, at the rate they were recorded with, on one clock? If so, give "
                                 "the trial the start_s and end_s that both have",
                                 recorded, first_s, last_s, begin_s, end_s));
   }
-  if (!(overlap < end_s - begin_s - kLimits.uncovered_s)) return std::nullopt;
+  if (!(overlap < end_s - begin_s - kLimits.clocks.uncovered_s)) return std::nullopt;
   return Cover{.begin_s = both.begin_s,
                .end_s = both.end_s,
                .lacks = fmt::format("{}: the {} ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} to {:.5g} s)",
                                     file.filename().string(), recorded, first_s, last_s, end_s - begin_s - overlap,
                                     begin_s, end_s),
-               .as_long = last_s - first_s > end_s - begin_s - kLimits.uncovered_s};
+               .as_long = last_s - first_s > end_s - begin_s - kLimits.clocks.uncovered_s};
 }
 
 Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s) {
@@ -118,7 +118,7 @@ std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& i
   const double begin_s = (*clock)[0];
   std::vector<TrialLengths> found;
   const auto add = [&](double first_s, double last_s, double rate_hz, bool of_loads) {
-    if (std::abs(first_s - begin_s) > kLimits.same_begin_s) return;
+    if (std::abs(first_s - begin_s) > kLimits.clocks.same_begin_s) return;
     found.push_back({.trial = trial.name,
                      .emg_s = last_s - begin_s,
                      .motion_s = length_s(*clock),
@@ -146,13 +146,13 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
     const double ratio = t.emg_s / t.motion_s;
     least = std::min(least, ratio);
     most = std::max(most, ratio);
-    if (std::abs(t.emg_s - t.motion_s) < kLimits.by_hand_s) {
+    if (std::abs(t.emg_s - t.motion_s) < kLimits.clocks.by_hand_s) {
       all = false;
       continue;
     }
-    const auto factor = whole_factor(ratio, kLimits.same_factor);
+    const auto factor = whole_factor(ratio, kLimits.clocks.same_factor);
     if (!factor) continue;
-    const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kLimits.ends_together;
+    const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kLimits.clocks.ends_together;
     found.push_back(
         {.code = RemarkCode::emg_length,
          .severity = sure ? Severity::error : Severity::warning,
@@ -163,8 +163,8 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
                              lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?", which_rate(t))});
   }
   for (const TrialLengths& t : trials) {
-    if (!t.of_loads || std::abs(t.emg_s - t.motion_s) < kLimits.by_hand_s ||
-        !whole_factor(t.emg_s / t.motion_s, kLimits.same_factor) ||
+    if (!t.of_loads || std::abs(t.emg_s - t.motion_s) < kLimits.clocks.by_hand_s ||
+        !whole_factor(t.emg_s / t.motion_s, kLimits.clocks.same_factor) ||
         std::ranges::any_of(found, [&](const Remark& of_emg_too) { return of_emg_too.where == t.trial; }))
       continue;
     found.push_back(
@@ -178,11 +178,11 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
   }
   if (auto exchanged = exchanged_emg(of_emg); exchanged && found.empty()) found.push_back(std::move(*exchanged));
   // Recordings stopped by hand differ by some seconds, not by one factor.
-  if (of_emg.empty() || !found.empty() || !all || most > (1.0 + kLimits.same_factor) * least) return found;
+  if (of_emg.empty() || !found.empty() || !all || most > (1.0 + kLimits.clocks.same_factor) * least) return found;
   const TrialLengths& first = of_emg.front();
   if (of_emg.size() == 1) {
     // A single trial must be longer by more than a late stop explains.
-    if (most < kLimits.alone_longer) return found;
+    if (most < kLimits.clocks.alone_longer) return found;
     found.push_back(
         {.code = RemarkCode::emg_length,
          .severity = Severity::warning,

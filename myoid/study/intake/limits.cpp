@@ -19,9 +19,9 @@ double percent(double share) { return 100.0 * share; }
 double degrees_of(double cosine) { return std::acos(cosine) / kDegree; }
 
 void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
-  rows.push_back(
-      {"one EMG recording in two trials", "error",
-       fmt::format("{:g} % of the samples or more are equal, in any file, clock or window", percent(l.same_samples))});
+  rows.push_back({"one EMG recording in two trials", "error",
+                  fmt::format("{:g} % of the samples or more are equal, in any file, clock or window",
+                              percent(l.clocks.same_samples))});
   rows.push_back({"", "warning",
                   "equal activations, which may be computed; a movement that repeats as a maximal contraction; one "
                   "movement with two EMGs"});
@@ -32,19 +32,19 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
   rows.push_back({"a muscle that moves none of the study's joints", "error",
                   fmt::format("its moment arms about all coordinates of the study stay below {:g} mm; a warning if "
                               "some of the `osim` list do: the other side's?",
-                              1000.0 * l.least_arm_m)});
+                              1000.0 * l.model.least_arm_m)});
   rows.push_back({"a tendon as long as its muscle with it", "error",
                   "at no angle of the study's coordinates is the path longer than `tendon_slack_length`: the muscle "
                   "makes no force"});
   rows.push_back({"", "warning",
-                  fmt::format("the fibers are nowhere {:g} to {:g} times their optimal length", l.shortest_fiber,
-                              l.longest_fiber)});
+                  fmt::format("the fibers are nowhere {:g} to {:g} times their optimal length", l.model.shortest_fiber,
+                              l.model.longest_fiber)});
   rows.push_back(
       {"masses of the model", "error", fmt::format("above {:g} kg (grams?)", body::kModelLimits.heaviest_kg)});
   rows.push_back({"", "warning",
                   fmt::format("below {:g} kg; above {:g} times `[subject] mass_kg`; of a model that stands also below "
                               "it by that factor (pounds?)",
-                              body::kModelLimits.lightest_kg, l.heavier_than)});
+                              body::kModelLimits.lightest_kg, l.model.heavier_than)});
   rows.push_back({"gravity of the model", "error or warning",
                   fmt::format("an error above {:g} m/s², a warning below {:g} m/s² unless it is 0",
                               body::kModelLimits.strongest_mps2, body::kModelLimits.weakest_mps2)});
@@ -57,7 +57,7 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
   rows.push_back({"body mass or height that a C3D file states", "warning",
                   fmt::format("`PROCESSING:BODYMASS` is {:g} % off `[subject] mass_kg` or another file's, or "
                               "`PROCESSING:HEIGHT` {:g} % off another file's: two persons?",
-                              percent(l.other_mass), percent(l.other_height))});
+                              percent(l.model.other_mass), percent(l.model.other_height))});
   rows.push_back({"", "note", "the study gives no mass"});
   rows.push_back({"lengths of the model", "error",
                   fmt::format("two neighboring segments have their origins more than {:g} m apart: mm, cm? No command "
@@ -68,21 +68,23 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
        "the limit of `marker_unit` above, and a power of ten names the unit; nothing else of the trial is checked"});
   rows.push_back({"envelopes that are called raw EMG", "error",
                   "every used channel is an envelope by the limit of `emg_envelope` above"});
-  rows.push_back({"raw EMG that is called an envelope or an activation", "error",
-                  fmt::format("a channel goes below zero by more than {:g} % of its maximum", percent(l.below_zero))});
-  rows.push_back({"slow raw EMG", "warning", fmt::format("fewer than {:g} samples a second", l.slowest_raw_emg_hz)});
+  rows.push_back(
+      {"raw EMG that is called an envelope or an activation", "error",
+       fmt::format("a channel goes below zero by more than {:g} % of its maximum", percent(l.emg.below_zero))});
+  rows.push_back(
+      {"slow raw EMG", "warning", fmt::format("fewer than {:g} samples a second", l.emg.slowest_raw_emg_hz)});
   rows.push_back(
       {"EMG beyond any electrode", "error",
        fmt::format(
            "beyond {:g} V, which is too large even for a converter's counts; beyond 10 V a fault of its channel",
-           l.no_converter_v)});
+           l.emg.no_converter_v)});
   rows.push_back(
       {"activations in percent", "error",
        fmt::format("`kind = \"activation\"`, and above {:g} for {:g} s or longer; a shorter spike is a warning",
-                   l.largest_activation, l.spike_s)});
+                   l.emg.largest_activation, l.emg.spike_s)});
   rows.push_back(
       {"activations in volts", "warning",
-       fmt::format("`kind = \"activation\"`, and no activation of any trial above {:g}", l.flat_activation)});
+       fmt::format("`kind = \"activation\"`, and no activation of any trial above {:g}", l.emg.flat_activation)});
 }
 
 void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
@@ -92,28 +94,30 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
   rows.push_back({"a pause of a clock", "warning; error if no part lasts a second",
                   fmt::format("longer than {:g} s: the trial is cut there. With `[ik] calibrate` an error. A spline "
                               "bridges shorter pauses, with a warning",
-                              l.pause_s)});
-  rows.push_back({"EMG, `external_torque` or `external_loads` that do not cover their motion", "error",
-                  fmt::format("less than {:g} % of the motion, or {:g} s", percent(l.covered), l.shortest_trial_s)});
-  rows.push_back({"", "warning",
-                  fmt::format("more than {:g} s lack: not fitted without EMG, left out without loads", l.uncovered_s)});
+                              l.clocks.pause_s)});
+  rows.push_back(
+      {"EMG, `external_torque` or `external_loads` that do not cover their motion", "error",
+       fmt::format("less than {:g} % of the motion, or {:g} s", percent(l.clocks.covered), l.clocks.shortest_trial_s)});
+  rows.push_back(
+      {"", "warning",
+       fmt::format("more than {:g} s lack: not fitted without EMG, left out without loads", l.clocks.uncovered_s)});
   rows.push_back({"EMG and motion whose lengths have the ratio 2, 3, 4, 5 or 10, within a tolerance", "error",
                   fmt::format("within {:g} %, and the EMG is shorter, or both end within {:g} % of each other at the "
                               "corrected rate: a wrong rate",
-                              percent(l.same_factor), percent(l.ends_together))});
+                              percent(l.clocks.same_factor), percent(l.clocks.ends_together))});
   rows.push_back({"", "warning", "other such ratios; such a ratio of `external_loads` and motion"});
   rows.push_back(
       {"EMG and motion of unlike length", "warning",
        fmt::format(
            "one ratio in every trial, with differences of {:g} s or more; EMG {:g} times as long in a single trial",
-           l.by_hand_s, l.alone_longer)});
+           l.clocks.by_hand_s, l.clocks.alone_longer)});
   rows.push_back(
       {"", "warning",
        "the only two trials of unlike length, and each EMG is as long as the other's motion: exchanged files"});
   rows.push_back(
       {"", "not checked",
        fmt::format("maximal contractions, trials with their own window or clock, beginnings more than {:g} s apart",
-                   l.same_begin_s)});
+                   l.clocks.same_begin_s)});
 }
 
 void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
@@ -122,11 +126,11 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
   rows.push_back(
       {"external torque beyond any joint", "error",
        "2.5 × 1.5 × all muscles' torque at F_max plus body weight at the limb's end, in 1 % of the samples: N mm?"});
-  rows.push_back(
-      {"angles outside the model's range",
-       fmt::format("warning; error if more than {:g} % of a clamped coordinate's samples are", percent(l.angle_share)),
-       fmt::format("{:g} degrees beyond, where muscle paths mean nothing. Sign, zero or another coordinate?",
-                   l.angle_beyond_deg)});
+  rows.push_back({"angles outside the model's range",
+                  fmt::format("warning; error if more than {:g} % of a clamped coordinate's samples are",
+                              percent(l.joints.angle_share)),
+                  fmt::format("{:g} degrees beyond, where muscle paths mean nothing. Sign, zero or another coordinate?",
+                              l.joints.angle_beyond_deg)});
   rows.push_back({"a motion that is too fast", "error",
                   fmt::format("an angle is faster than {:.0f} deg/s (a length: {:g} m/s) in {:g} % of the time: the "
                               "clock or the unit is another",
@@ -148,30 +152,30 @@ void add_efforts(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
   rows.push_back({"a dynamometer that pushes with the active muscles", "error if in all trials, warning if in some",
                   fmt::format("where `external_torque` is largest, cosine between muscles' torque and its opposite "
                               "below {:g} over all, below {:g} in a trial",
-                              l.certainly_reversed, l.reversed)});
+                              l.joints.certainly_reversed, l.joints.reversed)});
   rows.push_back({"", "",
                   "muscles' torque: F_max times moment arm times EMG over its largest. `external_torque` must be that "
                   "of the surroundings on the body"});
   rows.push_back({"", "not checked",
                   fmt::format("torques below {:g} % of the trial's largest, {:g} % of the strength or {:g} times the "
                               "limb's weight; EMG below {:g} %; passive trials",
-                              percent(l.dynamometer_torque), percent(l.dynamometer_share), l.dynamometer_weights,
-                              percent(l.active))});
+                              percent(l.joints.dynamometer_torque), percent(l.joints.dynamometer_share),
+                              l.joints.dynamometer_weights, percent(l.joints.active))});
   rows.push_back(
       {"a passive trial that is not at rest", "warning: not taken for the resting torque",
        fmt::format(
            "a channel's mean is above {:g} % of its maximal contraction (without one {:g} % of its largest value)",
-           percent(l.relaxed), percent(l.relaxed_without_mvc))});
+           percent(l.joints.relaxed), percent(l.joints.relaxed_without_mvc))});
   rows.push_back(
       {"", "warning: not taken for the resting torque",
        fmt::format("the torque is above {:g} % of the muscles' strength, beside the weight of limb and instrument",
-                   percent(l.resting_share))});
+                   percent(l.joints.resting_share))});
   rows.push_back({"a passive trial without a measured torque", "warning",
                   "neither `external_torque` nor `load_cell`: it gives no resting torque"});
   rows.push_back({"a held mass beyond the muscles", "warning; error if it is more than the person weighs",
                   fmt::format("its greatest moment is more than all muscles of the model can hold or, in a movement, "
                               "more than {:g} % of that",
-                              percent(l.lift_share))});
+                              percent(l.joints.lift_share))});
   rows.push_back({"the built-in arm's lengths", "error",
                   "`upper_arm_length_m`, `forearm_length_m` outside the range of the [study file](study.md#model); "
                   "`at_m` 2 m from its body or more: cm, mm?"});
@@ -181,12 +185,12 @@ void add_markers(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
   rows.push_back({"left and right exchanged", "error",
                   fmt::format("more than {0:g} mm rms from the model; with both sides' labels exchanged less than "
                               "{0:g} mm, and less than {1:g} % of it",
-                              1000.0 * l.sides_m, percent(l.sides_better))});
+                              1000.0 * l.markers.sides_m, percent(l.markers.sides_better))});
   rows.push_back(
       {"", "",
        fmt::format(
            "of the frame with most markers; at least {} pairs are needed: `R.Knee`, `RASI`, `knee_r`, `RightHeel`",
-           l.sides_pairs)});
+           l.markers.sides_pairs)});
   rows.push_back({"another axis up, or a mirror image", "error",
                   "the same distances of that frame, with another axis up or mirrored. Needs two segments with three "
                   "markers or more"});
@@ -194,17 +198,17 @@ void add_markers(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
       {"", "not checked", "a model with a free base, which fits with any axis up: the row of the trunk below"});
   rows.push_back({"trials of two persons", "warning",
                   fmt::format("lengths of segments differ between two trials by more than {:g} % at the median",
-                              percent(l.other_size))});
+                              percent(l.markers.other_size))});
   rows.push_back(
       {"", "", "lengths between any two markers of a body, and of the forearm between epicondyles and styloids"});
   rows.push_back({"", "not counted",
                   fmt::format("lengths below {:g} m, and lengths that change by as much within the trial (5th to 95th "
                               "percentile): skin moves",
-                              l.shortest_segment_m)});
+                              l.markers.shortest_segment_m)});
   rows.push_back({"the vertical lies across the trunk", "warning",
                   fmt::format("markers of the body on the ground joint are {:.0f} degrees from upright by `[markers] "
                               "up`, and less than {:.0f} by another axis",
-                              degrees_of(l.trunk_across), degrees_of(l.trunk_upright))});
+                              degrees_of(l.markers.trunk_across), degrees_of(l.markers.trunk_upright))});
 }
 
 void add_loads(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
@@ -214,52 +218,54 @@ void add_loads(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) 
   rows.push_back({"", "error",
                   fmt::format("two forces are each more than {:g} m from their own body, and less than {:g} % of that "
                               "from the other's: feet exchanged",
-                              l.off_body_m, percent(l.much_nearer))});
-  rows.push_back({"", "error", fmt::format("a force is more than {:g} m away: mm, other axes", l.elsewhere_m)});
+                              l.contacts.off_body_m, percent(l.contacts.much_nearer))});
+  rows.push_back(
+      {"", "error", fmt::format("a force is more than {:g} m away: mm, other axes", l.contacts.elsewhere_m)});
   rows.push_back({"", "error",
                   fmt::format("one is more than {:g} m away, and a turn by 90, 180 or 270 degrees about the vertical "
                               "brings all within {:g} m",
-                              l.far_off_m, l.off_body_m)});
+                              l.contacts.far_off_m, l.contacts.off_body_m)});
   rows.push_back({"", "warning",
-                  fmt::format("a force is {:g} m off and nearer to another body, or {:g} m from a foot", l.off_body_m,
-                              l.far_off_m)});
+                  fmt::format("a force is {:g} m off and nearer to another body, or {:g} m from a foot",
+                              l.contacts.off_body_m, l.contacts.far_off_m)});
   rows.push_back(
       {"a force plate under nobody", "error",
        fmt::format(
            "no marker is within {:g} m of the center of pressure of a contact, and `force_plates` names no body",
-           l.plate_far_m)});
+           l.contacts.plate_far_m)});
   rows.push_back(
       {"a contact with a plate", "",
        fmt::format("{:g} ms and more above {:g} % of the largest force and {:g} N; pauses up to {:g} ms belong to it",
-                   1000.0 * l.contact_s, percent(l.contact_share), l.contact_n, 1000.0 * l.contact_pause_s)});
+                   1000.0 * l.contacts.least_s, percent(l.contacts.least_share), l.contacts.least_n,
+                   1000.0 * l.contacts.pause_s)});
   rows.push_back(
       {"a foreign foot on a plate", "warning",
        fmt::format("in a contact the pressure is more than {:g} m from its body and {:g} % as far from another",
-                   l.off_body_m, percent(l.much_nearer))});
-  rows.push_back(
-      {"", "warning",
-       fmt::format("or {:g} m from its body, while it is under the body in other contacts", l.far_from_foot_m)});
+                   l.contacts.off_body_m, percent(l.contacts.much_nearer))});
+  rows.push_back({"", "warning",
+                  fmt::format("or {:g} m from its body, while it is under the body in other contacts",
+                              l.contacts.far_from_foot_m)});
   rows.push_back({"a second foot on a plate", "warning",
                   fmt::format("for {:g} ms the pressure is more than {:g} m from its body, and another foot without a "
                               "force stands within {:g} m",
-                              1000.0 * l.contact_s, l.between_feet_m, l.second_foot_m)});
+                              1000.0 * l.contacts.least_s, l.contacts.between_feet_m, l.contacts.second_foot_m)});
   rows.push_back(
       {"", "",
        fmt::format(
            "standing: slower than {:g} m/s, at the same height to {:g} m. One force cannot be divided between two feet",
-           l.still_mps, l.level_m)});
+           l.contacts.still_mps, l.contacts.level_m)});
   rows.push_back({"", "",
                   fmt::format("plates in the floor only: the mean force is within {:.0f} degrees of the vertical, the "
                               "lowest body at most {:g} m below",
-                              degrees_of(l.floor_cosine), l.two_steps_m)});
+                              degrees_of(l.contacts.floor_cosine), l.contacts.two_steps_m)});
   rows.push_back({"a foot beside the plates", "warning: these times are not fitted",
                   fmt::format("for {:g} s the forces on the ground are below {:g} % of the weight, although they "
                               "otherwise carry {:g} % of it",
-                              l.unloaded_s, percent(l.bears_nothing), percent(l.bears))});
+                              l.weight.unloaded_s, percent(l.weight.bears_nothing), percent(l.weight.bears))});
   rows.push_back({"", "",
                   fmt::format("and the body does not fall (by {:g} g or more). The times reach to where three quarters "
                               "of the weight are carried",
-                              l.falls)});
+                              l.weight.falls)});
   rows.push_back(
       {"", "", "`run` detects this by the load that the joint to the ground would bear: half of the weight"});
   rows.push_back(

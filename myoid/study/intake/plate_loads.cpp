@@ -1,6 +1,7 @@
 #include "myoid/study/intake/plate_loads.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "myoid/ground/files/toml_table.h"
 #include "myoid/recording/signals/filter.h"
 #include "myoid/recording/signals/resample.h"
+#include "myoid/study/intake/body_points.h"
 #include "myoid/study/study_model.h"
 
 namespace myoid::study {
@@ -56,7 +58,8 @@ std::vector<Contact> contacts_of(const Wrench& w, const Eigen::VectorXd& time_s)
     if (contacts.empty() || time_s[i] - time_s[contacts.back().end - 1] > kMerged_s) contacts.push_back({i, i});
     contacts.back().end = i + 1;
   }
-  std::erase_if(contacts, [&](const Contact& c) { return time_s[c.end - 1] - time_s[c.first] < kLimits.contact_s; });
+  std::erase_if(contacts,
+                [&](const Contact& c) { return time_s[c.end - 1] - time_s[c.first] < kLimits.contacts.least_s; });
   return contacts;
 }
 
@@ -68,22 +71,18 @@ std::map<body::BodyIndex, double> distances(const body::BodyModel& model,
                                             const Contact& contact) {
   std::map<body::BodyIndex, double> sum;
   std::map<body::BodyIndex, int> count;
+  BodyPoints points(model, &markers, nullptr);
   for (Eigen::Index f = 0; f < markers.frame_count(); ++f) {
     const double t = markers.time_s[f];
     if (t < time_s[contact.first] || t > time_s[contact.end - 1]) continue;
     const auto at = std::lower_bound(time_s.data() + contact.first, time_s.data() + contact.end, t) - time_s.data();
     const Vec3 p = w.point_m.row(std::min<Eigen::Index>(at, contact.end - 1)).transpose();
     if (!p.allFinite()) continue;
-    std::map<body::BodyIndex, double> nearest;
-    for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
-      const auto known = model.find_marker(markers.names[static_cast<std::size_t>(m)]);
-      if (!known || markers.missing(f, m)) continue;
-      const body::BodyIndex body = model.markers[static_cast<std::size_t>(*known)].body;
-      const double d = (markers.position(f, m) - p).norm();
-      const auto [it, fresh] = nearest.try_emplace(body, d);
-      if (!fresh) it->second = std::min(it->second, d);
-    }
-    for (const auto& [body, d] : nearest) {
+    points.pose(f);
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const auto body = static_cast<body::BodyIndex>(b);
+      const double d = points.of_one(p, body);
+      if (!std::isfinite(d)) continue;
       sum[body] += d;
       ++count[body];
     }

@@ -15,7 +15,7 @@
 namespace myoid::study {
 
 /// Distance from the center of pressure beyond which a marker does not stand on the plate.
-inline constexpr double kFarFromPlate_m = kLimits.plate_far_m;
+inline constexpr double kFarFromPlate_m = kLimits.contacts.plate_far_m;
 
 /// Returns the forces of plates on the bodies that stand on them, in the model's ground (R_YG from
 /// the laboratory). Each plate acts with its force and its moment about the middle of its surface.

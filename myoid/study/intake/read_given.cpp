@@ -56,13 +56,13 @@ bool warn_of_other_rate(const std::vector<Clock>& clocks, TrialInput& input) {
   const auto ratio = [](const Clock& a, const Clock& b) { return span_s(a.time_s) / span_s(b.time_s); };
   const auto like = [&](const Clock& clock) {
     return std::ranges::count_if(
-        clocks, [&](const Clock& other) { return std::abs(ratio(other, clock) - 1.0) < kLimits.ends_together; });
+        clocks, [&](const Clock& other) { return std::abs(ratio(other, clock) - 1.0) < kLimits.clocks.ends_together; });
   };
   const Clock& usual = *std::ranges::max_element(clocks, {}, like);
   bool said = false;
   for (const Clock& clock : clocks) {
-    const std::optional<double> factor = whole_factor(ratio(clock, usual), kLimits.ends_together);
-    if (!factor || std::abs(clock.time_s[0] - usual.time_s[0]) > kLimits.same_begin_s) continue;
+    const std::optional<double> factor = whole_factor(ratio(clock, usual), kLimits.clocks.ends_together);
+    if (!factor || std::abs(clock.time_s[0] - usual.time_s[0]) > kLimits.clocks.same_begin_s) continue;
     warn(input, RemarkCode::emg_length,
          fmt::format("{}: lasts {:.4g} s, and {} {:.4g} s: {:g} times as long; is the rate of one of them wrong? "
                      "Correct its times, or state start and end of the trial if both did last so",
@@ -250,10 +250,10 @@ void join_given_clocks(TrialSpec& trial, TrialInput& input) {
     shortest = &clock;
   }
   const double used_s = span_s(lengths.time_s());
-  if (shortest != nullptr && asked_s - used_s > kLimits.uncovered_s && !other_rate)
+  if (shortest != nullptr && asked_s - used_s > kLimits.clocks.uncovered_s && !other_rate)
     input.remarks.push_back(
         {.code = RemarkCode::emg_cover,
-         .severity = used_s < kLimits.covered * asked_s ? Severity::warning : Severity::note,
+         .severity = used_s < kLimits.clocks.covered * asked_s ? Severity::warning : Severity::note,
          .says =
              fmt::format("{}: {:.3g} of {:.3g} s are used, the time that all files of the trial cover; it has "
                          "{:.4g} to {:.4g} s, and {} {:.4g} to {:.4g} s. Was one of them cut off, or is its clock "

@@ -138,7 +138,7 @@ void warn_of_window(const TrialSpec& trial, TrialInput& input) {
   const Eigen::VectorXd& time_s = input.markers ? input.markers->time_s : input.motion->time_s();
   const double begin_s = time_s[0], end_s = time_s[time_s.size() - 1];
   const double asked_from_s = trial.start_s.value_or(begin_s), asked_to_s = trial.end_s.value_or(end_s);
-  if (begin_s - asked_from_s <= kLimits.uncovered_s && asked_to_s - end_s <= kLimits.uncovered_s) return;
+  if (begin_s - asked_from_s <= kLimits.clocks.uncovered_s && asked_to_s - end_s <= kLimits.clocks.uncovered_s) return;
   warn(input, RemarkCode::general,
        fmt::format(
            "start_s and end_s ask for {:.4g} to {:.4g} s, and the files of the trial cover {:.4g} to {:.4g} s of "

@@ -132,7 +132,7 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
     const auto column = emg.find(muscle.emg);
     if (!column || !emg.values().col(*column).allFinite()) continue;
     const auto x = emg.values().col(*column);
-    if (x.cwiseAbs().maxCoeff() > kLimits.no_converter_v)
+    if (x.cwiseAbs().maxCoeff() > kLimits.emg.no_converter_v)
       throw ReadError(path, 0,
                       fmt::format("channel '{}' reaches {:.3g} V, beyond any converter; correct [emg] unit, or leave "
                                   "out samples that are no measurement",
@@ -163,17 +163,18 @@ void require_kind(const Study& study, const std::filesystem::path& path, const T
       low = std::min(low, value);
       high = std::max(high, value);
     }
-    if (low < -kLimits.below_zero * high)
+    if (low < -kLimits.emg.below_zero * high)
       throw ReadError(path, 0,
                       fmt::format("channel '{}' reaches from {:.3g} to {:.3g} {}, but [emg] kind = \"{}\" is never "
                                   "below zero; is it raw EMG? Then set kind = \"raw\"",
                                   muscle.emg, low, high, unit, kind));
     const bool lasting = recording::time_above_s(emg.values().col(*column), emg.mean_rate_hz(),
-                                                 kLimits.largest_activation) >= kLimits.spike_s;
-    if (activation && high > kLimits.largest_activation && !lasting)
-      warn(input, RemarkCode::emg_artifact,
-           fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an artefact?",
-                       path.filename().string(), muscle.emg, high, kLimits.largest_activation, kLimits.spike_s));
+                                                 kLimits.emg.largest_activation) >= kLimits.emg.spike_s;
+    if (activation && high > kLimits.emg.largest_activation && !lasting)
+      warn(
+          input, RemarkCode::emg_artifact,
+          fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an artefact?",
+                      path.filename().string(), muscle.emg, high, kLimits.emg.largest_activation, kLimits.emg.spike_s));
     if (activation && lasting)
       throw ReadError(path, 0,
                       fmt::format("channel '{}' reaches {:.3g}, but an activation goes from 0 to 1; percent? Divide by "

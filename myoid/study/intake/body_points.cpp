@@ -1,4 +1,4 @@
-#include "myoid/study/checks/body_points.h"
+#include "myoid/study/intake/body_points.h"
 
 #include <algorithm>
 #include <limits>
