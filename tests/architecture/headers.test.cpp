@@ -169,6 +169,18 @@ TEST(Headers, NoSourceTakesTheStandardsViews) {
   }
 }
 
+/// fmt 11 (Fedora) declares fmt::join in this header alone.
+TEST(Headers, EverySourceThatJoinsWordsTakesTheirHeader) {
+  for (const char* ending : {".h", ".cpp"}) {
+    for (const fs::path& file : files_below("myoid", ending)) {
+      std::ifstream stream(kRoot / file);
+      const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      if (text.find("fmt::join(") == std::string::npos) continue;
+      EXPECT_NE(text.find("#include <fmt/ranges.h>"), std::string::npos) << file << " needs <fmt/ranges.h>";
+    }
+  }
+}
+
 TEST(Headers, EveryHeaderIsGuarded) {
   for (const fs::path& header : files_below("myoid", ".h")) {
     std::ifstream stream(kRoot / header);
