@@ -33,7 +33,7 @@ bool is_counted(const ParameterEstimate& e) {
   return !fit::is_nuisance(e) && e.tied_to.empty() && !fit::is_voluntary(e.parameter);
 }
 
-/// Lists the numbers that are identified: "max isometric force of Biceps, Triceps; emg delay of the person".
+/// Lists the numbers that are identified: "max isometric force of Biceps, Triceps; EMG delay of the person".
 std::string identified_numbers(const IdentificationResult& fit, std::size_t muscle_count) {
   std::vector<std::pair<std::string, std::vector<std::string>>> owners;
   for (const EstimateLine& line : estimate_lines(fit, muscle_count)) {
