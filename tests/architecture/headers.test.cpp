@@ -53,7 +53,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/results/realtime/read_predictor.h", "exercised by examples/realtime on a finished run"},
     {"myoid/body/osim/osim_update_parts.h", "a part of the updater, tested as part of osim_updater"},
     {"myoid/program/cli/say.h", "exercised by running the program"},
-    {"myoid/study/draft/draft_model.h", "exercised by study_draft.test"},
     {"myoid/body/kinematics/ik_options.h", "plain values, exercised by pose_fit.test"},
     {"myoid/recording/angle_file.h", "exercised by the tests of info and check"},
     {"myoid/recording/edf_header.h", "exercised by edf_reader.test"},
