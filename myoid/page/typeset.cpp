@@ -7,13 +7,14 @@
 namespace myoid::page {
 namespace {
 
-bool part_of_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
+bool digit(char c) { return c >= '0' && c <= '9'; }
+
+bool part_of_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || digit(c) || c == '_'; }
 
 }  // namespace
 
 std::string typographic(std::string_view text) {
+  constexpr std::string_view kDegrees = " deg";
   std::string result;
   result.reserve(text.size() + 8);
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -25,6 +26,10 @@ std::string typographic(std::string_view text) {
     } else if (rest.starts_with("+-")) {
       result += "±";
       ++i;
+    } else if (i > 0 && digit(text[i - 1]) && rest.starts_with(kDegrees) &&
+               (rest.size() == kDegrees.size() || !part_of_word(rest[kDegrees.size()]))) {
+      result += "°";
+      i += kDegrees.size() - 1;
     } else {
       result += text[i];
     }
@@ -49,8 +54,10 @@ std::string typeset(std::string_view whole) {
 }
 
 std::string spelled(std::string_view name) {
+  constexpr std::string_view kEmg = "emg";
   std::string words(name);
   std::ranges::replace(words, '_', ' ');
+  if (words.starts_with(kEmg) && (words.size() == kEmg.size() || words[kEmg.size()] == ' ')) words.replace(0, 3, "EMG");
   return words;
 }
 

@@ -6,6 +6,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/quoted_text.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
@@ -25,6 +26,17 @@ std::string to_string(const Repair& repair) {
 std::string to_string(const std::filesystem::path& path, const Repair& repair) {
   return repair.line > 0 ? fmt::format("{}:{}: {}", path.string(), repair.line, repair.message)
                          : fmt::format("{}: {}", path.string(), repair.message);
+}
+
+void refuse_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return;
+  throw ReadError(path, 0,
+                  std::filesystem::exists(path / "study.toml", ignored)
+                      ? "this is a folder; did you mean the study.toml in it?"
+                      : fmt::format("this is a folder; name a file inside it, or draft a study of its recordings: "
+                                    "myoid init STUDY --from {}",
+                                    shell_word(path.string())));
 }
 
 namespace {
@@ -63,15 +75,6 @@ MarkerFile markers_of_c3d(const std::filesystem::path& path) {
   result.markers = std::move(file.markers);
   result.repairs = std::move(file.repairs);
   return result;
-}
-
-void refuse_folder(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(path, ignored)) return;
-  throw ReadError(path, 0,
-                  std::filesystem::exists(path / "study.toml", ignored)
-                      ? "this is a folder; did you mean the study.toml in it?"
-                      : "this is a folder; name a file inside it");
 }
 
 /// Takes the channels, events and repairs of a file without markers.

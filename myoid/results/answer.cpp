@@ -33,7 +33,7 @@ bool is_counted(const ParameterEstimate& e) {
   return !fit::is_nuisance(e) && e.tied_to.empty() && !fit::is_voluntary(e.parameter);
 }
 
-/// Lists the numbers that are identified: "max isometric force of Biceps, Triceps; emg delay of the person".
+/// Lists the numbers that are identified: "max isometric force of Biceps, Triceps; EMG delay of the person".
 std::string identified_numbers(const IdentificationResult& fit, std::size_t muscle_count) {
   std::vector<std::pair<std::string, std::vector<std::string>>> owners;
   for (const EstimateLine& line : estimate_lines(fit, muscle_count)) {
@@ -256,7 +256,9 @@ std::string fit_sentences(const run::StudyResult& result, bool with_names) {
   return text + fold_sentence(result);
 }
 
-std::string next_sentence(const run::StudyResult& result) {
+std::string next_sentence(const run::StudyResult& result, const std::vector<page::Gate>& gates) {
+  if (std::ranges::find(gates, page::GateStatus::fail, &page::Gate::status) != gates.end())
+    return "First mend what failed, and run again: recordings that are planned on such numbers may tell nothing.";
   if (!result.next || result.next->plan.empty()) return "";
   const run::DesignStudyResult& next = *result.next;
   const std::size_t named = std::min<std::size_t>(2, next.plan.size());
@@ -289,7 +291,7 @@ std::string answer_text(const run::StudyResult& result, const std::vector<page::
   constexpr std::size_t kMostLines = 24;
   const std::string light = gates.empty() ? "" : light_lines(gates, width) + "\n";
   std::string rest = wrapped(fit_sentences(result, false), width);
-  for (const std::string& more : {trials_sentence(result), next_sentence(result)})
+  for (const std::string& more : {trials_sentence(result), next_sentence(result, gates)})
     if (!more.empty()) rest += wrapped(more, width);
   const std::size_t taken = line_count(light) + line_count(rest) + 4;  // a heading, a legend, a line between
   const IdentificationResult* best = run::best_method(result.fit);

@@ -88,7 +88,7 @@ TEST(TrialsSentence, NamesTheWorstTrialsFirst) {
   result.trials[2].remarks = {{.code = RemarkCode::general}};
   result.trials[3].motion.failure = "no markers";
   EXPECT_EQ(trials_sentence(result),
-            "Trials with remarks: t3 (could not be computed), t1 (emg clipped: BIC), t2 (see its remarks).");
+            "Trials with remarks: t3 (could not be computed), t1 (EMG clipped: BIC), t2 (see its remarks).");
   EXPECT_EQ(trials_sentence(result, 1), "Trials with remarks: t3 (could not be computed) and 2 more.");
 }
 
@@ -112,6 +112,7 @@ TEST(AnswerText, HasAtMost24LinesOfTheWidth) {
     EXPECT_LE(std::ranges::count(text, '\n'), 24) << text;
     EXPECT_THAT(text, HasSubstr("Do not use the numbers."));
     EXPECT_THAT(text, HasSubstr("- and 8 more"));
+    EXPECT_THAT(text, HasSubstr("First mend"));
     if (width < 80) continue;
     for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
       EXPECT_LE(columns_of(text.substr(at, text.find('\n', at) - at)), width) << text;

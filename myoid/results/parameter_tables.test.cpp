@@ -71,7 +71,7 @@ TEST(EstimateTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
   EXPECT_EQ(rows[1][6].badge, page::Badge::weak);
   EXPECT_EQ(rows[2][6].text, "-");
   ASSERT_EQ(tables[1].rows.size(), 1U);
-  EXPECT_EQ(tables[1].rows[0][1].text, "emg gain");
+  EXPECT_EQ(tables[1].rows[0][1].text, "EMG gain");
 }
 
 TEST(EstimateTables, AnIntervalBeyondAllMeaningIsNone) {

@@ -80,10 +80,11 @@ std::vector<std::string> assumptions(const run::StudyResult& result) {
 }
 
 /// Returns the answers to the questions of somebody who sees the page first.
-std::vector<page::Answer> answers(const run::StudyResult& result) {
+std::vector<page::Answer> answers(const run::StudyResult& result, const std::vector<page::Gate>& gates) {
   std::vector<page::Answer> list{{"Which numbers", fit_sentences(result, true), "numbers"},
                                  {"Which trials", trials_sentence(result), "trials"}};
-  if (std::string next = next_sentence(result); !next.empty()) list.push_back({"What next", std::move(next), "next"});
+  if (std::string next = next_sentence(result, gates); !next.empty())
+    list.push_back({"What next", std::move(next), "next"});
   list.push_back(
       {"Since an earlier session", "`myoid compare EARLIER THIS` compares the folders of both results.", ""});
   return list;
@@ -178,11 +179,12 @@ std::vector<page::ProvenanceRow> provenance_rows(const run::StudyResult& result,
 
 page::Report study_report(const run::StudyResult& result, const Provenance& provenance) {
   const IdentificationResult* best = run::best_method(result.fit);
+  std::vector<page::Gate> gates = run::quality_gates(result);
   page::Report report{.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name),
                       .subtitle = subtitle(result, provenance),
                       .headline = best == nullptr ? "" : voluntary_headline(*best),
-                      .answers = answers(result),
-                      .gates = run::quality_gates(result),
+                      .answers = answers(result, gates),
+                      .gates = std::move(gates),
                       .assumptions = assumptions(result),
                       .provenance = provenance_rows(result, provenance)};
   const IdentificationResult* torque = run::method_of(result.fit, fit::Method::torque);

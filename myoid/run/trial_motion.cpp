@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/body/dynamics/held_mass.h"
+#include "myoid/body/kinematics/marker_misfit.h"
 #include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/recording/signals/resample.h"
@@ -65,6 +66,27 @@ void solve_ik(const StudySource& source, const MarkerSeries& markers, StageStore
   if (store != nullptr) store->keep(key, *motion.ik);
 }
 
+/// Warns of markers that lie far from the model's, and says how the trunk of the built-in arm is let move.
+void note_misfit(const study::Study& study,
+                 const std::string& trial,
+                 const MarkerSeries& markers,
+                 TrialMotion& motion) {
+  body::MarkerMisfit misfit = body::marker_misfit(*motion.model, markers, *motion.ik);
+  if (misfit.warning.empty()) return;
+  const bool stands = study.model.is_arm() && !misfit.wrong_unit &&
+                      std::ranges::find(study.ik.unlock, "base_tx") == study.ik.unlock.end();
+  motion.remarks.push_back(
+      {.code = misfit.wrong_unit ? RemarkCode::marker_unit : RemarkCode::model_unfit,
+       .where = trial,
+       .about = "markers",
+       .value = misfit.rms_m,
+       .says = std::move(misfit.warning),
+       .remedy = stands ? "the trunk of the built-in arm stands still: with forearm_rotations = true in [model] and "
+                          "unlock = [\"base_heading\", \"base_tx\", \"base_ty\", \"base_tz\"] in [ik] it moves; or "
+                          "name a model of this marker set"
+                        : ""});
+}
+
 /// Adds the coordinates at the times of given lengths, else on the clock of the analysis, smoothed as the study says,
 /// with derivatives.
 void add_joint_motion(const study::Study& study, const study::GivenStages& given, TimeSeries q, TrialMotion& motion) {
@@ -103,6 +125,7 @@ TrialMotion trial_motion(const StudySource& source,
   if (input.markers) {
     solve_ik(source, *input.markers, store, motion);
     std::ranges::copy(motion.ik->notes, std::back_inserter(motion.remarks));
+    note_misfit(source.study, spec.name, *input.markers, motion);
     add_joint_motion(source.study, input.given, motion.ik->q, motion);
     std::vector<Remark> found = body::implausible_motion(motion.ik->q);
     std::ranges::move(body::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(found));

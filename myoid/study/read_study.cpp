@@ -8,8 +8,11 @@
 
 #include "myoid/fit/measurement/parameters.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/quoted_text.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/ground/files/toml_table.h"
+#include "myoid/recording/recording.h"
 #include "myoid/study/setting_reader.h"
 #include "myoid/study/study_settings.h"
 
@@ -176,6 +179,14 @@ fit::UnseenSpreads read_beliefs(const std::filesystem::path& file) {
   return read_spec<fit::UnseenSpreads>(*std::move(table), file.parent_path());
 }
 
-Study read_study(const std::filesystem::path& file) { return parse_study(read_text_file(file), file); }
+Study read_study(const std::filesystem::path& file) {
+  recording::refuse_folder(file);
+  const auto format = format_of(file);
+  // A table of text may be a study with another ending.
+  if (format && is_recording(*format) && *format != FileFormat::text_table && std::filesystem::is_regular_file(file))
+    throw ReadError(file, 0, "this is a recording, and a study is asked for; draft one: myoid init STUDY --from {}",
+                    shell_word(file.string()));
+  return parse_study(read_text_file(file), file);
+}
 
 }  // namespace myoid::study

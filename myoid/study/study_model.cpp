@@ -145,7 +145,10 @@ body::BodyModel prepared(const Study& study, body::BodyModel model) {
       try {
         (void)model.muscle_index(name);
       } catch (const ModelError& error) {
-        throw ModelError(fmt::format("{}: [[muscle]] {}: {}", study.file.string(), muscle.name, error.what()));
+        constexpr std::string_view kOpen = "TODO";  // of a draft
+        throw ModelError(fmt::format("{}: [[muscle]] {}: {}{}", study.file.string(), muscle.name,
+                                     name == kOpen ? "the draft asks for name, osim and emg of a muscle; " : "",
+                                     error.what()));
       }
     }
   }

@@ -53,7 +53,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/results/realtime/read_predictor.h", "exercised by examples/realtime on a finished run"},
     {"myoid/body/osim/osim_update_parts.h", "a part of the updater, tested as part of osim_updater"},
     {"myoid/program/cli/say.h", "exercised by running the program"},
-    {"myoid/study/draft/draft_model.h", "exercised by study_draft.test"},
     {"myoid/body/kinematics/ik_options.h", "plain values, exercised by pose_fit.test"},
     {"myoid/recording/angle_file.h", "exercised by the tests of info and check"},
     {"myoid/recording/edf_header.h", "exercised by edf_reader.test"},
@@ -165,6 +164,18 @@ TEST(Headers, NoSourceTakesTheStandardsViews) {
     for (const fs::path& file : files_below("myoid", ending)) {
       const auto included = includes(file);
       EXPECT_EQ(std::ranges::count(included, "<ranges>"), 0) << file << ": see myoid/ground/core/names.h";
+    }
+  }
+}
+
+/// fmt 11 (Fedora) declares fmt::join in this header alone.
+TEST(Headers, EverySourceThatJoinsWordsTakesTheirHeader) {
+  for (const char* ending : {".h", ".cpp"}) {
+    for (const fs::path& file : files_below("myoid", ending)) {
+      std::ifstream stream(kRoot / file);
+      const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      if (text.find("fmt::join(") == std::string::npos) continue;
+      EXPECT_NE(text.find("#include <fmt/ranges.h>"), std::string::npos) << file << " needs <fmt/ranges.h>";
     }
   }
 }

@@ -284,6 +284,36 @@ TEST(CommandLine, AWrongPathIsNamedWithExitCodeThree) {
   }
 }
 
+TEST(CommandLine, WhoNamesARecordingOrAFolderForAStudyIsLedToInit) {
+  const TemporaryFolder folder;
+  const auto rec = recording_in(folder);
+  std::filesystem::copy_file(rec / "slow.trc", folder / "my lift.trc");
+  const std::string recording = folder / "my lift.trc";
+  const auto leads = [](const std::string& to) { return HasSubstr("myoid init STUDY --from " + to); };
+  const Finished run = myoid({"run", recording, "--out", folder / "out"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, leads("'" + recording + "'"));
+  EXPECT_THAT(myoid({"check", recording}).out, leads("'" + recording + "'\n"));
+  std::filesystem::create_directory(folder / "empty");
+  const std::string empty = folder / "empty";
+  EXPECT_THAT(myoid({"run", empty, "--out", folder / "out"}).err, leads(empty));
+  EXPECT_THAT(myoid({"info", empty}).err, leads(empty));
+  EXPECT_THAT(myoid({"run", rec, "--out", folder / "out"}).err, HasSubstr("study.toml"));
+}
+
+TEST(CommandLine, ACheckWithoutErrorsNamesTheNextCommand) {
+  const TemporaryFolder folder;
+  const auto rec = recording_in(folder);
+  const std::string study = rec / "study.toml";
+  const std::string next = "next: myoid run " + study + " --out ";
+  EXPECT_THAT(myoid({"check", study}).out, testing::EndsWith(next + (rec / "results").string() + "\n"));
+  EXPECT_THAT(myoid({"check", study, "--json"}).out, Not(HasSubstr("next:")));
+  replace_in(study, "emg = \"BIC\"", "emg = \"TODO\"");
+  const Finished wrong = myoid({"check", study});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_THAT(wrong.out, Not(HasSubstr("next:")));
+}
+
 TEST(CommandLine, AnEmptyFileIsNamedWithExitCodeThree) {
   const TemporaryFolder folder;
   for (const std::string name : {"empty.toml", "empty.trc", "empty.sto", "empty.osim", "empty.csv"}) {

@@ -1,5 +1,6 @@
 #include "myoid/program/commands/check.h"
 
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 #include "myoid/ground/core/counted.h"
 #include "myoid/ground/core/json_text.h"
 #include "myoid/ground/files/file_format.h"
+#include "myoid/ground/files/quoted_text.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/option_checks.h"
 #include "myoid/program/cli/say.h"
@@ -79,6 +81,18 @@ void print_settings(const Context& context, const std::string& file, const std::
   say_whole(context.json ? study::reference_json(tables) : study::reference_text(tables));
 }
 
+/// Prints the command that goes on after a check without errors. A model and a motion have none.
+void print_next(const program::CheckResult& result, const program::CheckOptions& o) {
+  const auto format = format_of(o.input);
+  const std::string word = shell_word(o.input);
+  if (result.errors > 0 || !format) return;
+  if (result.of_study)
+    say("next: myoid run {} --out {}\n", word,
+        shell_word((std::filesystem::path(o.input).parent_path() / "results").string()));
+  else if (is_recording(*format) && *format != FileFormat::storage)
+    say("next: myoid init STUDY --from {}\n", word);
+}
+
 void print_check(Context& context, program::CheckOptions& o) {
   o.call = context.call();
   const program::CheckResult result = program::check(o);
@@ -86,6 +100,7 @@ void print_check(Context& context, program::CheckOptions& o) {
     say_whole(json_text(findings_json(result.findings)) + "\n");
   } else {
     print_findings(result, o.input);
+    print_next(result, o);
   }
   if (result.errors > 0) context.exit_code = kBadInput;
 }

@@ -5,6 +5,9 @@
 #include <limits>
 #include <string_view>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "myoid/ground/files/text_file.h"
 #include "myoid/study/setting.h"
 

@@ -15,6 +15,7 @@
 #include "myoid/opensim/opensim_setup.h"
 #include "myoid/program/contents/project_contents.h"
 #include "myoid/program/contents/recording_contents.h"
+#include "myoid/recording/recording.h"
 #include "myoid/study/read_study.h"
 
 namespace myoid::program {
@@ -112,6 +113,7 @@ ordered_json contents_of(const InfoOptions& o) {
   const auto format = format_of(o.file);
   if (format == FileFormat::toml) return study_contents(o.file);
   if (format == FileFormat::set_up) return setup_contents(o.file);
+  recording::refuse_folder(o.file);
   (void)read_text_file(o.file);  // reports a missing or empty file
   throw ReadError(o.file, 0,
                   fmt::format("files of kind '{}' are not known; known are {}", extension_of(o.file), known_endings()));

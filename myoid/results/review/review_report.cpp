@@ -246,7 +246,7 @@ Table bound_table(const SecondOpinion& opinion) {
 }
 
 std::string next_text(const SecondOpinion& opinion) {
-  std::string text = next_sentence(opinion.study);
+  std::string text = next_sentence(opinion.study, {});
   if (text.empty())
     text = "Record a maximal contraction of each muscle, and slow and fast movements through the whole range.";
   std::vector<std::string> without;

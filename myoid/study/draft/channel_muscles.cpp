@@ -1,6 +1,7 @@
 #include "myoid/study/draft/channel_muscles.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <set>
@@ -190,6 +191,20 @@ std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& chann
     if (of_family[pair.family + name.side] > 1 && !of_head.empty()) pair.muscles = of_head;
   }
   return result;
+}
+
+Limbs limbs_of(const std::vector<std::string>& channels) {
+  constexpr std::array<std::string_view, 6> kArm{"brachi", "anconeus", "pronator", "carpi", "deltoid", "pectoralis"};
+  constexpr std::array<std::string_view, 12> kLeg{"femoris",  "hamstrings", "soleus",     "gastrocnemius",
+                                                  "tibialis", "vastus",     "quadriceps", "semi",
+                                                  "peroneus", "gluteus",    "sartorius",  "gracilis"};
+  Limbs limbs;
+  for (const ChannelMuscles& pair : match_channels(channels, {})) {
+    const auto has = [&](std::string_view word) { return pair.family.find(word) != std::string::npos; };
+    limbs.arm = limbs.arm || std::ranges::any_of(kArm, has);
+    limbs.leg = limbs.leg || std::ranges::any_of(kLeg, has);
+  }
+  return limbs;
 }
 
 }  // namespace myoid::study

@@ -19,4 +19,12 @@ struct ChannelMuscles {
 [[nodiscard]] std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& channels,
                                                          const std::vector<std::string>& muscles);
 
+/// The limbs whose muscles channels name.
+struct Limbs {
+  bool arm = false, leg = false;
+};
+
+/// Returns the limbs that channels name a muscle of; the trunk and the shoulder blade are none.
+[[nodiscard]] Limbs limbs_of(const std::vector<std::string>& channels);
+
 }  // namespace myoid::study

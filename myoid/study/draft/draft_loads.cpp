@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -79,6 +80,14 @@ double distance_spread_m(const MarkerSeries& markers, Eigen::Index a, Eigen::Ind
   return spread(distances);
 }
 
+/// Returns true for a point that a gait model computes: Plug-in Gait writes the axes of each segment as four points,
+/// whose names are the segment's with O, A, L and P (RTIO, RTIA, RTIL, RTIP).
+bool is_segment_axis(const std::string& name, const std::set<std::string>& all) {
+  constexpr std::string_view kAxes = "OALP";
+  if (name.size() < 2 || kAxes.find(name.back()) == std::string_view::npos) return false;
+  return std::ranges::all_of(kAxes, [&](char axis) { return all.contains(name.substr(0, name.size() - 1) + axis); });
+}
+
 std::string plain(const std::string& name) { return plain_label(name); }
 
 bool has_word(const std::string& name, std::initializer_list<std::string_view> words) {
@@ -111,8 +120,11 @@ std::vector<std::string> object_markers(const MarkerSeries& markers, const body:
   constexpr double kRigid_m = 0.0025, kApart_m = 0.02;
   constexpr std::size_t kMost = 60;
   std::vector<Eigen::Index> known, unknown;
-  for (Eigen::Index m = 0; m < markers.marker_count(); ++m)
-    (model.find_marker(markers.names[static_cast<std::size_t>(m)]) ? known : unknown).push_back(m);
+  const std::set<std::string> names_of_all(markers.names.begin(), markers.names.end());
+  for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+    const std::string& name = markers.names[static_cast<std::size_t>(m)];
+    if (!is_segment_axis(name, names_of_all)) (model.find_marker(name) ? known : unknown).push_back(m);
+  }
   if (known.empty() || unknown.size() < 3 || unknown.size() > kMost) return {};
   std::vector<Eigen::Index> best;
   for (const Eigen::Index first : unknown) {

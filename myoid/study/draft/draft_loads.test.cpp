@@ -63,6 +63,15 @@ TEST(ObjectMarkers, AreRigidAmongThemselvesAndNotOfTheModel) {
   EXPECT_TRUE(object_markers(with_a_box("unknown"), model).empty());
 }
 
+TEST(ObjectMarkers, TheAxesOfASegmentThatAGaitModelWritesAreNone) {
+  const body::BodyModel model = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  MarkerSeries axes = with_a_box(model.markers[0].name);
+  axes.names = {model.markers[0].name, "RTIO", "RTIA", "RTIL", "RTIP"};
+  EXPECT_TRUE(object_markers(axes, model).empty());
+  axes.names.back() = "loose";
+  EXPECT_EQ(object_markers(axes, model).size(), 3U);
+}
+
 TEST(LoadChannels, AreForcesAndVoltagesBesideEmgThatNoPlateHas) {
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(50, 0.0, 1.0);
   Eigen::MatrixXd values(50, 6);

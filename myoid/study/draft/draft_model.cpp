@@ -10,6 +10,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/label_match.h"
 #include "myoid/recording/recording.h"
+#include "myoid/study/draft/channel_muscles.h"
 
 namespace myoid::study {
 namespace {
@@ -58,18 +59,78 @@ ModelByMarkers model_of_markers(const std::vector<std::filesystem::path>& models
 }
 
 bool is_of_a_leg(const std::vector<FoundRecording>& found) {
-  constexpr std::array<std::string_view, 14> kWords{"asi", "psi",  "kne", "ank", "hee", "toe",   "thi",
-                                                    "tib", "heel", "mtp", "mal", "cal", "troch", "foot"};
-  std::set<std::string> legs;
+  constexpr std::array<std::string_view, 12> kLegs{"kne",  "ank", "hee", "toe", "thi",   "tib",
+                                                   "heel", "mtp", "mal", "cal", "troch", "foot"};
+  constexpr std::array<std::string_view, 2> kPelvis{"asi", "psi"};
+  const auto begins = [](std::string_view name, const auto& words) {
+    return std::ranges::any_of(words, [&](std::string_view word) { return name.starts_with(word); });
+  };
+  std::set<std::string> legs, pelvis, channels;
   for (const FoundRecording& f : found) {
+    channels.insert(f.channels.begin(), f.channels.end());
     for (const std::string& name : f.markers.names) {
       std::string plain = plain_label(name);
       if (plain.starts_with('l') || plain.starts_with('r')) plain.erase(0, 1);
-      if (std::ranges::any_of(kWords, [&](std::string_view word) { return plain.starts_with(word); }))
-        legs.insert(name);
+      if (begins(plain, kLegs)) legs.insert(name);
+      if (begins(plain, kPelvis)) pelvis.insert(name);
     }
   }
-  return legs.size() >= 4;
+  const Limbs emg = limbs_of({channels.begin(), channels.end()});
+  if (emg.arm || emg.leg) return !emg.arm;
+  return !legs.empty() && legs.size() + pelvis.size() >= 4;
+}
+
+std::map<std::string, std::string> usual_arm_markers(const std::vector<std::string>& recorded) {
+  static const std::map<std::string, std::string, std::less<>> kUsual{
+      {"ij", "sternum"},
+      {"clav", "sternum"},
+      {"jugularnotch", "sternum"},
+      {"rsho", "r_acromion"},
+      {"ac", "r_acromion"},
+      {"rac", "r_acromion"},
+      {"acr", "r_acromion"},
+      {"racr", "r_acromion"},
+      {"acromion", "r_acromion"},
+      {"acrotip", "r_acromion"},
+      {"rshoulder", "r_acromion"},
+      {"el", "r_epicondyle_lateral"},
+      {"rel", "r_epicondyle_lateral"},
+      {"relb", "r_epicondyle_lateral"},
+      {"rlel", "r_epicondyle_lateral"},
+      {"epicl", "r_epicondyle_lateral"},
+      {"repiclat", "r_epicondyle_lateral"},
+      {"relbowlat", "r_epicondyle_lateral"},
+      {"rlelb", "r_epicondyle_lateral"},
+      {"em", "r_epicondyle_medial"},
+      {"rem", "r_epicondyle_medial"},
+      {"relbm", "r_epicondyle_medial"},
+      {"rmelb", "r_epicondyle_medial"},
+      {"rmel", "r_epicondyle_medial"},
+      {"epicm", "r_epicondyle_medial"},
+      {"repicmed", "r_epicondyle_medial"},
+      {"relbowmed", "r_epicondyle_medial"},
+      {"rs", "r_styloid_radial"},
+      {"rrs", "r_styloid_radial"},
+      {"rwra", "r_styloid_radial"},
+      {"stylr", "r_styloid_radial"},
+      {"rstyrad", "r_styloid_radial"},
+      {"us", "r_styloid_ulnar"},
+      {"rus", "r_styloid_ulnar"},
+      {"rwrb", "r_styloid_ulnar"},
+      {"stylu", "r_styloid_ulnar"},
+      {"rstyuln", "r_styloid_ulnar"},
+      {"rfin", "r_hand"},
+  };
+  std::map<std::string, std::vector<std::string>> claims;  // by the arm's name
+  for (const std::string& name : recorded) {
+    if (const auto place = kUsual.find(plain_label(name)); place != kUsual.end()) claims[place->second].push_back(name);
+  }
+  std::map<std::string, std::string> pairs;
+  for (const auto& [wanted, names] : claims) {
+    const bool there = std::ranges::find(recorded, wanted) != recorded.end();
+    if (names.size() == 1 && !there) pairs.emplace(names.front(), wanted);
+  }
+  return pairs;
 }
 
 }  // namespace myoid::study

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,7 +22,13 @@ struct ModelByMarkers {
 [[nodiscard]] ModelByMarkers model_of_markers(const std::vector<std::filesystem::path>& models,
                                               const std::vector<std::filesystem::path>& files);
 
-/// True if four or more markers have the usual names of a leg's or a pelvis' (LASI, RKNE, R.Heel, ...).
+/// True if the EMG is of a leg's muscles and none of an arm's; without EMG of either, if four or more markers have the
+/// usual names of a leg's or a pelvis', and one of a leg's (LASI, RKNE, R.Heel, ...).
 [[nodiscard]] bool is_of_a_leg(const std::vector<FoundRecording>& found);
+
+/// Pairs the markers of a recording with the built-in arm's by the usual names of the same place on the right arm or
+/// the trunk (ISB, Vicon's upper body: RELB, EL, RWRA, US): recorded name and the arm's. A name that the arm has, or a
+/// place that two recorded markers claim, takes no part.
+[[nodiscard]] std::map<std::string, std::string> usual_arm_markers(const std::vector<std::string>& recorded);
 
 }  // namespace myoid::study

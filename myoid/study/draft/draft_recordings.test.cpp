@@ -21,6 +21,7 @@ TEST(TrialStem, IsTheNameWithoutWhatAFileSaysOfItsOwnKind) {
   EXPECT_EQ(trial_stem("in/walk36/emgFilt.sto"), "walk36");
   EXPECT_EQ(trial_stem("emg_walk_raw.anc"), "walk");
   EXPECT_EQ(trial_stem("grf_walk.xml"), "walk");
+  EXPECT_EQ(trial_stem("Walk 01_trajectories.csv"), trial_stem("Walk 01_devices.csv"));
 }
 
 TEST(GuessedUse, IsWhatAWordOfTheNameSays) {

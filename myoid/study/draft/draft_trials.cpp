@@ -173,7 +173,7 @@ class TrialWriter {
   void clocks() {
     out_.line("");
     out_.line("# EMG and motion are in different files. If they did not start together, or their clocks run");
-    out_.line("# apart, say so (docs/guide/study.md, [sync]):");
+    out_.line("# apart, say so (myoid check --settings sync explains the keys):");
     out_.line("# [sync]");
     out_.line("# offset_s = 0.0");
   }

@@ -195,7 +195,8 @@ class Draft {
       for (std::string& name : f.markers.names) {
         if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
       }
-      f.loads.object_markers = object_markers(f.markers, model_);
+      // Of another model no marker tells the person from a box.
+      if (known >= 3) f.loads.object_markers = object_markers(f.markers, model_);
       for (const body::PlacedMarker& pair : body::markers_by_place(model_, f.markers)) {
         const bool taken = std::ranges::any_of(elsewhere_, [&](const auto& p) { return p.second == pair.wanted; });
         if (!taken) elsewhere_.emplace(pair.recorded, pair.wanted);
@@ -274,8 +275,9 @@ class Draft {
       line("builtin = \"arm4\"");
       if (is_of_a_leg(found_) && most_known_ < 3)
         todo(
-            "the recorded markers are those of a leg, and this built-in model is an arm: name a model of the leg with "
-            "--model");
+            "markers or EMG are those of a leg, and this built-in model is an arm: name a model of the leg with "
+            "--model, "
+            "OpenSim's gait2392 or Rajagopal2016, for example");
     }
     if (!other_models_.empty())
       todo(fmt::format("or one of the {}models that were found: file = {}", model_file_ ? "other " : "",
@@ -319,15 +321,22 @@ class Draft {
         if (names.size() < 40) names.push_back(m.name);
       }
       todo(
-          fmt::format("only {} of the recorded markers are known to the model; its own are {}: rename = {{ FILE = "
-                      "\"MODEL\", ... }}",
-                      most_known_, fmt::join(names, ", ")));
+          fmt::format("{} of the recorded markers {} known to the model; its own are {}: rename = {{ FILE = \"MODEL\", "
+                      "... }}, or name the model of this marker set with --model",
+                      most_known_ == 0 ? "none" : fmt::format("only {}", most_known_), most_known_ == 1 ? "is" : "are",
+                      fmt::join(names, ", ")));
+    }
+    if (!model_file_ && elsewhere_.empty()) {
+      for (const FoundRecording& f : found_) elsewhere_.merge(usual_arm_markers(f.markers.names));
+      if (!elsewhere_.empty())
+        todo("these are usual names of the same places on a right arm: are they the same? Then take the # away");
+    } else if (!elsewhere_.empty()) {
+      todo("these stand where the model has the others: are they the same? Then take the # away");
     }
     if (elsewhere_.empty()) return;
     std::vector<std::string> pairs;
     for (const auto& [name, like] : elsewhere_)
       pairs.push_back(fmt::format("{} = {}", toml_text(name), toml_text(like)));
-    todo("these stand where the model has the others: are they the same? Then take the # away");
     line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }
 

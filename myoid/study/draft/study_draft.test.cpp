@@ -14,6 +14,7 @@
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/study/checks/check_study.h"
+#include "myoid/study/draft/draft_model.h"
 #include "myoid/study/read_study.h"
 
 #include "tests/support/data_folder.h"
@@ -205,6 +206,48 @@ TEST(StudyDraft, SaysThatMarkersOfALegMeetAnArm) {
   write_markers(folder / "walk.trc", {"LASI", "RASI", "LKNE", "RKNE", "LANK", "RANK", "LHEE", "RHEE"});
   const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
   EXPECT_THAT(draft.todo, Contains(HasSubstr("those of a leg")));
+}
+
+/// Two seconds of raw EMG of these channels.
+void write_emg(const std::filesystem::path& path, const std::string& channels) {
+  std::string text = "time," + channels + "\n";
+  for (int i = 0; i < 2000; ++i)
+    text += fmt::format("{:.3f},{:.5f},{:.5f}\n", 0.001 * i, std::sin(0.7 * i), std::sin(0.9 * i));
+  write_file(path, text);
+}
+
+TEST(StudyDraft, TheLimbIsThatOfTheEmgAndThenThatOfTheMarkers) {
+  const auto of_a_leg = [](const std::vector<std::string>& markers, const std::string& channels) {
+    const test::TemporaryFolder folder;
+    if (!markers.empty()) write_markers(folder / "a.trc", markers);
+    if (!channels.empty()) write_emg(folder / "a_emg.csv", channels);
+    const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+    return std::ranges::any_of(draft.todo,
+                               [](const std::string& q) { return q.find("of a leg") != std::string::npos; });
+  };
+  const std::vector<std::string> trunk{"ASISr", "ASISl", "PSISr", "PSISl", "STER", "T10", "EPICl", "EPICm"};
+  std::vector<std::string> whole = trunk;
+  whole.insert(whole.end(), {"RKNE", "RANK", "LKNE", "LANK"});
+  EXPECT_FALSE(of_a_leg(trunk, ""));
+  EXPECT_TRUE(of_a_leg(whole, ""));
+  EXPECT_FALSE(of_a_leg(whole, "Biceps [uV],Triceps [uV]"));
+  EXPECT_TRUE(of_a_leg(trunk, "VL [uV],TA [uV]"));
+  EXPECT_TRUE(of_a_leg({}, "VL [uV],GL [uV]"));
+}
+
+TEST(StudyDraft, OffersUsualNamesOfTheArmsMarkersWithARemark) {
+  const test::TemporaryFolder folder;
+  write_markers(folder / "lift.trc", {"C7", "CLAV", "RSHO", "RELB", "RWRA", "RWRB", "RFIN", "LELB"});
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  EXPECT_THAT(draft.toml, HasSubstr("\n# rename = { \"CLAV\" = \"sternum\", \"RELB\" = \"r_epicondyle_lateral\", "
+                                    "\"RFIN\" = \"r_hand\", \"RSHO\" = \"r_acromion\", "));
+  // Two markers that claim one place, and a name that the arm has, take no part.
+  EXPECT_TRUE(usual_arm_markers({"RELB", "EL"}).empty());
+  EXPECT_TRUE(usual_arm_markers({"RELB", "r_epicondyle_lateral"}).empty());
+  EXPECT_EQ(usual_arm_markers({"Subject:relb"}).at("Subject:relb"), "r_epicondyle_lateral");
+  const body::BodyModel arm = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  for (const auto& [recorded, wanted] : usual_arm_markers({"IJ", "AC", "EL", "EM", "RS", "US", "RFIN"}))
+    EXPECT_TRUE(arm.find_marker(wanted)) << recorded;
 }
 
 TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {
