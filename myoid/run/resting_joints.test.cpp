@@ -33,10 +33,10 @@ Recorded recorded() {
     t.name = name;
     t.kind = kind;
     t.use = use;
-    t.from_rad = 15.0 * kDegree;
-    t.to_rad = 125.0 * kDegree;
-    t.raise_s = 4.0;
-    t.lower_s = 4.0;
+    t.lift.from_rad = 15.0 * kDegree;
+    t.lift.to_rad = 125.0 * kDegree;
+    t.lift.raise_s = 4.0;
+    t.lift.lower_s = 4.0;
     protocol.trials.push_back(t);
   };
   trial("relaxed", lab::TrialKind::passive, "passive");
