@@ -33,8 +33,7 @@ struct AnswerRow {
 /// `with_names` lists the identified ones.
 [[nodiscard]] std::string fit_sentences(const run::StudyResult& result, bool with_names);
 
-/// Returns the movements to record next and their gain; empty without a plan. Where a gate failed, the failure is
-/// mended first: a plan rests on what the recording tells.
+/// Returns the movements to record next and their gain; empty without a plan. A gate that failed is mended first.
 [[nodiscard]] std::string next_sentence(const run::StudyResult& result, const std::vector<page::Gate>& gates);
 
 /// Returns "Trials with remarks: press (EMG clipped: BIC), lift (predicted worse than the others)." with at most `most`

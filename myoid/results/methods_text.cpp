@@ -203,7 +203,7 @@ std::string lag_text(const run::StudyResult& result, EmgLag lag) {
 }
 
 void say_muscles(const run::StudyResult& result, Writer& out) {
-  const study::IdentifySpec& spec = result.source.study.identify;
+  const bool of_model = study::takes_model_law(result.source.study);
   std::vector<std::string> names;
   for (const auto& muscle : result.fit_input.data.muscles) names.push_back(muscle.name);
   out.say(
@@ -211,9 +211,8 @@ void say_muscles(const run::StudyResult& result, Writer& out) {
       "and another one for lengthening, {}, and {}.",
       names.size() == 1 ? fmt::format("The muscle {}", listed(names)) : fmt::format("The muscles {}", listed(names)),
       names.size() == 1 ? "followed" : "each followed", out.cite("venture2006"),
-      study::takes_model_law(result.source.study) ? "pennation and passive force of the model"
-                                                  : "without pennation and passive force",
-      spec.elastic_tendon ? "a quasi-static elastic tendon" : "a rigid tendon");
+      of_model ? "pennation and passive force of the model" : "without pennation and passive force",
+      result.source.study.identify.elastic_tendon ? "a quasi-static elastic tendon" : "a rigid tendon");
   const IdentificationResult* torque = run::method_of(result.fit, fit::Method::torque);
   if (torque != nullptr) out.say("{}", lag_text(result, torque->lag));
 }

@@ -1,7 +1,6 @@
 #include "myoid/results/result_files.h"
 
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,13 +78,11 @@ ordered_json fault_json(const Remark& fault) {
           {"message", sentence(fault)}};
 }
 
-/// Returns the median over the frames of the root mean square of the markers' distances; empty without markers.
-std::optional<double> median_marker_error_m(const run::TrialResult& trial) {
-  if (!trial.motion.ik) return std::nullopt;
+/// Returns the median over the frames of the root mean square of the markers' distances; NaN without markers.
+double median_marker_error_m(const run::TrialResult& trial) {
   std::vector<double> rms_m;
-  for (const double value : trial.motion.ik->errors.column("marker_error_RMS"))
+  for (const double value : trial.motion.ik ? trial.motion.ik->errors.column("marker_error_RMS") : Eigen::VectorXd())
     if (std::isfinite(value)) rms_m.push_back(value);
-  if (rms_m.empty()) return std::nullopt;
   return math::median(std::move(rms_m));
 }
 

@@ -83,8 +83,7 @@ std::vector<std::string> assumptions(const run::StudyResult& result) {
 std::vector<page::Answer> answers(const run::StudyResult& result, const std::vector<page::Gate>& gates) {
   std::vector<page::Answer> list{{"Which numbers", fit_sentences(result, true), "numbers"},
                                  {"Which trials", trials_sentence(result), "trials"}};
-  if (std::string next = next_sentence(result, gates); !next.empty())
-    list.push_back({"What next", std::move(next), "next"});
+  if (auto next = next_sentence(result, gates); !next.empty()) list.push_back({"What next", next, "next"});
   list.push_back(
       {"Since an earlier session", "`myoid compare EARLIER THIS` compares the folders of both results.", ""});
   return list;

@@ -170,8 +170,8 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
 Reading reading_of(double value, const Eigen::VectorXd& draws, const Eigen::VectorXd& weight) {
   const double mean = draws.dot(weight);
   return {.value = value,
-          .low = weighted_quantile(draws, weight, 0.025),
-          .high = weighted_quantile(draws, weight, 0.975),
+          .low = std::min(value, weighted_quantile(draws, weight, 0.025)),
+          .high = std::max(value, weighted_quantile(draws, weight, 0.975)),
           .sd = std::sqrt((draws.array() - mean).square().matrix().dot(weight))};
 }
 
@@ -287,18 +287,6 @@ void compare_with_priors(const ParameterMap& map,
                                                  std::exp(strength))});
 }
 
-/// Returns the explained share of the torque's variance, of the worst joint.
-double least_r2(const Density& density, const Eigen::VectorXd& z, const NoiseValues& noise) {
-  const Likelihood::Residuals rows = density.likelihood().residuals(z, noise);
-  double least = 1.0;
-  for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint) {
-    if (joint.empty()) continue;
-    const double share = math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint));
-    if (!(share >= least)) least = share;  // NaN, too, where numbers explode
-  }
-  return least;
-}
-
 void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult& result) {
   const Density& density = *best.density;
   const ParameterMap& map = density.parameters();
@@ -307,31 +295,29 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
   result.message = best.mode.message;
   result.iterations = best.mode.iterations;
   result.samples_used = static_cast<int>(density.likelihood().row_count());
-  result.effective_samples = 0.0;
-  for (std::size_t r = 0; r < density.likelihood().runs().size(); ++r)
-    result.effective_samples +=
-        density.likelihood().row_weight(r) * static_cast<double>(density.likelihood().runs()[r].measured_nm.size());
+  const std::vector<TrialRun>& runs = density.likelihood().runs();
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    result.effective_samples += density.likelihood().row_weight(r) * static_cast<double>(runs[r].measured_nm.size());
   result.lag = best.lag;
   // The mean over several modes may lie between them, where nothing fits.
   const auto z = sample.z.leftCols(sample.of_best);
   const Eigen::VectorXd weight = sample.weight.head(sample.of_best) / sample.weight.head(sample.of_best).sum();
-  const Eigen::VectorXd mean = z * weight;
+  const Eigen::VectorXd mean = z * weight, mode = density.z_of(best.mode.x);
   const Eigen::MatrixXd off = z.colwise() - mean;
   result.covariance = off * weight.asDiagonal() * off.transpose();
-  // The mean predicts better than the mode where it fits as well. The mean of numbers that err together (a tendon, the
-  // fibers, their passive force) need not fit.
-  const Eigen::VectorXd mode = density.z_of(best.mode.x);
-  const double of_mean = least_r2(density, mean, noise), of_mode = least_r2(density, mode, noise);
-  const bool mean_fits = of_mean >= of_mode - kAsGood;
-  result.solution = mean_fits ? mean : mode;
-  result.r2 = mean_fits ? of_mean : of_mode;
+  // The mean predicts better than the mode. The mean of numbers that err together (tendon, fibers) need not fit.
+  const auto r2_at = [&](const Eigen::VectorXd& at) {
+    const Likelihood::Residuals rows = density.likelihood().residuals(at, noise);
+    return math::least_explained_share(rows.predicted_nm, rows.measured_nm, rows.rows_of_joint);
+  };
+  result.solution = r2_at(mean) >= r2_at(mode) - kAsGood ? mean : mode;
+  result.r2 = r2_at(result.solution);
   result.values = map.values(result.solution);
   for (const MuscleValues& values : result.values.muscles) result.muscles.push_back(hill_parameters(values));
   result.delay_s = result.values.channels.front()[kDelay];
   result.noise = noise;
   result.torque_sd_nm = std::exp(noise[kTorqueSd]);
   result.model_error = std::exp(noise[kModelErrorSize]);
-  const std::vector<TrialRun>& runs = density.likelihood().runs();
   result.envelope_variance.setZero(runs.front().envelope_sd.size());
   for (const TrialRun& run : runs) result.envelope_variance += run.envelope_sd.cwiseAbs2();
   result.envelope_variance *= std::exp(2.0 * noise[kEmgFactor]) / static_cast<double>(runs.size());
@@ -352,9 +338,7 @@ void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationRes
   result.draw_weights /= result.draw_weights.sum();
 }
 
-/// Puts the greatest voluntary torques before the muscles' numbers.
-/// Read at the mode, which fits the measured torque: the means of the marginals of numbers that err together (a tendon,
-/// the fibers, their force) need not.
+/// Puts the greatest voluntary torques, read at the mode, before the muscles' numbers.
 void add_voluntary(const Reporting& of,
                    const Candidate& best,
                    const NoiseValues& of_widths,
