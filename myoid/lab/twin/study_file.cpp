@@ -114,7 +114,8 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
   text +=
       "\n[identify]\n"
       "method = [\"paper\", \"torque\"]\n"
-      "muscles = \"all\"\n";
+      "muscles = \"all\"\n"
+      "muscle_law = \"paper\"           # neither pennation nor passive force\n";
   if (!recording.truth.arm && !recording.truth.departures.elastic())
     text += "tendon = \"rigid\"                 # as the truth is\n";
   text +=
