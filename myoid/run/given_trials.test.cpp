@@ -48,7 +48,8 @@ std::string given_study(const std::string& model, bool angles) {
   const StudyResult& run = Computed::get().result;
   std::string text = model +
                      "[motion]\nsmoothing = \"none\"\n[emg]\nkind = \"activation\"\n"
-                     "[identify]\nmethod = [\"torque\"]\ncross_validate = false\nnext_movements = 0\n";
+                     "[identify]\nmuscle_law = \"paper\"\nmethod = [\"torque\"]\ncross_validate = false\n"
+                     "next_movements = 0\n";
   if (!run.source.study.identify.elastic_tendon) text += "tendon = \"rigid\"\n";
   for (const fit::MuscleSetup& muscle : study::muscle_setups(run.source.study, *run.source.model)) {
     std::vector<std::string> start;
