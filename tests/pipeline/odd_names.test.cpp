@@ -149,7 +149,7 @@ TEST_F(OddNames, OfPersonsTrialsMusclesAndElectrodesGoThroughACohort) {
   }
   write_text(folder_ / "persons.csv", table);
   const std::string out = folder_ / "it's a {cohort} $(touch x)";
-  const Finished cohort = myoid({"cohort", folder_ / "persons.csv", "--out", out});
+  const Finished cohort = myoid({"cohort", folder_ / "persons.csv", "--out", out, "--keep", "all"});
   EXPECT_EQ(cohort.exit_code, 5) << cohort.err;
   expect_steady_terminal(cohort);
   const auto persons = read_rows(fs::path(out) / "persons.csv");
