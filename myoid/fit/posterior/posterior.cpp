@@ -30,7 +30,7 @@ constexpr Eigen::Index kKeptDraws = 1000;  // written draws
 constexpr Eigen::Index kGivenDraws = 1000;
 constexpr double kPriorReach = 1.96;  // standard deviations to either side hold 95 % of a prior
 constexpr std::uint64_t kGivenSeed = 21;
-constexpr double kAsGood = 0.02;  // share of the torque's variance
+constexpr double kAsGood = 1.0;  // share of the torque's variance
 
 /// Returns each source's share of every unknown's variance, by Laplace with Fisher's information.
 std::vector<SourceShares> source_shares(const Candidate& best) {
