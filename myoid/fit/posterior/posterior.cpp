@@ -30,7 +30,6 @@ constexpr Eigen::Index kKeptDraws = 1000;  // written draws
 constexpr Eigen::Index kGivenDraws = 1000;
 constexpr double kPriorReach = 1.96;  // standard deviations to either side hold 95 % of a prior
 constexpr std::uint64_t kGivenSeed = 21;
-constexpr double kAsGood = 1.0;  // share of the torque's variance
 
 /// Returns each source's share of every unknown's variance, by Laplace with Fisher's information.
 std::vector<SourceShares> source_shares(const Candidate& best) {
@@ -170,8 +169,8 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
 Reading reading_of(double value, const Eigen::VectorXd& draws, const Eigen::VectorXd& weight) {
   const double mean = draws.dot(weight);
   return {.value = value,
-          .low = std::min(value, weighted_quantile(draws, weight, 0.025)),
-          .high = std::max(value, weighted_quantile(draws, weight, 0.975)),
+          .low = weighted_quantile(draws, weight, 0.025),
+          .high = weighted_quantile(draws, weight, 0.975),
           .sd = std::sqrt((draws.array() - mean).square().matrix().dot(weight))};
 }
 
@@ -295,33 +294,33 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
   result.message = best.mode.message;
   result.iterations = best.mode.iterations;
   result.samples_used = static_cast<int>(density.likelihood().row_count());
-  const std::vector<TrialRun>& runs = density.likelihood().runs();
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    result.effective_samples += density.likelihood().row_weight(r) * static_cast<double>(runs[r].measured_nm.size());
+  result.effective_samples = 0.0;
+  for (std::size_t r = 0; r < density.likelihood().runs().size(); ++r)
+    result.effective_samples +=
+        density.likelihood().row_weight(r) * static_cast<double>(density.likelihood().runs()[r].measured_nm.size());
   result.lag = best.lag;
   // The mean over several modes may lie between them, where nothing fits.
   const auto z = sample.z.leftCols(sample.of_best);
   const Eigen::VectorXd weight = sample.weight.head(sample.of_best) / sample.weight.head(sample.of_best).sum();
-  const Eigen::VectorXd mean = z * weight, mode = density.z_of(best.mode.x);
-  const Eigen::MatrixXd off = z.colwise() - mean;
+  result.solution = z * weight;
+  const Eigen::MatrixXd off = z.colwise() - result.solution;
   result.covariance = off * weight.asDiagonal() * off.transpose();
-  // The mean predicts better than the mode. The mean of numbers that err together (tendon, fibers) need not fit.
-  const auto r2_at = [&](const Eigen::VectorXd& at) {
-    const Likelihood::Residuals rows = density.likelihood().residuals(at, noise);
-    return math::least_explained_share(rows.predicted_nm, rows.measured_nm, rows.rows_of_joint);
-  };
-  result.solution = r2_at(mean) >= r2_at(mode) - kAsGood ? mean : mode;
-  result.r2 = r2_at(result.solution);
   result.values = map.values(result.solution);
   for (const MuscleValues& values : result.values.muscles) result.muscles.push_back(hill_parameters(values));
   result.delay_s = result.values.channels.front()[kDelay];
   result.noise = noise;
   result.torque_sd_nm = std::exp(noise[kTorqueSd]);
   result.model_error = std::exp(noise[kModelErrorSize]);
+  const std::vector<TrialRun>& runs = density.likelihood().runs();
   result.envelope_variance.setZero(runs.front().envelope_sd.size());
   for (const TrialRun& run : runs) result.envelope_variance += run.envelope_sd.cwiseAbs2();
   result.envelope_variance *= std::exp(2.0 * noise[kEmgFactor]) / static_cast<double>(runs.size());
   result.emg_cv = std::sqrt(result.envelope_variance.mean());
+  const Likelihood::Residuals rows = density.likelihood().residuals(result.solution, noise);
+  for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint) {
+    if (!joint.empty())
+      result.r2 = std::min(result.r2, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
+  }
 }
 
 /// Keeps at most kKeptDraws draws as values, evenly spaced among all draws.
@@ -338,7 +337,9 @@ void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationRes
   result.draw_weights /= result.draw_weights.sum();
 }
 
-/// Puts the greatest voluntary torques, read at the mode, before the muscles' numbers.
+/// Puts the greatest voluntary torques before the muscles' numbers.
+/// Read at the mode, which fits the measured torque: the means of the marginals of numbers that err together (a tendon,
+/// the fibers, their force) need not.
 void add_voluntary(const Reporting& of,
                    const Candidate& best,
                    const NoiseValues& of_widths,

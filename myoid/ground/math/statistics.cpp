@@ -93,18 +93,6 @@ double explained_share(const Eigen::Ref<const Eigen::VectorXd>& predicted,
   return total > 0.0 ? 1.0 - (predicted - measured).squaredNorm() / total : 1.0;
 }
 
-double least_explained_share(const Eigen::Ref<const Eigen::VectorXd>& predicted,
-                             const Eigen::Ref<const Eigen::VectorXd>& measured,
-                             std::span<const std::vector<Eigen::Index>> groups) {
-  double least = 1.0;
-  for (const std::vector<Eigen::Index>& rows : groups) {
-    if (rows.empty()) continue;
-    const double share = explained_share(predicted(rows), measured(rows));
-    if (!(share >= least)) least = share;
-  }
-  return least;
-}
-
 std::vector<Eigen::Index> rising_order(const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -49,11 +48,6 @@ namespace myoid::inline ground::math {
 /// undefined: the sum of the values' squares stands in its place. 1 for nothing but zeros.
 [[nodiscard]] double explained_share(const Eigen::Ref<const Eigen::VectorXd>& predicted,
                                      const Eigen::Ref<const Eigen::VectorXd>& measured);
-
-/// Returns the least of the explained shares of groups of rows; NaN if one is NaN, 1 without rows.
-[[nodiscard]] double least_explained_share(const Eigen::Ref<const Eigen::VectorXd>& predicted,
-                                           const Eigen::Ref<const Eigen::VectorXd>& measured,
-                                           std::span<const std::vector<Eigen::Index>> groups);
 
 /// Returns the indices of the values from the least to the greatest; equal values keep their order.
 [[nodiscard]] std::vector<Eigen::Index> rising_order(const Eigen::Ref<const Eigen::VectorXd>& values);

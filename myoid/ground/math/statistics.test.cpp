@@ -114,14 +114,6 @@ TEST(ExplainedShare, IsOneMinusTheErrorsShareOfTheVariance) {
   EXPECT_LT(explained_share(Eigen::Vector3d(7, 4, 1), Eigen::Vector3d(1, 4, 7)), 0.0);
 }
 
-TEST(ExplainedShare, LeastOfGroupsIsThatOfTheWorst) {
-  const Eigen::Vector4d measured(1, 3, 1, 3), predicted(1, 3, 2, 2);
-  const std::vector<std::vector<Eigen::Index>> groups{{0, 1}, {}, {2, 3}};
-  EXPECT_DOUBLE_EQ(least_explained_share(predicted, measured, groups), 0.0);
-  EXPECT_EQ(least_explained_share(predicted, measured, {}), 1.0);
-  EXPECT_TRUE(std::isnan(least_explained_share(predicted * std::nan(""), measured, groups)));
-}
-
 TEST(ExplainedShare, OfAConstantIsAboutZero) {
   EXPECT_DOUBLE_EQ(explained_share(Eigen::Vector2d(9, 11), Eigen::Vector2d(10, 10)), 0.99);
   EXPECT_EQ(explained_share(Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()), 1.0);
