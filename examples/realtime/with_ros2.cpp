@@ -1,7 +1,7 @@
 // Joint torques as a node of ROS 2. The topic `envelope` has the envelope of each channel; `joint_states` has angles
 // [rad] and speeds [rad/s] in the order of the joints. `torque` [N m] leaves with each envelope.
 //   ros2 run PACKAGE with_ros2 --ros-args -p results:=RESULTS
-// Of a package whose CMakeLists.txt has find_package(rclcpp), find_package(sensor_msgs), find_package(std_msgs),
+// The package's CMakeLists.txt has find_package(rclcpp), find_package(sensor_msgs), find_package(std_msgs),
 // find_package(Myoid) and target_link_libraries(with_ros2 Myoid::c).
 #include <memory>
 #include <stdexcept>

@@ -28,7 +28,7 @@ void write_figure(const Figure& figure, const std::filesystem::path& directory);
 
 /// Writes report.html (one file that works offline: style, drawings and the workbench, if there is
 /// one, inside), figures/ID.svg and ID.csv, tables/ID.csv and report.json into the folder; each
-/// whole or not at all. Of `tables` only report.json is kept, of `page` report.html, too. Calls `validate`.
+/// whole or not at all. Kept::tables writes report.json alone, Kept::page report.html, too. Calls `validate`.
 void write_report(Report report,
                   const std::filesystem::path& directory,
                   const Workbench* workbench = nullptr,

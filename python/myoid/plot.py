@@ -16,7 +16,7 @@ from .results import VERDICT_COLORS, PredictResult, Result, Trial
 from .series import Table, TimeSeries, _package
 
 if TYPE_CHECKING:
-    from .commands import SweepResult
+    from .stages import SweepResult
 
 __all__ = ["forest", "curves", "torque", "carpet"]
 

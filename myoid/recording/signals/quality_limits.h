@@ -2,7 +2,7 @@
 
 namespace myoid::recording {
 
-/// Of markers.
+/// Limits hold for markers.
 struct MarkerLimits {
   double gap_s = 0.2;           ///< Longest gap that a spline may fill.
   double missing_share = 0.25;  ///< Share of a marker's frames.
@@ -12,7 +12,7 @@ struct MarkerLimits {
   double rigid_share = 0.15;    ///< Change of a distance relative to itself.
 };
 
-/// Of one channel of EMG.
+/// Limits hold for one channel of EMG.
 struct EmgLimits {
   double amplitude_v = 10.0;       ///< Skin gives 10 mV at most, converters take +-10 V.
   double raw_hz = 30.0;            ///< Crossings of the median per second: EMG that has fewer and is never
@@ -33,7 +33,7 @@ struct EmgLimits {
   double rectified_share = 0.02;   ///< Samples near zero of rectified EMG.
 };
 
-/// Of a channel that holds no EMG.
+/// A channel beyond these limits holds no EMG.
 struct NoiseLimits {
   double flatness = 0.8;  ///< Bandwidth over that of white noise; EMG has 0.2 to 0.65.
   double rms_v = 1e-5;    ///< No amplifier is so noisy.
@@ -41,7 +41,7 @@ struct NoiseLimits {
   double level = 2.0;     ///< Factor between the level of such noise and the channel's rest.
 };
 
-/// Of the levels of one channel over the trials.
+/// Limits hold for the levels of one channel over the trials.
 struct LevelLimits {
   double over_reference = 1.1;         ///< A movement's effort over that of the maximal contraction.
   double lone_reference = 3.0;         ///< Greatest half second over the next: an effort lasts, or comes again.
@@ -53,7 +53,7 @@ struct LevelLimits {
   double gain_alike = 3.0;  ///< Such ratios differ by less than this factor.
 };
 
-/// Of clocks.
+/// Limits hold for clocks.
 struct ClockLimits {
   double uneven_share = 0.05;  ///< Standard deviation of the intervals over their mean.
   /// Least lead of EMG over motion; in people the lead is 10 to 150 ms.
@@ -62,7 +62,7 @@ struct ClockLimits {
   double drift_s = 0.05;          ///< Change of that lead from the first to the last third.
 };
 
-/// Of force plates.
+/// Limits hold for force plates.
 struct PlateLimits {
   double offset_n = 10.0;  ///< Vertical force on an empty plate.
   double loaded_n = 50.0;  ///< Vertical force from which the center of pressure is checked.

@@ -25,8 +25,8 @@ inline constexpr std::size_t kFewestForOutliers = 5;
 
 /// The persons side by side: quality first, then each parameter with a column per muscle, then the
 /// outliers, then mean and spread. Numbers that a recording does not determine (verdict other than
-/// identified, reproducible or weak) are drawn pale and not counted. Of many persons 60 are drawn, and the first 200
-/// outliers are named; medians, spreads and means are those of all.
+/// identified, reproducible or weak) are drawn pale and not counted. The page draws 60 persons at most, and names the
+/// first 200 outliers; medians, spreads and means are those of all persons.
 struct GroupPage {
   page::Section persons;  ///< Strip plots and summary, with ids.
   std::vector<Outlier> outliers;

@@ -195,7 +195,7 @@ class Draft {
       for (std::string& name : f.markers.names) {
         if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
       }
-      // Of another model no marker tells the person from a box.
+      // No marker of an unknown set shows whether it lies on the person or on a box.
       if (known >= 3) f.loads.object_markers = object_markers(f.markers, model_);
       for (const body::PlacedMarker& pair : body::markers_by_place(model_, f.markers)) {
         const bool taken = std::ranges::any_of(elsewhere_, [&](const auto& p) { return p.second == pair.wanted; });

@@ -5,7 +5,7 @@
 
 namespace myoid::study {
 
-/// Of the model, its muscles and what a person weighs.
+/// Limits hold for the model, its muscles and the weight of a person.
 struct ModelLimits {
   double least_arm_m = 1e-4;  ///< A muscle with smaller moment arms does not cross the joint.
   double shortest_fiber = 0.1, longest_fiber = 3.0;
@@ -14,7 +14,7 @@ struct ModelLimits {
   double other_height = 0.05;  ///< Likewise of a body height.
 };
 
-/// Of EMG.
+/// Limits hold for EMG.
 struct EmgLimits {
   double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
   double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.
@@ -24,7 +24,7 @@ struct EmgLimits {
   double flat_activation = 0.02;      ///< No muscle is active below this activation.
 };
 
-/// Of the clocks and lengths of recordings.
+/// Limits hold for the clocks and lengths of recordings.
 struct ClockLimits {
   double same_samples = 0.1;  ///< Share of equal samples from which two recordings are one.
   double pause_s = 0.5;       ///< A longer pause of a clock is not bridged.
@@ -39,7 +39,7 @@ struct ClockLimits {
   double alone_longer = 1.5;     ///< Ratio of durations of EMG and motion in a single trial.
 };
 
-/// Of angles and torques, dynamometers and passive trials.
+/// Limits hold for angles and torques, dynamometers and passive trials.
 struct JointLimits {
   double angle_beyond_deg = 10.0;  ///< Joints go some degrees beyond an author's range.
   double angle_share = 0.5;        ///< Share of samples outside that means another convention.
@@ -59,7 +59,7 @@ struct JointLimits {
   double resting_share = 0.25;  ///< Share of the muscles' strength that no relaxed joint resists.
 };
 
-/// Of markers.
+/// Limits hold for markers.
 struct MarkerLimits {
   double trunk_across = 0.5;   ///< Cosine between trunk and vertical, 60 degrees.
   double trunk_upright = 0.8;  ///< Cosine of 37 degrees.
@@ -70,7 +70,7 @@ struct MarkerLimits {
   double shortest_segment_m = 0.10;  ///< Skin moves markers by 1 to 2 cm: shorter lengths tell no person.
 };
 
-/// Of contacts with the ground.
+/// Limits hold for contacts with the ground.
 struct ContactLimits {
   double plate_far_m = 0.3;      ///< A marker farther from a contact does not stand on it.
   double off_body_m = 0.2;       ///< A foot is 0.27 m long: half of it, and the error of markers.
@@ -90,7 +90,7 @@ struct ContactLimits {
   double two_steps_m = 0.5;      ///< The lower foot is two steps of stairs below the plate.
 };
 
-/// Of the weight that forces on the ground carry.
+/// Limits hold for the weight that forces on the ground carry.
 struct WeightLimits {
   double bears = 0.5;           ///< Share of the weight that the forces under the body carry.
   double bears_nothing = 0.05;  ///< Share of the weight below which the forces carry nothing.
