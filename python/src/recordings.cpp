@@ -12,6 +12,7 @@
 #include "myoid/program/commands/convert.h"
 #include "myoid/program/commands/convert_parts.h"
 #include "myoid/program/commands/info.h"
+#include "myoid/program/commands/stage_input.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
@@ -175,7 +176,8 @@ py::object convert(py::dict given) {
   (void)work.run([&] {
     results::check_mat_file(o.out);
     check_output(o.out, {o.in}, o.overwrite);
-    results::write_results_mat(o.in, o.out);
+    program::Remarks remarks(o.call);
+    program::warn_of_repairs(o.in, results::write_results_mat(o.in, o.out), remarks);
     return true;
   });
   return py::cast(std::vector<std::string>{o.out});

@@ -10,6 +10,7 @@
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/option_checks.h"
 #include "myoid/program/cli/say.h"
+#include "myoid/program/commands/stage_input.h"
 #include "myoid/results/mat/results_mat.h"
 
 namespace myoid::program {
@@ -43,7 +44,8 @@ void convert_to_mat(const CLI::App& command, const Context& context, const progr
   warn_of_idle_options(command, context, {"--overwrite"}, "a MATLAB file");
   results::check_mat_file(o.out);
   context.prepare_file(o.out, {o.in});
-  results::write_results_mat(o.in, o.out);
+  program::Remarks remarks(context.call());
+  program::warn_of_repairs(o.in, results::write_results_mat(o.in, o.out), remarks);
   context.print({{"files", {o.out}}}, o.out);
 }
 

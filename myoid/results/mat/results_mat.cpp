@@ -78,8 +78,10 @@ MatStruct draws_of(const fs::path& path, const CsvTable& parameters, const fs::p
   return {{{"names", names}, {"units", name_units}, {"values", values}, {"weights", column(table, weight)}}};
 }
 
-MatStruct series_of(const fs::path& path) {
+/// Returns the series of a storage file; `repairs` gets those of its reader.
+MatStruct series_of(const fs::path& path, std::vector<Repair>* repairs = nullptr) {
   const recording::Storage file = recording::read_storage(path);
+  if (repairs != nullptr) *repairs = file.repairs;
   MatTexts names{.row = true}, units{.row = true};
   for (const Channel& channel : file.data.channels()) {
     names.texts.push_back(channel.name);
@@ -189,11 +191,11 @@ void add_run(const fs::path& folder, MatStruct& variables) {
 
 }  // namespace
 
-MatStruct matlab_results(const fs::path& results) {
+MatStruct matlab_results(const fs::path& results, std::vector<Repair>* repairs) {
   if (!fs::is_directory(results)) {
     if (results.extension() == ".csv")
       return {{{"parameters", std::vector<MatStruct>{parameters_of(recording::read_csv_table(results))}}}};
-    return {{{"series", std::vector<MatStruct>{series_of(results)}}}};
+    return {{{"series", std::vector<MatStruct>{series_of(results, repairs)}}}};
   }
   const fs::path file = results / "parameters.csv";
   const CsvTable parameters = recording::read_csv_table(file);
@@ -221,6 +223,10 @@ void check_mat_file(const fs::path& file) {
   require_matio();
 }
 
-void write_results_mat(const fs::path& results, const fs::path& file) { write_mat_file(file, matlab_results(results)); }
+std::vector<Repair> write_results_mat(const fs::path& results, const fs::path& file) {
+  std::vector<Repair> repairs;
+  write_mat_file(file, matlab_results(results, &repairs));
+  return repairs;
+}
 
 }  // namespace myoid::results

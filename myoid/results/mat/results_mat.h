@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "myoid/ground/files/text_file.h"
 #include "myoid/results/mat/mat_file.h"
 
 namespace myoid::results {
@@ -17,12 +19,13 @@ namespace myoid::results {
 ///   draws       of posterior.csv: names, units, values (draws x names), weights
 ///   run         program, version, command and study of run.json
 ///
-/// Variables whose files are not there are left out. Throws ReadError for a damaged file.
-[[nodiscard]] MatStruct matlab_results(const std::filesystem::path& results);
+/// Variables whose files are not there are left out. `repairs` gets those of a storage file. Throws ReadError for a
+/// damaged file.
+[[nodiscard]] MatStruct matlab_results(const std::filesystem::path& results, std::vector<Repair>* repairs = nullptr);
 
 /// Throws InvalidInput, before anything is computed, if `file` does not end in .mat, or as `require_matio`.
 void check_mat_file(const std::filesystem::path& file);
-/// Writes the results in a folder, or of one file, as a MATLAB file.
-void write_results_mat(const std::filesystem::path& results, const std::filesystem::path& file);
+/// Writes the results in a folder, or of one file, as a MATLAB file; returns the repairs of a storage file.
+std::vector<Repair> write_results_mat(const std::filesystem::path& results, const std::filesystem::path& file);
 
 }  // namespace myoid::results

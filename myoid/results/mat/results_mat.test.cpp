@@ -89,6 +89,17 @@ TEST_F(ResultsMat, NamesOfFieldsAreThoseOfMatlab) {
   EXPECT_EQ(names.size(), 3U);
 }
 
+TEST_F(ResultsMat, RepairsOfAStorageFileAreReturned) {
+  const std::string head = "id\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\ntime\tknee\n0\t1\n1\t2";
+  std::vector<Repair> repairs;
+  write("whole.sto", head + "\n");
+  (void)matlab_results(folder / "whole.sto", &repairs);
+  EXPECT_TRUE(repairs.empty());
+  write("cut.sto", head);
+  (void)matlab_results(folder / "cut.sto", &repairs);
+  EXPECT_FALSE(repairs.empty());
+}
+
 TEST_F(ResultsMat, RemarksAreColumnsAndADamagedRecordIsNamed) {
   write("run.json",
         R"({"program": "myoid", "version": "1", "command": "c", "study": "s", "faults": [],
