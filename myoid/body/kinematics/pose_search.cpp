@@ -71,7 +71,7 @@ bool PoseSequence::search_limb(std::size_t limb, std::size_t frame) {
   const double before = fit_.work() + limbs_[limb]->work();
   bool better = false;
   for (int round = 0; round < kRounds; ++round) {
-    fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+    aim_at(frame);
     const Eigen::VectorXd q = poses_[frame].q;
     (void)fit_.place(q);
     limbs_[limb]->stand(fit_, q, markers_, static_cast<Eigen::Index>(frame));
@@ -91,11 +91,11 @@ bool PoseSequence::search_limb(std::size_t limb, std::size_t frame) {
 void PoseSequence::search_valley(std::size_t limb, std::size_t frame) {
   const double part = parts_(static_cast<Eigen::Index>(frame), static_cast<Eigen::Index>(limb));
   if (part < kJumped_m2) return;
-  fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+  aim_at(frame);
   const Eigen::VectorXd q = poses_[frame].q;
   const std::vector<Eigen::Index> coordinates = limbs_[limb]->turning();
   for (const Eigen::VectorXd& start : valley_starts(model_, q, {coordinates, fit_.curvature(q, coordinates), part})) {
-    fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+    aim_at(frame);
     PoseFit::Search search = fit_.begin(start);
     fit_.advance(search, kValleySteps);
     if (search.pose.cost > poses_[frame].cost + kHopeless * part) continue;
@@ -118,7 +118,7 @@ void PoseSequence::try_roots(std::size_t frame) {
 
 /// Returns the minimum near a start, with angles near the frame's; nothing if the search fails or an angle strays.
 std::optional<PoseFit::Pose> PoseSequence::minimum_near(std::size_t frame, const Eigen::VectorXd& start) {
-  fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+  aim_at(frame);
   PoseFit::Pose pose = fit_.solve(start);
   if (!pose.converged) return std::nullopt;
   fit_.unwind(pose);
@@ -146,7 +146,7 @@ PoseSequence::Stretch PoseSequence::follow(std::size_t frame, const PoseFit::Pos
       all.poses.push_back({start, 0.0, true});
       continue;
     }
-    fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+    aim_at(frame);
     PoseFit::Pose other = fit_.solve(start);
     const PoseFit::Pose& here = poses_[frame];
     if (same_posture(other, here)) return all;
@@ -175,7 +175,7 @@ bool PoseSequence::adopt(std::size_t frame, PoseFit::Pose pose) {
   const bool clear = clearly_better(pose, poses_[frame]) || before.clear || after.clear;
   if (!clear && gain + before.gain + after.gain <= jumps) return false;
   const auto keep = [&](std::size_t f, PoseFit::Pose p) {
-    fit_.set_targets(markers_, static_cast<Eigen::Index>(f));
+    aim_at(f);
     set_pose(f, std::move(p));
   };
   for (std::size_t k = 0; k < before.poses.size(); ++k) keep(frame - 1 - k, std::move(before.poses[k]));

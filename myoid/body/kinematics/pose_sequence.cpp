@@ -73,6 +73,13 @@ void PoseSequence::solve() {
   search_suspicious();
 }
 
+/// Gives `fit_` the targets of a frame. The slopes of its latest step last while the frame stays.
+void PoseSequence::aim_at(std::size_t frame) {
+  if (aimed_ == frame) return;
+  fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+  aimed_ = frame;
+}
+
 PoseFit::Pose PoseSequence::solve_from(const Eigen::VectorXd& start) {
   return options_.range_barrier > 0.0 ? fit_.solve_inside(start, options_.range_barrier) : fit_.solve(start);
 }
@@ -131,7 +138,7 @@ Eigen::VectorXd PoseSequence::limb_distances() const {
 void PoseSequence::solve_frame(std::size_t frame) {
   solved_ = frame + 1;
   const Eigen::VectorXd before = frame > 0 ? poses_[frame - 1].q : model_.default_q();
-  fit_.set_targets(markers_, static_cast<Eigen::Index>(frame));
+  aim_at(frame);
   if (fit_.seen_count() == 0) {
     poses_[frame] = {before, 0.0, true};
     return;

@@ -47,6 +47,7 @@ class PoseSequence {
     bool jumps = false;                ///< The posture jumps behind the last frame.
   };
 
+  void aim_at(std::size_t frame);
   void solve_frame(std::size_t frame);
   [[nodiscard]] PoseFit::Pose first_pose();
   [[nodiscard]] PoseFit::Pose next_pose(const Eigen::VectorXd& before);
@@ -76,9 +77,10 @@ class PoseSequence {
   std::vector<std::unique_ptr<LimbFit>> limbs_;
   std::vector<PoseFit::Pose> poses_;
   std::vector<bool> seen_;
-  Eigen::MatrixXd parts_;      ///< Per frame and limb: the limb's own part of 2 J.
-  Eigen::VectorXd distances_;  ///< Mean square distance of each limb's markers in the latest frame.
-  std::size_t solved_ = 0;     ///< Frames.
+  Eigen::MatrixXd parts_;             ///< Per frame and limb: the limb's own part of 2 J.
+  Eigen::VectorXd distances_;         ///< Mean square distance of each limb's markers in the latest frame.
+  std::size_t solved_ = 0;            ///< Frames.
+  std::optional<std::size_t> aimed_;  ///< Frame of the targets of `fit_`.
   double cost_before_;
   double searched_ = 0.0;  ///< Work of searches.
 };
