@@ -19,14 +19,19 @@ std::string csv_number(const std::vector<double>& values, std::size_t k) {
 
 }  // namespace
 
-std::string table_csv(const Table& table) {
+std::string csv_line(const std::vector<std::string>& cells) {
   std::string text;
-  const auto add = [&](const std::vector<Cell>& row) {
-    for (std::size_t c = 0; c < row.size(); ++c) text += (c == 0 ? "" : ",") + csv_cell(row[c].text);
-    text += '\n';
-  };
-  add(text_row(table.columns));
-  for (const std::vector<Cell>& row : table.rows) add(row);
+  for (std::size_t c = 0; c < cells.size(); ++c) text += (c == 0 ? "" : ",") + csv_cell(cells[c]);
+  return text + '\n';
+}
+
+std::string table_csv(const Table& table) {
+  std::string text = csv_line(table.columns);
+  for (const std::vector<Cell>& row : table.rows) {
+    std::vector<std::string> texts;
+    for (const Cell& cell : row) texts.push_back(cell.text);
+    text += csv_line(texts);
+  }
   return text;
 }
 

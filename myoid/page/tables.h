@@ -11,6 +11,8 @@ namespace myoid::page {
 /// Returns the table as comma-separated values (RFC 4180: CRLF is not used, quotes where needed); a
 /// row of column names first. Badges are left out.
 [[nodiscard]] std::string table_csv(const Table& table);
+/// Returns one row of it, with the end of the line.
+[[nodiscard]] std::string csv_line(const std::vector<std::string>& cells);
 
 /// Returns a table's row of plain texts.
 [[nodiscard]] std::vector<Cell> text_row(std::vector<std::string> texts);

@@ -67,30 +67,45 @@ page::Table persons_table(const Manifest& manifest, const std::vector<PersonOutc
   return table;
 }
 
-/// Adds the rows of parameters.csv behind the person's own columns. A column that only some persons' files have stays
-/// empty for the others.
-void add_parameters(page::Table& table, const Person& person, const CsvTable& parameters) {
-  if (table.columns.empty()) {
-    table.columns.emplace_back("person");
-    for (const auto& [name, text] : person.facts) table.columns.push_back(name);
+/// Adds the columns of a person's parameters.csv that are not there yet behind the first `own` columns.
+void add_columns(std::vector<std::string>& columns, std::size_t own, const CsvTable& parameters) {
+  for (const std::string& name : parameters.names) {
+    const auto behind_own = columns.begin() + static_cast<std::ptrdiff_t>(own);
+    if (std::find(behind_own, columns.end(), name) == columns.end()) columns.push_back(name);
   }
-  const std::size_t own = 1 + person.facts.size();
+}
+
+/// Returns the rows of a person's parameters.csv behind the person's own columns. A column that the file does not have
+/// stays empty.
+std::string rows_of(const Person& person, const CsvTable& parameters, const std::vector<std::string>& columns) {
+  const std::vector<std::string> own = own_cells(person);
   std::vector<std::size_t> place;
   for (const std::string& name : parameters.names) {
-    const auto behind_own = table.columns.begin() + static_cast<std::ptrdiff_t>(own);
-    auto found = std::find(behind_own, table.columns.end(), name);
-    if (found == table.columns.end()) {
-      found = table.columns.insert(table.columns.end(), name);
-      for (std::vector<Cell>& row : table.rows) row.emplace_back();
-    }
-    place.push_back(static_cast<std::size_t>(found - table.columns.begin()));
+    const auto found = std::find(columns.begin() + static_cast<std::ptrdiff_t>(own.size()), columns.end(), name);
+    place.push_back(static_cast<std::size_t>(found - columns.begin()));
   }
+  std::string text;
   for (const auto& row : parameters.rows) {
-    std::vector<std::string> texts = own_cells(person);
-    texts.resize(table.columns.size());
-    for (std::size_t i = 0; i < row.size(); ++i) texts[place[i]] = row[i];
-    table.rows.push_back(page::text_row(std::move(texts)));
+    std::vector<std::string> texts = own;
+    texts.resize(columns.size());
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (place[i] < texts.size()) texts[place[i]] = row[i];
+    text += page::csv_line(texts);
   }
+  return text;
+}
+
+/// Writes cohort.csv without holding the rows of more than one person.
+void write_numbers(const Group& group, const Manifest& manifest, const fs::path& folder) {
+  FileInParts file(folder / "cohort.csv");
+  file.append(page::csv_line(group.columns));
+  for (std::size_t i = 0; i < manifest.persons.size(); ++i) {
+    const Person& person = manifest.persons[i];
+    if (!has_results(group.outcomes[i])) continue;
+    const CsvTable parameters = recording::read_csv_table(person_folder(folder, person) / "parameters.csv");
+    file.append(rows_of(person, parameters, group.columns));
+  }
+  file.finish();
 }
 
 /// Returns the first rows of the persons for the page, those without results before the others.
@@ -143,14 +158,16 @@ std::string participants_tsv(const Manifest& manifest) {
 
 Group read_group(const Manifest& manifest, const fs::path& folder) {
   Group group;
-  group.parameters.id = "cohort";
+  group.columns = {"person"};
+  for (const std::string& name : manifest.fact_names()) group.columns.push_back(name);
+  const std::size_t own = group.columns.size();
   std::vector<GroupPerson> persons;
   for (const Person& person : manifest.persons) {
     const fs::path place = person_folder(folder, person);
     group.outcomes.push_back({.person = person.name, .outcome = read_outcome(place)});
     if (!has_results(group.outcomes.back())) continue;
     const CsvTable parameters = recording::read_csv_table(place / "parameters.csv");
-    add_parameters(group.parameters, person, parameters);
+    add_columns(group.columns, own, parameters);
     persons.push_back({.name = person.name,
                        .page = (person_folder("", person) / "report.html").generic_string(),
                        .numbers = group_numbers(parameters),
@@ -173,7 +190,7 @@ void write_group(const Group& group, const Manifest& manifest, const fs::path& f
       recording::write_bids_derivative(person_folder(folder, person), folder, person.label);
   }
   // Last: a workflow takes this file as the end of the step.
-  write_file(folder / "cohort.csv", page::table_csv(group.parameters));
+  write_numbers(group, manifest, folder);
 }
 
 }  // namespace myoid::results

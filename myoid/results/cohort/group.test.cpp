@@ -8,6 +8,7 @@
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/result_folder.h"
 #include "myoid/ground/files/text_file.h"
+#include "myoid/recording/tables/csv_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -38,15 +39,22 @@ Manifest three(const fs::path& folder) {
   return manifest;
 }
 
+/// Writes the group and returns its cohort.csv.
+recording::CsvTable written_numbers(const Manifest& manifest, const fs::path& folder) {
+  ResultFolder held(folder, "myoid cohort", "cohort", true);
+  write_group(read_group(manifest, folder), manifest, folder);
+  return recording::read_csv_table(folder / "cohort.csv");
+}
+
 TEST(Group, TheTableHasEveryNumberOfEveryPersonBehindThePersonsOwnColumns) {
   const test::TemporaryFolder folder;
-  const Group group = read_group(three(folder.path()), folder.path());
-  ASSERT_EQ(group.parameters.rows.size(), 4U);
-  EXPECT_EQ(group.parameters.columns[0], "person");
-  EXPECT_EQ(group.parameters.columns[1], "group");
-  EXPECT_EQ(group.parameters.columns[2], "muscle");
-  EXPECT_EQ(group.parameters.rows[3][0].text, "B");
-  EXPECT_EQ(group.parameters.rows[3][7].text, "140");
+  const recording::CsvTable numbers = written_numbers(three(folder.path()), folder.path());
+  ASSERT_EQ(numbers.rows.size(), 4U);
+  EXPECT_EQ(numbers.names[0], "person");
+  EXPECT_EQ(numbers.names[1], "group");
+  EXPECT_EQ(numbers.names[2], "muscle");
+  EXPECT_EQ(numbers.rows[3][0], "B");
+  EXPECT_EQ(numbers.rows[3][7], "140");
 }
 
 TEST(Group, AColumnThatOnlySomePersonsHaveStandsUnderItsName) {
@@ -55,16 +63,17 @@ TEST(Group, AColumnThatOnlySomePersonsHaveStandsUnderItsName) {
   write_file(person_folder(folder.path(), manifest.persons[1]) / "parameters.csv",
              "muscle,parameter,unit,method,case,estimate,given_estimate,ci_low,ci_high,verdict,reason\n"
              "BIC,max_isometric_force,N,torque,both,140,135,120,160,weak,why\n");
-  const Group group = read_group(manifest, folder.path());
+  const recording::CsvTable numbers = written_numbers(manifest, folder.path());
   const auto cell = [&](std::size_t row, const char* name) {
-    const auto& names = group.parameters.columns;
-    return group.parameters.rows[row].at(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())).text;
+    const auto found = std::ranges::find(numbers.names, name);
+    return numbers.rows[row].at(static_cast<std::size_t>(found - numbers.names.begin()));
   };
   EXPECT_EQ(cell(0, "given_estimate"), "");
   EXPECT_EQ(cell(0, "reason"), "a, b");
   EXPECT_EQ(cell(3, "given_estimate"), "135");
   EXPECT_EQ(cell(3, "ci_low"), "120");
   EXPECT_EQ(cell(3, "reason"), "why");
+  const Group group = read_group(manifest, folder.path());
   EXPECT_EQ(group.page.sections[0].grids.at(0).rows[1].cells[0].given_value, 135.0);
 }
 
