@@ -23,12 +23,11 @@ void find_angles(const char* model, const char* markers, const char* motion) {
 
 // Inverse dynamics: the torque that this motion takes. Two differentiations amplify noise, so the angles are smoothed.
 void find_torque(const char* model, const char* motion, double held_mass_kg) {
-  const myoid::program::IdResult id = myoid::program::id({.model = model,
-                                                          .motion = motion,
-                                                          .cutoff_hz = 6.0,
-                                                          .held_mass_kg = held_mass_kg,
-                                                          .held_body = "forearm_hand",
-                                                          .held_at_m = {0.0, -0.337, 0.0}});
+  const myoid::program::IdResult id =
+      myoid::program::id({.model = model,
+                          .motion = motion,
+                          .cutoff_hz = 6.0,
+                          .held = {.mass_kg = held_mass_kg, .body = "forearm_hand", .at_m = {0.0, -0.337, 0.0}}});
   const Eigen::VectorXd elbow_nm = id.forces.column("elbow_flexion_moment");
   std::printf("mean torque: %.4f N m\n", elbow_nm.mean());
   std::printf("greatest torque: %.4f N m\n", elbow_nm.maxCoeff());

@@ -72,6 +72,11 @@ std::string refusal(const Setting& setting, const std::string& word) {
                      named.size() > 1 ? "one of " : "", fmt::join(named, ", "));
 }
 
+bool is_number(const Setting& setting) {
+  return setting.kind == SettingKind::number || setting.kind == SettingKind::count ||
+         setting.kind == SettingKind::numbers;
+}
+
 bool SettingVisitor::flag(std::string_view key, bool& value, const About& about) {
   return met({key, SettingKind::flag, about}, value, set_as<bool>(value));
 }
@@ -102,16 +107,6 @@ bool SettingVisitor::number(std::string_view key, std::optional<double>& value, 
              });
 }
 
-bool SettingVisitor::count(std::string_view key, int& value, const About& about) {
-  return met({key, SettingKind::count, about}, static_cast<double>(value),
-             [&](SettingValue given) { value = static_cast<int>(std::get<double>(given)); });
-}
-
-bool SettingVisitor::count(std::string_view key, std::optional<int>& value, const About& about) {
-  return met({key, SettingKind::count, about}, value ? SettingValue(static_cast<double>(*value)) : SettingValue(),
-             [&](SettingValue given) { value = static_cast<int>(std::get<double>(given)); });
-}
-
 bool SettingVisitor::text(std::string_view key, std::string& value, const About& about) {
   return met({key, SettingKind::text, about}, value, set_as<std::string>(value));
 }
@@ -137,6 +132,18 @@ bool SettingVisitor::path(std::string_view key, std::filesystem::path& value, co
              set_as<std::string>(value));
 }
 
+bool SettingVisitor::path(std::string_view key, std::string& value, const About& about) {
+  return met({key, SettingKind::path, about}, value, set_as<std::string>(value));
+}
+
+bool SettingVisitor::folder(std::string_view key, std::string& value, const About& about) {
+  return met({key, SettingKind::folder, about}, value, set_as<std::string>(value));
+}
+
+bool SettingVisitor::folder(std::string_view key, std::filesystem::path& value, const About& about) {
+  return met({key, SettingKind::folder, about}, value.string(), set_as<std::string>(value));
+}
+
 bool SettingVisitor::path(std::string_view key, std::optional<std::filesystem::path>& value, const About& about) {
   return met({key, SettingKind::path, about}, value ? SettingValue(value->string()) : SettingValue(),
              set_as<std::string>(value));
@@ -159,6 +166,10 @@ bool SettingVisitor::paths(std::string_view key, std::vector<std::filesystem::pa
                const auto& list = std::get<std::vector<std::string>>(given);
                value.assign(list.begin(), list.end());
              });
+}
+
+bool SettingVisitor::paths(std::string_view key, std::vector<std::string>& value, const About& about) {
+  return met({key, SettingKind::paths, about}, value, set_as<std::vector<std::string>>(value));
 }
 
 bool SettingVisitor::numbers(std::string_view key, std::vector<double>& value, const About& about) {

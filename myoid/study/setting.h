@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -34,6 +35,19 @@ struct SettingLimits {
   return {.lower = lower, .upper = upper, .unit = unit};
 }
 
+/// The facts of a setting that is an option of a command. Other options are named by their keys, several with commas.
+struct OptionFacts {
+  std::string_view also = {};      ///< Further names, with their dashes: "-w,--work_dir".
+  std::string_view keyword = {};   ///< Python's name, if it is not the key's.
+  std::string_view group = {};     ///< Heading of the help; empty: the usual one.
+  std::string_view needs = {};     ///< Options that must be given, too.
+  std::string_view excludes = {};  ///< Options that must not be given.
+  bool by_place = false;           ///< An argument: its place names it.
+  bool by_comma = false;           ///< One word may hold several values.
+  bool one_each = false;           ///< Takes one word each time; several by repeating it.
+  bool or_number = false;          ///< A text that Python may give as a number.
+};
+
 /// The facts of a setting beyond its C++ type.
 struct About {
   std::string_view says;            ///< One sentence of the reference; Markdown.
@@ -45,6 +59,7 @@ struct About {
   ChoiceNames words = {};           ///< The only allowed texts; empty: any.
   std::size_t count = 0;            ///< Number of entries of a list; 0: any.
   bool silent = false;              ///< Not written: another setting is in force, and both together are refused.
+  OptionFacts option = {};          ///< Of a command's option.
 };
 
 enum class SettingKind {
@@ -53,6 +68,7 @@ enum class SettingKind {
   count,
   text,
   path,
+  folder,
   texts,
   paths,
   numbers,
@@ -71,6 +87,17 @@ struct Setting {
 /// Returns the reason to refuse a number or a word ("found 3 Hz, expected 5 to 2000 Hz"); empty: allowed.
 [[nodiscard]] std::string refusal(const Setting& setting, double value);
 [[nodiscard]] std::string refusal(const Setting& setting, const std::string& word);
+[[nodiscard]] bool is_number(const Setting& setting);
+
+/// Calls `action` for each of the names that stand in a text, separated by commas.
+template <typename Action>
+void for_each_name(std::string_view names, Action action) {
+  while (!names.empty()) {
+    const std::size_t end = std::min(names.find(','), names.size());
+    action(std::string(names.substr(0, end)));
+    names.remove_prefix(std::min(end + 1, names.size()));
+  }
+}
 
 /// Stretches of time and, of a setting that allows a word among them, the word.
 struct WordedStretches {
@@ -106,22 +133,41 @@ class SettingVisitor {
 
   bool flag(std::string_view key, bool& value, const About& about);
   bool flag(std::string_view key, std::optional<bool>& value, const About& about);
+  /// Visits a flag whose presence makes the value false.
+  template <typename Bool>
+  bool unset(std::string_view key, Bool& value, const About& about) {
+    return met({key, SettingKind::flag, about}, false, [&value](const SettingValue& given) {
+      if (std::get<bool>(given)) value = false;
+    });
+  }
   /// A boolean that the file writes as one of two words, `words[false]` and `words[true]`.
   bool either(std::string_view key, bool& value, const About& about);
   bool number(std::string_view key, double& value, const About& about);
   bool number(std::string_view key, std::optional<double>& value, const About& about);
   /// Visits a number, nothing, or `about.word`, which sets `worded`.
   bool number(std::string_view key, std::optional<double>& value, bool& worded, const About& about);
-  bool count(std::string_view key, int& value, const About& about);
-  bool count(std::string_view key, std::optional<int>& value, const About& about);
+  template <std::integral Integer>
+  bool count(std::string_view key, Integer& value, const About& about) {
+    return met({key, SettingKind::count, about}, static_cast<double>(value),
+               [&value](const SettingValue& given) { value = static_cast<Integer>(std::get<double>(given)); });
+  }
+  template <std::integral Integer>
+  bool count(std::string_view key, std::optional<Integer>& value, const About& about) {
+    return met({key, SettingKind::count, about}, value ? SettingValue(static_cast<double>(*value)) : SettingValue(),
+               [&value](const SettingValue& given) { value = static_cast<Integer>(std::get<double>(given)); });
+  }
   bool text(std::string_view key, std::string& value, const About& about);
   /// Visits a text, or a table { `about.table` = text }, which goes to `instead`.
   bool text(std::string_view key, std::string& value, std::optional<std::string>& instead, const About& about);
   bool path(std::string_view key, std::filesystem::path& value, const About& about);
+  bool path(std::string_view key, std::string& value, const About& about);
+  bool folder(std::string_view key, std::string& value, const About& about);
+  bool folder(std::string_view key, std::filesystem::path& value, const About& about);
   bool path(std::string_view key, std::optional<std::filesystem::path>& value, const About& about);
   /// Visits a list; an empty one stands for `about.word`, if there is one.
   bool texts(std::string_view key, std::vector<std::string>& value, const About& about);
   bool paths(std::string_view key, std::vector<std::filesystem::path>& value, const About& about);
+  bool paths(std::string_view key, std::vector<std::string>& value, const About& about);
   bool numbers(std::string_view key, std::vector<double>& value, const About& about);
   /// Visits a list of stretches [begin, end]; `about.word` among them sets `worded`.
   bool stretches(std::string_view key, std::vector<Stretch>& value, bool& worded, const About& about);
@@ -138,7 +184,8 @@ class SettingVisitor {
   }
   /// Visits such a value or none; the one of `about.words` that names no value, if any, stands for none.
   template <typename Enumeration>
-  bool choice(std::string_view key, std::optional<Enumeration>& value, const About& about) {
+  bool choice(std::string_view key, std::optional<Enumeration>& value, About about) {
+    if (about.words.empty()) about.words = choice_names(Enumeration{});
     const auto none =
         std::ranges::find_if(about.words, [](std::string_view word) { return !choice_named<Enumeration>(word); });
     const std::string_view now = value ? choice_name(*value) : none == about.words.end() ? "" : *none;

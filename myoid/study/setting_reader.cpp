@@ -130,6 +130,7 @@ bool SettingReader::met(const Setting& setting, const SettingValue& /*now*/, con
       break;
     case SettingKind::text:
     case SettingKind::path:
+    case SettingKind::folder:
       set(text(setting));
       break;
     case SettingKind::texts:

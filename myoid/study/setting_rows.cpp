@@ -26,16 +26,6 @@ std::string words_of(const Setting& setting) {
   return setting.kind == SettingKind::texts ? "one or several of " + list : list;
 }
 
-std::string range_of(const SettingLimits& limits) {
-  const std::string unit = limits.unit.empty() ? "" : fmt::format(" {}", limits.unit);
-  if (std::isfinite(limits.upper)) return fmt::format("{} to {}{}", limits.lower, limits.upper, unit);
-  if (std::isfinite(limits.lower)) {
-    return limits.above_lower ? fmt::format("above {}{}", limits.lower, unit)
-                              : fmt::format("{}{} or more", limits.lower, unit);
-  }
-  return limits.unit.empty() ? "number" : fmt::format("number [{}]", limits.unit);
-}
-
 std::string type_of(const Setting& setting, bool option) {
   const About& about = setting.about;
   const std::string several = about.count > 0 ? fmt::format("{} ", about.count) : "";
@@ -43,19 +33,22 @@ std::string type_of(const Setting& setting, bool option) {
     case SettingKind::flag:
       return option ? "no value" : "true, false";
     case SettingKind::number:
-      return range_of(about.limits);
+      return range_text(about.limits);
     case SettingKind::count:
-      return "whole, " + range_of(about.limits);
+      return "whole, " + range_text(about.limits);
     case SettingKind::text:
       return about.words.empty() ? "text" : words_of(setting);
     case SettingKind::path:
       return "file";
+    case SettingKind::folder:
+      return "folder";
     case SettingKind::texts:
       if (!about.words.empty()) return words_of(setting);
       return option ? "one or several" : several + "text or list of texts";
     case SettingKind::paths:
-      return "file or list of files";
+      return option ? "one or several" : "file or list of files";
     case SettingKind::numbers:
+      if (option) return several + range_text(about.limits);
       return fmt::format("{}numbers{}", several,
                          about.limits.unit.empty() ? "" : fmt::format(" [{}]", about.limits.unit));
     case SettingKind::stretches:
@@ -63,7 +56,7 @@ std::string type_of(const Setting& setting, bool option) {
     case SettingKind::texts_by_name:
       return "table of texts";
     case SettingKind::numbers_by_name:
-      return "table of numbers, " + range_of(about.limits);
+      return "table of numbers, " + range_text(about.limits);
   }
   return "";
 }
@@ -88,11 +81,12 @@ std::string default_of(const Setting& setting, const SettingValue& value, bool o
     return code(option ? *text : toml_text(*text));
   if (const auto* list = std::get_if<std::vector<std::string>>(&value); list != nullptr && !list->empty()) {
     std::vector<std::string> quoted;
+    if (option) return code(fmt::format("{}", fmt::join(*list, " ")));
     std::transform(list->begin(), list->end(), std::back_inserter(quoted), toml_text);
     return list->size() == 1 ? code(quoted.front()) : code(fmt::format("[{}]", fmt::join(quoted, ", ")));
   }
   if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)
-    return code(fmt::format("[{}]", fmt::join(*list, ", ")));
+    return code(option ? fmt::format("{}", fmt::join(*list, " ")) : fmt::format("[{}]", fmt::join(*list, ", ")));
   return "–";
 }
 
@@ -148,6 +142,16 @@ class TableVisitor : public SettingVisitor {
 };
 
 }  // namespace
+
+std::string range_text(const SettingLimits& limits) {
+  const std::string unit = limits.unit.empty() ? "" : fmt::format(" {}", limits.unit);
+  if (std::isfinite(limits.upper)) return fmt::format("{} to {}{}", limits.lower, limits.upper, unit);
+  if (std::isfinite(limits.lower)) {
+    return limits.above_lower ? fmt::format("above {}{}", limits.lower, unit)
+                              : fmt::format("{}{} or more", limits.lower, unit);
+  }
+  return limits.unit.empty() ? "number" : fmt::format("number [{}]", limits.unit);
+}
 
 std::string without_markdown(const std::string& text) {
   std::string result;

@@ -24,6 +24,9 @@ enum class SettingNotation {
 /// Returns the row of a setting; `usual` is the value without any input of the user.
 [[nodiscard]] SettingRow setting_row(const Setting& setting, const SettingValue& usual, SettingNotation notation);
 
+/// Returns the allowed numbers: "10 to 2000 Hz", "above 0 s", "number".
+[[nodiscard]] std::string range_text(const SettingLimits& limits);
+
 /// A table of study.toml.
 struct SettingTable {
   std::string name;  ///< "[emg]", "[[trial]]"

@@ -44,54 +44,23 @@ py::list outcome_rows(const std::vector<PersonOutcome>& outcomes) {
 }
 
 py::dict cohort(py::dict given) {
-  Keywords k("cohort", std::move(given));
-  Work work(k);
-  program::CohortOptions o;
-  std::string out;
-  bool group = false;
-  std::vector<results::Engine> engines;
-  k.take("manifest", o.manifest);
-  k.take("study", o.study);
-  k.take("person", o.persons);
-  k.take("group", group);
-  k.choices("workflow", engines);
-  std::vector<std::string> sessions, tasks;
-  std::string filter;
-  k.take("session_label", sessions);
-  k.take("task_label", tasks);
-  k.take("bids_filter_file", filter);
-  if (!sessions.empty()) o.filter["ses"] = sessions;
-  if (!tasks.empty()) o.filter["task"] = tasks;
-  if (!filter.empty()) results::add_bids_filter(filter, o.filter);
-  std::vector<page::Kept> kept;
-  std::string work_dir;
-  k.choices("keep", kept);
-  k.take("work_dir", work_dir);
-  k.count("jobs", o.jobs, 1, 1024);
-  k.take("out", out);
-  k.take("overwrite", o.overwrite);
-  k.refuse_others();
-  if (group && !o.persons.empty()) throw InvalidInput("group and person exclude each other");
-  if (!engines.empty() && (group || !o.persons.empty()))
-    throw InvalidInput("workflow computes nothing: leave out group and person");
-  if (!kept.empty()) o.kept = kept.front();
-  o.work = work_dir;
-  o.call = work.call();
+  Work work("cohort", std::move(given));
+  const auto o = work.options<program::CohortOptions>();
   struct Done {
     std::vector<PersonOutcome> outcomes;
     std::string start;
   };
   const Done done = work.run([&] {
     Done d;
-    program::prepare_cohort_folder(o, out);
-    if (!engines.empty()) {
-      d.start = program::write_cohort_workflow(o, engines.front(), out);
+    program::prepare_cohort_folder(o, o.out);
+    if (o.workflow) {
+      d.start = program::write_cohort_workflow(o, o.out);
       return d;
     }
-    if (!group) d.outcomes = program::write_cohort_persons(o, out);
+    if (!o.group) d.outcomes = program::write_cohort_persons(o, o.out);
     if (o.persons.empty()) {
-      results::Group all = program::write_cohort_group(o, out);
-      if (group) d.outcomes = std::move(all.outcomes);
+      results::Group all = program::write_cohort_group(o, o.out);
+      if (o.group) d.outcomes = std::move(all.outcomes);
     }
     return d;
   });
@@ -102,42 +71,24 @@ py::dict cohort(py::dict given) {
 }
 
 py::dict report(py::dict given) {
-  Keywords k("report", std::move(given));
-  Work work(k);
-  program::ReportOptions o;
-  std::vector<std::string> persons, after;
-  std::string out = "group", mat;
-  bool overwrite = false;
-  k.take("folder", o.folder);
-  k.take("video", o.video.files);
-  k.take("video_offset", o.video.offset_s);
-  k.choices("export", o.exports);
-  k.take("group", persons);
-  k.take("after", after);
-  k.take("out", out);
-  k.take("mat", mat);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  if (o.folder.empty() == persons.empty()) throw InvalidInput("give the folder of a run, or group with several");
-  o.call = work.call();
-  const std::string folder = persons.empty() ? o.folder : out;
+  Work work("report", std::move(given));
+  const auto o = work.options<program::ReportOptions>();
+  if (o.folder.empty() && o.persons.empty()) throw InvalidInput("give the folder of a run, or group with several");
+  const std::string folder = o.persons.empty() ? o.folder : o.out;
   (void)work.run([&] {
-    if (!persons.empty()) {
-      ResultOut held(out, o.call, overwrite);
-      page::write_report(
-          results::group_report(
-              {.persons = {persons.begin(), persons.end()}, .after = {after.begin(), after.end()}, .folder = out}),
-          out);
+    if (!o.persons.empty()) {
+      ResultOut held(o.out, o.call);
+      page::write_report(results::group_report(o.group()), o.out);
       held.finish();
       return true;
     }
-    if (!mat.empty()) results::check_mat_file(mat);
-    if (!mat.empty()) check_output(mat, {}, overwrite);
+    if (!o.mat.empty()) results::check_mat_file(o.mat);
+    if (!o.mat.empty()) check_output(o.mat, {}, o.call.overwrite);
     const program::ReportResult result = program::report(o);
     const std::string author = author_of(std::filesystem::path(o.folder) / "run.json");
     ResultFolder held(o.folder, o.call.command, author.empty() ? "run" : author, true);
     program::write_report(result, o.folder);
-    if (!mat.empty()) results::write_results_mat(o.folder, mat);
+    if (!o.mat.empty()) results::write_results_mat(o.folder, o.mat);
     held.finish();
     return true;
   });
@@ -147,20 +98,11 @@ py::dict report(py::dict given) {
 }
 
 py::dict init(py::dict given) {
-  Keywords k("init", std::move(given));
-  Work work(k);
-  program::InitOptions o;
-  bool overwrite = false;
-  k.take("dir", o.folder);
-  k.take("from_", o.from);
-  k.take("model", o.model);
-  k.take("coordinate", o.coordinate);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("init", std::move(given));
+  const auto o = work.options<program::InitOptions>();
   const std::filesystem::path file = std::filesystem::path(o.folder) / "study.toml";
   const program::InitResult result = work.run([&] {
-    check_output(file, {}, overwrite);
+    check_output(file, {}, o.call.overwrite);
     program::InitResult r = program::init(o);
     program::write_init(r, file, o.call);
     return r;

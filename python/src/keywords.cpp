@@ -1,5 +1,6 @@
 #include "keywords.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -34,6 +35,10 @@ std::optional<py::object> Keywords::object(const char* name) {
   py::object value = given_[name];
   if (value.is_none()) return std::nullopt;
   return value;
+}
+
+bool Keywords::holds(const char* name) const {
+  return given_.contains(name) && PyObject_IsTrue(given_[name].ptr()) == 1;
 }
 
 void Keywords::refuse_others() const {
@@ -117,53 +122,83 @@ void Keywords::take(const char* name, std::vector<double>& values) {
 }
 
 void Keywords::take(const char* name, std::uint64_t& value) {
-  if (const auto given = whole(name, 0, std::numeric_limits<long>::max())) value = static_cast<std::uint64_t>(*given);
+  long number = static_cast<long>(value);
+  take(name, number);
+  if (number < 0) throw InvalidInput(fmt::format("{}: found {}, expected 0 or more", name, number));
+  value = static_cast<std::uint64_t>(number);
 }
 
-void Keywords::above_zero(const char* name, double& value) {
-  const auto given = number(name);
-  if (given && *given <= 0.0) throw InvalidInput(fmt::format("{}: found {}, expected a number above 0", name, *given));
-  if (given) value = *given;
-}
-
-void Keywords::zero_or_more(const char* name, double& value) {
-  const auto given = number(name);
-  if (given && *given < 0.0)
-    throw InvalidInput(fmt::format("{}: found {}, expected a number of 0 or more", name, *given));
-  if (given) value = *given;
-}
-
-void Keywords::within(const char* name, double& value, double lower, double upper) {
-  const auto given = number(name);
-  if (given && !(*given >= lower && *given <= upper))
-    throw InvalidInput(fmt::format("{}: found {}, expected {} to {}", name, *given, lower, upper));
-  if (given) value = *given;
-}
-
-std::optional<long> Keywords::whole(const char* name, long lower, long upper) {
+void Keywords::take(const char* name, long& value) {
   const auto given = object(name);
-  if (!given) return std::nullopt;
+  if (!given) return;
   if (py::isinstance<py::bool_>(*given) || PyIndex_Check(given->ptr()) == 0)
     refuse_kind(name, "a whole number", *given);
   int overflow = 0;
-  const long value = PyLong_AsLongAndOverflow(py::int_(*given).ptr(), &overflow);
-  if (overflow != 0 || value < lower || value > upper)
+  value = PyLong_AsLongAndOverflow(py::int_(*given).ptr(), &overflow);
+  if (overflow != 0)
     throw InvalidInput(
-        fmt::format("{}: found {}, expected {} to {}", name, py::str(*given).cast<std::string>(), lower, upper));
+        fmt::format("{}: found {}, expected a number that fits 64 bits", name, py::str(*given).cast<std::string>()));
+}
+
+namespace {
+
+/// Returns the argument of an option: `held_at` of --held-at.
+std::string keyword_of(const study::Setting& setting) {
+  std::string name(setting.about.option.keyword.empty() ? setting.key : setting.about.option.keyword);
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
+template <typename Value>
+study::SettingValue taken(Keywords& keywords, const char* name) {
+  Value value{};
+  keywords.take(name, value);
   return value;
 }
 
-void Keywords::word(const char* name, std::string& value, std::initializer_list<std::string_view> words) {
-  const auto given = object(name);
-  if (!given) return;
-  take(name, value);
-  for (const std::string_view word : words)
-    if (value == word) return;
-  refuse_word(name, value, {words.begin(), words.size()});
+study::SettingValue value_of(const study::Setting& setting, Keywords& keywords, const char* name) {
+  using study::SettingKind;
+  const bool is_number = setting.about.option.or_number && PyNumber_Check(keywords.object(name)->ptr()) != 0;
+  const std::string numeral = is_number ? number_text(*keywords.object(name)) : "";
+  long whole = 0;
+  switch (setting.kind) {
+    case SettingKind::flag:
+      return taken<bool>(keywords, name);
+    case SettingKind::number:
+      return taken<double>(keywords, name);
+    case SettingKind::count:
+      keywords.take(name, whole);
+      return static_cast<double>(whole);
+    case SettingKind::numbers:
+      return taken<std::vector<double>>(keywords, name);
+    case SettingKind::texts:
+    case SettingKind::paths:
+      return is_number ? std::vector{numeral} : taken<std::vector<std::string>>(keywords, name);
+    default:
+      return is_number ? numeral : taken<std::string>(keywords, name);
+  }
 }
 
-void Keywords::refuse_word(const char* name, const std::string& word, ChoiceNames words) const {
-  throw InvalidInput(fmt::format("{}: found '{}', expected {}", name, word, fmt::join(words, ", ")));
+}  // namespace
+
+bool KeywordReader::met(const study::Setting& setting, const study::SettingValue& /*now*/, const Set& set) {
+  const std::string name = keyword_of(setting);
+  if (!keywords_->object(name.c_str())) return false;
+  study::SettingValue given = value_of(setting, *keywords_, name.c_str());
+  if (given == study::SettingValue(false)) return false;
+  study::for_each_name(setting.about.option.excludes, [&](const std::string& other) {
+    if (keywords_->holds(name.c_str()) && keywords_->holds(other.c_str()))
+      throw InvalidInput(fmt::format("{} and {} exclude each other", name, other));
+  });
+  const auto check = [&](const auto& value) {
+    const std::string reason = study::refusal(setting, value);
+    if (!reason.empty()) throw InvalidInput(fmt::format("{}: {}", name, reason));
+  };
+  if (const auto* number = std::get_if<double>(&given)) check(*number);
+  if (const auto* word = std::get_if<std::string>(&given)) check(*word);
+  if (const auto* words = std::get_if<std::vector<std::string>>(&given)) std::ranges::for_each(*words, check);
+  set(std::move(given));
+  return true;
 }
 
 }  // namespace myoid::python

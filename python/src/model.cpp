@@ -12,6 +12,7 @@
 #include "myoid/body/model/constraints.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/program/commands/stage_input.h"
+#include "myoid/program/commands/stage_options.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -29,18 +30,24 @@ struct ReadModel {
   std::vector<Remark> remarks;
 };
 
+struct ModelOptions {
+  program::Call call;
+  std::string file = "arm4";
+  body::Compatibility compat = body::Compatibility::exact;
+};
+
+void visit(ModelOptions& o, study::SettingVisitor& v) {
+  v.path("file", o.file, {.says = "OpenSim model (.osim), or arm4."});
+  program::visit_compat(o.compat, v);
+}
+
 std::shared_ptr<ReadModel> read_model(py::dict given) {
-  Keywords k("Model", std::move(given));
-  Work work(k);
-  std::string file = "arm4", compat = "exact";
-  k.take("file", file);
-  k.word("compat", compat, {"exact", "opensim"});
-  k.refuse_others();
-  const program::Call call = work.call();
+  Work work("Model", std::move(given));
+  const auto o = work.options<ModelOptions>();
   return work.run([&] {
-    program::Remarks remarks(call);
+    program::Remarks remarks(o.call);
     auto read = std::make_shared<ReadModel>();
-    read->model = program::load_model(file, compat, remarks);
+    read->model = program::load_model(o.file, o.compat, remarks);
     read->remarks = remarks.list();
     return read;
   });

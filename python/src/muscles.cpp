@@ -44,41 +44,6 @@ py::list error_rows(const std::vector<program::RecordingErrors>& errors) {
   return rows;
 }
 
-program::MuscleOptions muscle_options(Keywords& k) {
-  program::MuscleOptions o;
-  k.take("muscle", o.muscle);
-  k.take("length", o.lengths);
-  k.take("column", o.column);
-  k.take("scale", o.scales);
-  k.take("offset", o.offset_m);
-  const auto number_or_file = [&](const char* name, std::string& value) {
-    const auto given = k.object(name);
-    if (given && PyNumber_Check(given->ptr()) != 0) {
-      value = py::str(py::float_(*given));
-    } else {
-      k.take(name, value);
-    }
-  };
-  const auto numbers_or_files = [&](const char* name, std::vector<std::string>& values) {
-    const auto given = k.object(name);
-    if (given && PyNumber_Check(given->ptr()) != 0) {
-      values = {py::str(py::float_(*given))};
-    } else {
-      k.take(name, values);
-    }
-  };
-  numbers_or_files("activation", o.activation);
-  numbers_or_files("excitation", o.excitation);
-  k.take("drive_column", o.drive_column);
-  number_or_file("initial_activation", o.initial_activation);
-  k.take("measured", o.measured);
-  k.take("measured_column", o.measured_column);
-  k.take("fit", o.fit);
-  k.take("isometric_force", o.isometric_n);
-  k.within("tolerance", o.tolerance, 1e-13, 1e-3);
-  return o;
-}
-
 py::dict muscle_dict(program::MuscleResult result) {
   py::dict d;
   d["name"] = result.name;
@@ -103,50 +68,14 @@ py::dict muscle_dict(program::MuscleResult result) {
 }
 
 py::dict muscle_command(py::dict given) {
-  Keywords k("muscle", std::move(given));
-  Work work(k);
-  program::MuscleOptions o = muscle_options(k);
-  std::string out;
-  bool overwrite = false;
-  k.take("out", out);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("muscle", std::move(given));
+  const auto o = work.options<program::MuscleOptions>();
   return muscle_dict(work.run([&] {
-    if (!out.empty()) {
-      std::vector<std::string> inputs{o.muscle};
-      for (const auto* files : {&o.lengths, &o.activation, &o.excitation, &o.measured})
-        inputs.insert(inputs.end(), files->begin(), files->end());
-      check_output(out, inputs, overwrite);
-    }
+    if (!o.out.empty()) check_output(o.out, o.inputs(), o.call.overwrite);
     program::MuscleResult r = program::muscle(o);
-    if (!out.empty()) program::write_muscle(r, out);
+    if (!o.out.empty()) program::write_muscle(r, o.out);
     return r;
   }));
-}
-
-program::SimulateOptions simulate_options(Keywords& k) {
-  program::SimulateOptions o;
-  k.take("model", o.model);
-  k.take("excitations", o.excitations);
-  k.take("excite", o.excite);
-  k.take("rest", o.rest);
-  k.take("tendon", o.tendon);
-  k.take("curves", o.curves);
-  k.take("activation", o.activation);
-  k.take("initial", o.initial);
-  k.take("initial_speed", o.initial_speed);
-  k.take("lock", o.lock);
-  k.take("horizontal", o.horizontal);
-  k.take("held_mass", o.held_mass_kg);
-  k.take("held_body", o.held_body);
-  take_point(k, "held_at", o.held_at_m);
-  k.take("rate", o.rate_hz);
-  k.take("tolerance", o.tolerance);
-  k.take("energy", o.energy);
-  k.take("sensitivity", o.sensitivity);
-  k.take("figures", o.figures);
-  return o;
 }
 
 py::dict sensitivity_dict(body::Sensitivities s) {
@@ -158,20 +87,13 @@ py::dict sensitivity_dict(body::Sensitivities s) {
 }
 
 py::dict simulate(py::dict given) {
-  Keywords k("simulate", std::move(given));
-  Work work(k);
-  program::SimulateOptions o = simulate_options(k);
-  std::string out;
-  bool overwrite = false;
-  k.take("out", out);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("simulate", std::move(given));
+  const auto o = work.options<program::SimulateOptions>();
   program::SimulateResult result = work.run([&] {
-    ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) protect_files(out, program::kSimulateFiles, {o.model, o.excitations});
+    ResultOut folder(o.out, o.call);
+    if (!o.out.empty()) protect_files(o.out, program::kSimulateFiles, {o.model, o.excitations});
     program::SimulateResult r = program::simulate(o);
-    if (!out.empty()) program::write_simulate(r, out);
+    if (!o.out.empty()) program::write_simulate(r, o.out);
     folder.finish();
     return r;
   });

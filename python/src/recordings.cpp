@@ -138,44 +138,19 @@ py::object from_json(const nlohmann::ordered_json& json) {
 }
 
 py::object info(py::dict given) {
-  Keywords k("info", std::move(given));
-  Work work(k);
-  program::InfoOptions o;
-  k.take("file", o.file);
-  k.take("compat", o.compat);
-  k.take("compare_compat", o.ask.compare_compat);
-  k.count("postures", o.ask.postures, 1, 1000000);
-  k.take("jumps", o.ask.jumps);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("info", std::move(given));
+  const auto o = work.options<program::InfoOptions>();
   return from_json(work.run([&] { return program::info(o); }));
 }
 
 py::object convert(py::dict given) {
-  Keywords k("convert", std::move(given));
-  Work work(k);
-  program::ConvertOptions o;
-  k.take("source", o.in);
-  k.take("out", o.out);
-  k.take("what", o.what);
-  k.word("up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
-  k.take("rotate", o.turns);
-  k.take("unit", o.unit);
-  k.take("channel", o.channels);
-  k.take("analog", o.analog);
-  k.take("body", o.bodies);
-  k.above_zero("least_force", o.least_force_n);
-  k.above_zero("rate", o.rate_hz);
-  k.take("subject", o.subject);
-  k.take("compat", o.compat);
-  k.take("overwrite", o.overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("convert", std::move(given));
+  const auto o = work.options<program::ConvertOptions>();
   if (std::filesystem::path(o.out).extension() != ".mat")
     return py::cast(work.run([&] { return program::convert(o); }).files);
   (void)work.run([&] {
     results::check_mat_file(o.out);
-    check_output(o.out, {o.in}, o.overwrite);
+    check_output(o.out, {o.in}, o.call.overwrite);
     program::Remarks remarks(o.call);
     program::warn_of_repairs(o.in, results::write_results_mat(o.in, o.out), remarks);
     return true;

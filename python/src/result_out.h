@@ -16,10 +16,9 @@ namespace myoid::python {
 /// The folder of a command's results; nothing where the user named none.
 class ResultOut {
  public:
-  ResultOut(const std::string& folder, const program::Call& call, bool overwrite, std::string_view unless_only = "")
-      : call_(call) {
+  ResultOut(const std::string& folder, const program::Call& call, std::string_view unless_only = "") : call_(call) {
     if (folder.empty()) return;
-    folder_.emplace(folder, call.command, overwrite, unless_only);
+    folder_.emplace(folder, call.command, call.overwrite, unless_only);
     if (!folder_->note().empty()) program::Remarks(call).note(folder_->note());
   }
   void finish() {
@@ -33,11 +32,5 @@ class ResultOut {
   program::Call call_;
   std::optional<ResultFolder> folder_;
 };
-
-/// A point of three numbers [m].
-inline void take_point(Keywords& keywords, const char* name, std::vector<double>& point_m) {
-  keywords.take(name, point_m);
-  if (point_m.size() != 3) throw InvalidInput(std::string(name) + ": expected three numbers x, y, z");
-}
 
 }  // namespace myoid::python

@@ -43,42 +43,13 @@ py::list normalisation_rows(const std::vector<recording::ChannelNormalisation>& 
 }
 
 py::dict emg(py::dict given) {
-  Keywords k("emg", std::move(given));
-  Work work(k);
-  program::EmgOptions o;
-  std::string out, envelope, measures;
-  bool overwrite = false, no_notch = false, whitening = false, no_whitening = false;
-  k.take("inputs", o.in);
-  k.take("out", out);
-  k.take("mvc", o.mvc);
-  k.take("channel", o.channels);
-  k.take("unit", o.unit);
-  k.above_zero("highpass", o.chain.highpass_hz);
-  k.above_zero("lowpass", o.chain.lowpass_hz);
-  k.take("no_notch", no_notch);
-  k.take("whitening", whitening);
-  k.take("no_whitening", no_whitening);
-  k.take("as_published", o.chain.as_published);
-  k.take("remove_ecg", o.chain.remove_ecg);
-  k.above_zero("window", o.window_s);
-  k.take("envelope", envelope);
-  k.take("measures", measures);
-  k.above_zero("measure_window", o.measure_window_s);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  if (whitening && no_whitening) throw InvalidInput("whitening and no_whitening exclude each other");
-  o.chain.notch = !no_notch;
-  if (whitening || no_whitening) o.chain.whitening = whitening;
+  Work work("emg", std::move(given));
+  auto o = work.options<program::EmgOptions>();
   o.keep_envelopes = true;
-  o.call = work.call();
   program::EmgResult result = work.run([&] {
-    const auto activations = program::emg_files(o.in, out, "out");
-    const auto envelopes = program::emg_files(o.in, envelope, "envelope");
-    program::check_emg_files(o, activations, envelopes, overwrite);
-    if (!measures.empty()) program::check_emg_files(o, {measures}, {}, overwrite);
+    const program::EmgFiles files = program::emg_files(o);
     program::EmgResult r = program::emg(o);
-    if (!activations.empty() || !envelopes.empty()) program::write_emg(r, activations, envelopes);
-    if (!measures.empty()) program::write_emg_measures(r, measures);
+    program::write_emg(r, files);
     return r;
   });
   py::dict d;
@@ -94,29 +65,16 @@ py::dict emg(py::dict given) {
 }
 
 py::dict ik(py::dict given) {
-  Keywords k("ik", std::move(given));
-  Work work(k);
-  program::IkOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("model", o.model);
-  k.take("markers", o.markers);
-  k.take("out", out);
-  k.word("up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
-  k.take("weight", o.weights);
-  k.take("lock", o.lock);
-  k.take("unlock", o.unlock);
-  k.word("compat", o.compat, {"exact", "opensim"});
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("ik", std::move(given));
+  const auto o = work.options<program::IkOptions>();
   program::IkResult result = work.run([&] {
-    if (!out.empty()) {
-      check_output(out, {o.model, o.markers}, overwrite);
-      check_companion(program::marker_errors_path(out), {o.model, o.markers}, overwrite, program::kMarkerErrorsBegin);
+    if (!o.out.empty()) {
+      check_output(o.out, {o.model, o.markers}, o.call.overwrite);
+      check_companion(program::marker_errors_path(o.out), {o.model, o.markers}, o.call.overwrite,
+                      program::kMarkerErrorsBegin);
     }
     program::IkResult r = program::ik(o);
-    if (!out.empty()) program::write_ik(r, out);
+    if (!o.out.empty()) program::write_ik(r, o.out);
     return r;
   });
   py::dict d;
@@ -133,29 +91,12 @@ py::dict ik(py::dict given) {
 }
 
 py::dict id(py::dict given) {
-  Keywords k("id", std::move(given));
-  Work work(k);
-  program::IdOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("model", o.model);
-  k.take("motion", o.motion);
-  k.take("out", out);
-  k.above_zero("lowpass", o.cutoff_hz);
-  k.take("speeds", o.speeds);
-  k.take("accelerations", o.accelerations);
-  k.take("loads", o.loads);
-  k.zero_or_more("held_mass", o.held_mass_kg);
-  k.take("held_body", o.held_body);
-  take_point(k, "held_at", o.held_at_m);
-  k.word("compat", o.compat, {"exact", "opensim"});
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("id", std::move(given));
+  const auto o = work.options<program::IdOptions>();
   program::IdResult result = work.run([&] {
-    if (!out.empty()) check_output(out, {o.model, o.motion, o.speeds, o.accelerations, o.loads}, overwrite);
+    if (!o.out.empty()) check_output(o.out, {o.model, o.motion, o.speeds, o.accelerations, o.loads}, o.call.overwrite);
     program::IdResult r = program::id(o);
-    if (!out.empty()) program::write_id(r, out);
+    if (!o.out.empty()) program::write_id(r, o.out);
     return r;
   });
   py::dict d;
@@ -165,27 +106,13 @@ py::dict id(py::dict given) {
 }
 
 py::dict paths(py::dict given) {
-  Keywords k("paths", std::move(given));
-  Work work(k);
-  program::PathsOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("model", o.model);
-  k.take("motion", o.motion);
-  k.take("out", out);
-  k.above_zero("lowpass", o.cutoff_hz);
-  k.take("surrogate", o.surrogates);
-  k.above_zero("surrogate_tolerance", o.tolerance_mm);
-  k.take("check_jumps", o.check_jumps);
-  k.word("compat", o.compat, {"exact", "opensim"});
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("paths", std::move(given));
+  const auto o = work.options<program::PathsOptions>();
   program::PathsResult result = work.run([&] {
-    ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) protect_files(out, program::kPathsFiles, {o.model, o.motion, o.surrogates});
+    ResultOut folder(o.out, o.call);
+    if (!o.out.empty()) protect_files(o.out, program::kPathsFiles, {o.model, o.motion, o.surrogates});
     program::PathsResult r = program::paths(o);
-    if (!out.empty()) program::write_paths(r, out);
+    if (!o.out.empty()) program::write_paths(r, o.out);
     folder.finish();
     return r;
   });
@@ -200,24 +127,13 @@ py::dict paths(py::dict given) {
 }
 
 py::dict sweep(py::dict given) {
-  Keywords k("sweep", std::move(given));
-  Work work(k);
-  program::SweepOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("model", o.model);
-  k.take("coordinate", o.coordinate);
-  k.take("muscle", o.muscles);
-  k.take("out", out);
-  k.word("compat", o.compat, {"exact", "opensim"});
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("sweep", std::move(given));
+  const auto o = work.options<program::SweepOptions>();
   program::SweepResult result = work.run([&] {
-    ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) protect_files(out, program::kSweepFiles, {o.model});
+    ResultOut folder(o.out, o.call);
+    if (!o.out.empty()) protect_files(o.out, program::kSweepFiles, {o.model});
     program::SweepResult r = program::sweep(o);
-    if (!out.empty()) (void)program::write_sweep(r, out);
+    if (!o.out.empty()) (void)program::write_sweep(r, o.out);
     folder.finish();
     return r;
   });
@@ -242,33 +158,13 @@ py::dict sweep(py::dict given) {
 }
 
 py::dict so(py::dict given) {
-  Keywords k("so", std::move(given));
-  Work work(k);
-  program::SoOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("model", o.model);
-  k.take("motion", o.motion);
-  k.take("out", out);
-  k.take("objective", o.objective);
-  k.take("exponent", o.exponent);
-  k.take("emg", o.emg);
-  k.take("emg_weight", o.emg_weight);
-  k.take("reserve", o.reserve_nm);
-  k.take("coordinate", o.coordinates);
-  k.above_zero("lowpass", o.cutoff_hz);
-  k.take("loads", o.loads);
-  k.take("tendon", o.tendon);
-  k.take("passive", o.passive);
-  k.word("compat", o.compat, {"exact", "opensim"});
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("so", std::move(given));
+  const auto o = work.options<program::SoOptions>();
   program::SoResult result = work.run([&] {
-    ResultOut folder(out, o.call, overwrite);
-    if (!out.empty()) protect_files(out, program::kSoFiles, {o.model, o.motion, o.emg, o.loads});
+    ResultOut folder(o.out, o.call);
+    if (!o.out.empty()) protect_files(o.out, program::kSoFiles, {o.model, o.motion, o.emg, o.loads});
     program::SoResult r = program::so(o);
-    if (!out.empty()) program::write_so(r, out);
+    if (!o.out.empty()) program::write_so(r, o.out);
     folder.finish();
     return r;
   });
@@ -288,23 +184,8 @@ py::dict so(py::dict given) {
 }
 
 py::dict run_tool(py::dict given) {
-  Keywords k("run_tool", std::move(given));
-  Work work(k);
-  program::RunToolOptions o;
-  k.take("setup", o.setup);
-  const auto take_path = [&](const char* name, std::filesystem::path& path) {
-    std::string text;
-    k.take(name, text);
-    path = text;
-  };
-  take_path("model", o.files.model);
-  take_path("motion", o.files.motion);
-  take_path("external_loads", o.files.external_loads);
-  take_path("out", o.files.out);
-  k.take("anywhere", o.anywhere);
-  k.word("compat", o.compat, {"opensim", "exact"});
-  k.refuse_others();
-  o.call = work.call();
+  Work work("run_tool", std::move(given));
+  const auto o = work.options<program::RunToolOptions>();
   const program::RunToolResult result = work.run([&] { return program::run_tool(o); });
   std::vector<std::string> files;
   for (const auto& file : result.tool.files) files.push_back(file.string());

@@ -55,14 +55,8 @@ py::list gate_rows(const std::vector<page::Gate>& gates) {
 }
 
 py::dict check(py::dict given) {
-  Keywords k("check", std::move(given));
-  Work work(k);
-  program::CheckOptions o;
-  k.take("study", o.input);
-  k.take("model", o.model);
-  k.word("up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
-  k.refuse_others();
-  o.call = work.call();
+  Work work("check", std::move(given));
+  const auto o = work.options<program::CheckOptions>();
   const program::CheckResult result = work.run([&] { return program::check(o); });
   py::dict d;
   d["findings"] = to_python(result.findings);
@@ -90,94 +84,30 @@ py::dict run_values(const program::RunResult& run) {
 }
 
 py::dict run(py::dict given) {
-  Keywords k("run", std::move(given));
-  Work work(k);
-  program::RunOptions o;
-  std::string out, mat;
-  bool overwrite = false;
-  k.take("study", o.study);
-  k.take("out", out);
-  k.take("mat", mat);
-  k.choices("method", o.methods);
-  k.choices("export", o.exports);
-  k.take("video", o.video.files);
-  k.take("video_offset", o.video.offset_s);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.store = std::filesystem::path(out) / program::kStageFolder;
-  o.call = work.call();
+  Work work("run", std::move(given));
+  auto o = work.options<program::RunOptions>();
+  o.store = std::filesystem::path(o.out) / program::kStageFolder;
   return run_values(work.run([&] {
-    prepare_mat(mat, o.study, overwrite);
-    ResultOut folder(out, o.call, overwrite, program::kStageFolder);
+    prepare_mat(o.mat, o.study, o.call.overwrite);
+    ResultOut folder(o.out, o.call, program::kStageFolder);
     program::RunResult r = program::run(o);
-    program::write_run(r, out);
-    if (!mat.empty()) results::write_results_mat(out, mat);
+    program::write_run(r, o.out);
+    if (!o.mat.empty()) results::write_results_mat(o.out, o.mat);
     folder.finish();
     return r;
   }));
 }
 
-/// Sets the settings of a struct from the arguments of their names, with '_' for '-'.
-class KeywordReader : public study::FlatSettingVisitor {
- public:
-  explicit KeywordReader(Keywords& keywords) : keywords_(&keywords) {}
-
- protected:
-  bool met(const study::Setting& setting, const study::SettingValue& /*now*/, const Set& set) override {
-    std::string name(setting.key);
-    for (char& c : name) c = c == '-' ? '_' : c;
-    if (name == "from") name = "from_";  // a word of the language
-    const char* const key = name.c_str();
-    if (!keywords_->object(key)) return false;
-    study::SettingValue given = value(setting, key);
-    if (const auto* word = std::get_if<std::string>(&given)) {
-      const std::string reason = study::refusal(setting, *word);
-      if (!reason.empty()) throw InvalidInput(fmt::format("{}: {}", name, reason));
-    }
-    set(std::move(given));
-    return true;
-  }
-
- private:
-  study::SettingValue value(const study::Setting& setting, const char* key) {
-    if (setting.kind == study::SettingKind::flag) return taken<bool>(key);
-    if (setting.kind == study::SettingKind::number || setting.kind == study::SettingKind::count)
-      return taken<double>(key);
-    if (setting.kind == study::SettingKind::texts) return taken<std::vector<std::string>>(key);
-    return taken<std::string>(key);
-  }
-  template <typename Value>
-  study::SettingValue taken(const char* key) {
-    Value value{};
-    keywords_->take(key, value);
-    return value;
-  }
-
-  Keywords* keywords_;
-};
-
 py::dict identify(py::dict given) {
-  Keywords k("identify", std::move(given));
-  Work work(k);
-  program::IdentifyOptions o;
-  KeywordReader reader(k);
-  visit(o, reader);
-  std::string out, mat;
-  bool overwrite = false;
-  k.take("out", out);
-  k.take("mat", mat);
-  k.choices("export", o.exports);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("identify", std::move(given));
+  const auto o = work.options<program::IdentifyOptions>();
   const program::IdentifyResult done = work.run([&] {
-    prepare_mat(mat, o.muscles.string(), overwrite);
-    ResultOut folder(out, o.call, overwrite);
-    o.folder = out;
-    protect_files(out, program::kIdentifyFiles, {o.muscles.string()});
+    prepare_mat(o.mat, o.muscles.string(), o.call.overwrite);
+    ResultOut folder(o.folder, o.call);
+    protect_files(o.folder, program::kIdentifyFiles, {o.muscles.string()});
     program::IdentifyResult r = program::identify(o);
-    program::write_identify(r, out);
-    if (!mat.empty()) results::write_results_mat(out, mat);
+    program::write_identify(r, o.folder);
+    if (!o.mat.empty()) results::write_results_mat(o.folder, o.mat);
     folder.finish();
     return r;
   });
@@ -196,21 +126,12 @@ py::object optional(const std::optional<double>& value) {
 }
 
 py::dict compare(py::dict given) {
-  Keywords k("compare", std::move(given));
-  Work work(k);
-  program::CompareOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("first", o.first);
-  k.take("second", o.second);
-  k.take("out", out);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("compare", std::move(given));
+  const auto o = work.options<program::CompareOptions>();
   const program::CompareResult result = work.run([&] {
-    ResultOut folder(out, o.call, overwrite);
+    ResultOut folder(o.out, o.call);
     program::CompareResult r = program::compare(o);
-    if (!out.empty()) program::write_compare(r, out);
+    if (!o.out.empty()) program::write_compare(r, o.out);
     folder.finish();
     return r;
   });
@@ -294,18 +215,10 @@ py::list strength_rows(const results::SecondOpinion& opinion) {
 }
 
 py::dict review(py::dict given) {
-  Keywords k("review", std::move(given));
-  Work work(k);
-  program::ReviewOptions o;
-  bool overwrite = false;
-  k.take("project", o.project);
-  k.take("joint", o.joints);
-  k.take("out", o.folder);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("review", std::move(given));
+  const auto o = work.options<program::ReviewOptions>();
   const program::ReviewResult result = work.run([&] {
-    ResultOut folder(o.folder, o.call, overwrite);
+    ResultOut folder(o.folder, o.call);
     program::ReviewResult r = program::review(o);
     program::write_review(r, o.folder);
     folder.finish();
@@ -322,26 +235,16 @@ py::dict review(py::dict given) {
 }
 
 py::dict predict(py::dict given) {
-  Keywords k("predict", std::move(given));
-  Work work(k);
-  program::PredictOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("folder", o.folder);
-  k.take("study", o.study);
-  k.take("trials", o.trials);
-  k.take("out", out);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("predict", std::move(given));
+  const auto o = work.options<program::PredictOptions>();
   struct Done {
     std::vector<std::string> trials;
     std::vector<Remark> remarks;
   };
   const Done done = work.run([&] {
-    ResultOut folder(out, o.call, overwrite);
+    ResultOut folder(o.out, o.call);
     const program::PredictResult r = program::predict(o);
-    program::write_predict(r, out);
+    program::write_predict(r, o.out);
     folder.finish();
     std::vector<std::string> trials;
     for (const fit::TrialFit& trial : r.trials)
@@ -370,38 +273,9 @@ py::list expected_rows(const std::vector<fit::ParameterEstimate>& estimates) {
   return rows;
 }
 
-program::DesignOptions design_options(Keywords& k) {
-  program::DesignOptions o;
-  bool no_dynamometer = false;
-  k.take("study", o.study);
-  k.take("model", o.model);
-  k.take("wire", o.wire);
-  k.take("targets", o.design.targets);
-  k.take("after", o.after);
-  std::string criterion(choice_name(o.design.choice.criterion));
-  k.word("criterion", criterion, {"D", "A"});
-  o.design.choice.criterion = *choice_named<run::DesignCriterion>(criterion);
-  k.count("movements", o.design.choice.movements, 1, 50);
-  k.count("repeat", o.design.choice.most_of_each, 1, 50);
-  k.above_zero("budget", o.design.choice.budget_s);
-  k.within("fatigue", o.design.fatigued_share, 0.001, 1.0);
-  k.take("masses", o.design.catalogue.held_masses_kg);
-  for (const double mass_kg : o.design.catalogue.held_masses_kg)
-    if (!(mass_kg >= 0.0)) throw InvalidInput("masses: expected numbers of 0 or more [kg]");
-  k.take("no_dynamometer", no_dynamometer);
-  k.count("persons", o.design.persons, 1, 1000);
-  k.above_zero("torque_noise", o.design.torque_sd_nm);
-  k.within("emg_noise", o.design.emg_cv, 0.0, 1.0);
-  o.dynamometer = !no_dynamometer;
-  return o;
-}
-
 py::dict design(py::dict given) {
-  Keywords k("design", std::move(given));
-  Work work(k);
-  program::DesignOptions o = design_options(k);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("design", std::move(given));
+  const auto o = work.options<program::DesignOptions>();
   const program::DesignResult result = work.run([&] { return program::design(o); });
   py::list plan, expected;
   for (const run::PlannedMovement& m : result.design.plan) {

@@ -19,33 +19,17 @@ namespace {
 namespace fs = std::filesystem;
 
 py::dict twin(py::dict given) {
-  Keywords k("twin", std::move(given));
-  Work work(k);
-  program::TwinPersonsOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("protocol", o.twin.protocol);
-  k.take("model", o.twin.model);
-  k.take("level", o.twin.level);
-  k.take("truth", o.twin.truth);
-  const bool many = k.object("subjects").has_value();
-  k.count("subjects", o.persons, 1, 1000000);
-  k.take("format", o.twin.format);
-  k.take("truth_only", o.truth_only);
-  k.take("out", out);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  if (o.truth_only && !many) throw InvalidInput("truth_only needs subjects: one person's truth is in truth.csv");
-  o.twin.call = work.call();
+  Work work("twin", std::move(given));
+  const auto o = work.options<program::TwinOptions>();
   const program::TwinPersonsResult result = work.run([&] {
-    ResultOut folder(out, o.twin.call, overwrite);
+    ResultOut folder(o.out, o.call);
     program::TwinPersonsResult made;
-    if (many) {
-      made = program::write_twin_persons(o, out);
+    if (o.persons) {
+      made = program::write_twin_persons(o, o.out);
     } else {
-      program::write_twin(program::twin(o.twin), out);
-      made.table = fs::path(out) / "truth.csv";
-      made.studies = {fs::path(out) / "study.toml"};
+      program::write_twin(program::twin(o), o.out);
+      made.table = fs::path(o.out) / "truth.csv";
+      made.studies = {fs::path(o.out) / "study.toml"};
     }
     folder.finish();
     return made;
@@ -58,42 +42,13 @@ py::dict twin(py::dict given) {
   return d;
 }
 
-/// The values of an enumeration that the argument names.
-template <typename Enumeration>
-void take_choices(Keywords& k, const char* name, std::vector<Enumeration>& values) {
-  std::vector<std::string> names;
-  k.take(name, names);
-  if (names.empty()) return;
-  values.clear();
-  for (const std::string& each : names) {
-    const auto value = choice_named<Enumeration>(each);
-    if (!value) throw InvalidInput(std::string(name) + ": there is no '" + each + "'");
-    values.push_back(*value);
-  }
-}
-
 py::dict twin_study(py::dict given) {
-  Keywords k("twin_study", std::move(given));
-  Work work(k);
-  program::TwinStudyOptions o;
-  std::string out;
-  bool overwrite = false;
-  k.take("protocol", o.protocol);
-  k.take("level", o.level);
-  k.take("offset", o.offset);
-  if (o.offset && !(*o.offset >= -3.0 && *o.offset <= 3.0))
-    throw InvalidInput("offset: expected -3 to 3 standard deviations");
-  k.take("truth", o.truth);
-  k.count("subjects", o.study.subjects, 1, 1000000);
-  take_choices(k, "method", o.study.methods);
-  k.take("out", out);
-  k.take("overwrite", overwrite);
-  k.refuse_others();
-  o.call = work.call();
+  Work work("twin_study", std::move(given));
+  const auto o = work.options<program::TwinStudyOptions>();
   const program::TwinStudyResult result = work.run([&] {
-    ResultOut folder(out, o.call, overwrite);
+    ResultOut folder(o.out, o.call);
     program::TwinStudyResult r = program::twin_study(o);
-    program::write_twin_study(r, out);
+    program::write_twin_study(r, o.out);
     if (!r.study.interrupted) folder.finish();
     return r;
   });

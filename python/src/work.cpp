@@ -12,14 +12,17 @@
 
 namespace myoid::python {
 
-Work::Work(Keywords& keywords) {
-  keywords.take("command_line", command_line_);
-  if (const auto given = keywords.object("progress")) progress_ = *given;
-  if (const auto given = keywords.object("hear")) hear_ = *given;
-  keywords.count("threads", threads_, 0, 1024);
-  keywords.take("seed", seed_);
-  keywords.take("start", start_s_);
-  keywords.take("end", end_s_);
+Work::Work(std::string function, py::dict given) : keywords_(std::move(function), std::move(given)) {
+  keywords_.take("command_line", command_line_);
+  if (const auto told = keywords_.object("progress")) progress_ = *told;
+  if (const auto told = keywords_.object("hear")) hear_ = *told;
+  keywords_.take("threads", threads_);
+  if (threads_ < 0 || threads_ > 1024)
+    throw InvalidInput(fmt::format("threads: found {}, expected 0 to 1024", threads_));
+  keywords_.take("seed", seed_);
+  keywords_.take("start", start_s_);
+  keywords_.take("end", end_s_);
+  keywords_.take("overwrite", overwrite_);
   if (start_s_ && end_s_ && !(*start_s_ < *end_s_))
     throw InvalidInput(fmt::format("end: expected a time after start {}, found {}", *start_s_, *end_s_));
 }
@@ -28,6 +31,7 @@ program::Call Work::call() {
   program::Call call{.seed = seed_,
                      .start_s = start_s_,
                      .end_s = end_s_,
+                     .overwrite = overwrite_,
                      .command = command_line_,
                      .progress = {.report = {}, .stop = stop_.get_token()},
                      .listener = {}};

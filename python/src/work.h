@@ -14,6 +14,7 @@
 
 #include "myoid/ground/files/input_log.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/program/commands/check_options.h"
 
 #include "keywords.h"
 
@@ -30,9 +31,21 @@ class InternalError : public std::runtime_error {
 /// KeyboardInterrupt is raised when the command has ended. An exception of a listener stops the command likewise.
 class Work {
  public:
-  /// Takes `command_line`, `progress`, `hear` (of a remark: severity, text), `threads`, `seed`,
-  /// `start` and `end` of the arguments.
-  explicit Work(Keywords& keywords);
+  /// Takes `command_line`, `progress`, `hear` (of a remark: severity, text), `threads`, `seed`, `start`, `end` and
+  /// `overwrite` of the arguments.
+  Work(std::string function, py::dict given);
+
+  /// Returns the options that the arguments name, and the values of every command. Refuses arguments of other names.
+  template <typename Options>
+  [[nodiscard]] Options options() {
+    Options options;
+    KeywordReader reader(keywords_);
+    visit(options, reader);
+    keywords_.refuse_others();
+    options.call = call();
+    program::check_options(options);
+    return options;
+  }
 
   /// The values for the options of the command.
   [[nodiscard]] program::Call call();
@@ -57,11 +70,13 @@ class Work {
   void attend(const std::function<void()>& action);
   void tell(const Told& told) const;
 
+  Keywords keywords_;
   std::string command_line_;
   py::object progress_ = py::none(), hear_ = py::none();
-  int threads_ = 0;
+  long threads_ = 0;
   std::uint64_t seed_ = 1;
   std::optional<double> start_s_, end_s_;
+  bool overwrite_ = false;
   std::stop_source stop_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -19,6 +19,8 @@ enum class MuscleCurves {
   de_groote,
   millard,
 };
+inline constexpr std::string_view kMuscleCurvesNames[] = {"file", "paper", "thelen", "de_groote", "millard"};
+constexpr ChoiceNames choice_names(MuscleCurves) { return kMuscleCurvesNames; }
 
 struct ModelSetup {
   muscle::TendonMode mode = muscle::TendonMode::equilibrium;

@@ -13,6 +13,8 @@ enum class RecordingFormat {
   text,  ///< TRIAL.trc and TRIAL_emg.sto
   c3d,   ///< TRIAL.c3d holds both; 32-bit reals.
 };
+inline constexpr std::string_view kRecordingFormatNames[] = {"trc", "c3d"};
+constexpr ChoiceNames choice_names(RecordingFormat) { return kRecordingFormatNames; }
 
 /// Returns the beginning of the names of each trial's files (TRIAL).
 [[nodiscard]] NameIds file_stems(const VirtualRecording& recording);

@@ -1,7 +1,6 @@
 #include "myoid/program/commands/check.h"
 
 #include <filesystem>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "myoid/ground/files/quoted_text.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/option_checks.h"
+#include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/program/cli/wrong_line.h"
 #include "myoid/study/read_study.h"
@@ -93,8 +93,7 @@ void print_next(const program::CheckResult& result, const program::CheckOptions&
     say("next: myoid init STUDY --from {}\n", word);
 }
 
-void print_check(Context& context, program::CheckOptions& o) {
-  o.call = context.call();
+void print_check(Context& context, const program::CheckOptions& o) {
   const program::CheckResult result = program::check(o);
   if (context.json) {
     say_whole(json_text(findings_json(result.findings)) + "\n");
@@ -105,51 +104,39 @@ void print_check(Context& context, program::CheckOptions& o) {
   if (result.errors > 0) context.exit_code = kBadInput;
 }
 
+void carry_out(Context& context, const CheckOptions& o, const CLI::App& command) {
+  if (command.count("--defaults") > 0 || command.count("--settings") > 0) {
+    warn_of_idle_options(command, context, {"--settings", "--defaults"}, "settings");
+    return print_settings(context, o.input, command["--settings"]->as<std::string>());
+  }
+  if (o.input.empty()) throw WrongCommandLine("check needs STUDY, or --settings; myoid check --help explains them");
+  print_check(context, o);
+}
+
 }  // namespace
 
 void add_check(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "check",
+  CLI::App* const command = add_command<CheckOptions>(
+      app, context, "check",
       "Reads every input of a study, a single recording or motion, or a model, and lists its faults, worst first; "
       "computes nothing. Or explains every setting of a study.\n"
-      "Example: myoid check study.toml");
-  const auto o = std::make_shared<program::CheckOptions>();
-  const std::string recordings = endings_text([](const FormatEntry& entry) { return is_recording(entry.format); });
-  const auto section = std::make_shared<std::string>();
-  const auto defaults = std::make_shared<bool>(false);
-  CLI::Option* const input =
-      command.add_option("study", o->input, "study.toml, a model (.osim), or a single recording: " + recordings);
-  command.add_option("--model", o->model,
-                     "Model of a motion (.mot, .sto), whose columns are its coordinates: a file (.osim), or arm4");
-  command
-      .add_option("--up", o->up,
-                  "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y or -z (default: "
-                  "as the file says)")
-      ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}));
-  command.option_defaults()->group("In place of a check");
+      "Example: myoid check study.toml",
+      {.threads = false, .seed = false, .overwrite = false}, carry_out);
+  command->option_defaults()->group("In place of a check");
   CLI::Option* const settings =
       command
-          .add_option("--settings", *section,
-                      "Explains every setting of study.toml: values, default, meaning; or those of one table")
+          ->add_option("--settings",
+                       "Explains every setting of study.toml: values, default, meaning; or those of one table")
           ->expected(0, 1)
           ->type_name("TABLE")
           ->check(CLI::Validator(refused_table, ""))
-          ->excludes(input);
+          ->excludes(command->get_option("study"));
   command
-      .add_flag("--defaults", *defaults,
-                "Prints the study with all settings that it leaves to their defaults; without a study as --settings")
+      ->add_flag_callback(
+          "--defaults", [] {},
+          "Prints the study with all settings that it leaves to their defaults; without a study as --settings")
       ->excludes(settings);
-  command.option_defaults()->group("Options");
-  add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
-  command.callback([&command, &context, o, section, defaults, settings] {
-    if (*defaults || settings->count() > 0) {
-      warn_of_idle_options(command, context, {"--settings", "--defaults"}, "settings");
-      print_settings(context, o->input, *section);
-      return;
-    }
-    if (o->input.empty()) throw WrongCommandLine("check needs STUDY, or --settings; myoid check --help explains them");
-    print_check(context, *o);
-  });
+  command->option_defaults()->group("Options");
 }
 
 }  // namespace myoid::program

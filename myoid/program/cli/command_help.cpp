@@ -54,7 +54,8 @@ std::string with_facts(const std::string& text, const CLI::Option& option, const
   if (range != std::string::npos && type.find('{') == std::string::npos) facts.push_back(type.substr(range + 1));
   std::string usual = option.get_default_str();
   std::erase_if(usual, [](char c) { return c == '[' || c == ']'; });
-  if (!usual.empty() && !says_default) facts.push_back("default " + usual);
+  if (!usual.empty() && !says_default)
+    facts.push_back(fmt::format("default{} {}", parse_number(usual) ? "" : ":", usual));
   if (!option.get_needs().empty()) facts.push_back("with " + names_of(option.get_needs()));
   if (!option.get_excludes().empty()) facts.push_back("not with " + names_of(option.get_excludes()));
   if (facts.empty()) return text;

@@ -11,6 +11,7 @@
 #include "myoid/page/plain_unit.h"
 #include "myoid/page/report.h"
 #include "myoid/program/cli/context.h"
+#include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/results/change_sentences.h"
 
@@ -75,31 +76,26 @@ void print(const results::RunComparison& comparison, bool all) {
   for (const std::string& remark : sentences(comparison.remarks)) say("{}\n", remark);
 }
 
+void carry_out(Context& context, const CompareOptions& o, const CLI::App& /*command*/) {
+  if (!o.out.empty()) context.prepare_folder(o.out);
+  const program::CompareResult result = program::compare(o);
+  if (!o.out.empty()) program::write_compare(result, o.out);
+  if (context.json) {
+    say_whole(json_text(to_json(result.comparison)) + "\n");
+    return;
+  }
+  print(result.comparison, context.verbose);
+  if (!o.out.empty()) say("{}/report.html\n", o.out);
+}
+
 }  // namespace
 
 void add_compare(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("compare",
-                                          "Two finished runs, number by number: which parameters differ by more than "
-                                          "chance, which do not, and which the recordings cannot tell.\n"
-                                          "Example: myoid compare results/before results/after --out compared");
-  const auto out = std::make_shared<std::string>();
-  const auto options = std::make_shared<program::CompareOptions>();
-  command.add_option("first", options->first, "Folder of a run (with parameters.json)")->required();
-  command.add_option("second", options->second, "Folder of the run to compare it with")->required();
-  command.add_option("--out", *out, "Folder for report.html, figures and tables");
-  add_common_options(command, context, {.threads = false, .seed = false, .range = false});
-  command.callback([&context, options, out] {
-    if (!out->empty()) context.prepare_folder(*out);
-    options->call = context.call();
-    const program::CompareResult result = program::compare(*options);
-    if (!out->empty()) program::write_compare(result, *out);
-    if (context.json) {
-      say_whole(json_text(to_json(result.comparison)) + "\n");
-      return;
-    }
-    print(result.comparison, context.verbose);
-    if (!out->empty()) say("{}/report.html\n", *out);
-  });
+  add_command<CompareOptions>(app, context, "compare",
+                              "Two finished runs, number by number: which parameters differ by more than "
+                              "chance, which do not, and which the recordings cannot tell.\n"
+                              "Example: myoid compare results/before results/after --out compared",
+                              {.threads = false, .seed = false, .range = false}, carry_out);
 }
 
 }  // namespace myoid::program

@@ -126,6 +126,8 @@ program::Call Context::call() const {
   return {.seed = seed,
           .start_s = start_s,
           .end_s = end_s,
+          .overwrite = overwrite,
+          .quiet = quiet,
           .command = command_line,
           .progress = progress(),
           .stage_ended = stage_ended(),
@@ -199,14 +201,6 @@ std::string Context::contents_of_folders() const {
                           : fmt::format("nothing was written into {}", folder));
   }
   return fmt::format("{}", fmt::join(clauses, "; "));
-}
-
-void add_compat_option(CLI::App& command, Context& context) {
-  command
-      .add_option("--compat", context.compat,
-                  "Muscle paths: exact, or opensim to have OpenSim 4.5.2's with its defects")
-      ->check(one_of({"exact", "opensim"}))
-      ->capture_default_str();
 }
 
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used) {

@@ -40,7 +40,6 @@ struct Context {
   bool overwrite = false;
   bool strict = false;
   std::optional<double> start_s, end_s;
-  std::string compat = "exact";  ///< Muscle paths: exact, or as in OpenSim 4.5.2.
   std::string command_line;
   std::string notice;  ///< A line on the command's name, which the command writes on stderr first.
   std::stop_source stop;
@@ -99,9 +98,6 @@ inline constexpr const char* kCommonGroup = "Common options";
 struct CommonOptions {
   bool threads = true, seed = true, json = true, range = true, overwrite = true;
 };
-
-/// Adds --compat to a command that loads a model.
-void add_compat_option(CLI::App& command, Context& context);
 
 /// Adds --threads, --seed, --json, --quiet, --verbose, --start, --end, --overwrite to a command.
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used = {});

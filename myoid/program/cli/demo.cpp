@@ -39,7 +39,7 @@ bool open_page(const fs::path& page) {
 
 void make_recording(Context& context, const std::string& folder) {
   context.prepare_folder(folder);
-  program::TwinOptions options{.call = context.call(), .protocol = std::string(lab::kDemoProtocol)};
+  const program::TwinOptions options{.call = context.call(), .protocol = std::string(lab::kDemoProtocol)};
   protect_files(folder, program::kTwinFiles, {});
   const program::TwinResult result = program::twin(options);
   program::write_twin(result, folder);
@@ -72,7 +72,7 @@ void add_demo(CLI::App& app, Context& context) {
     make_recording(context, recording);
     const std::string study = (fs::path(recording) / "study.toml").string();
     check_recording(context, study);
-    const program::RunResult result = compute_run(context, {.study = study}, results);
+    const program::RunResult result = compute_run(context, {.call = context.call(), .study = study, .out = results});
     say_run(context, result, results);
     if (!*closed && !context.json && !open_page(fs::absolute(fs::path(results) / "report.html")))
       context.log("open the report in a browser: it works offline");

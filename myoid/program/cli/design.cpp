@@ -5,7 +5,7 @@
 
 #include "myoid/ground/core/json_text.h"
 #include "myoid/program/cli/context.h"
-#include "myoid/program/cli/option_checks.h"
+#include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 
 namespace myoid::program {
@@ -65,44 +65,6 @@ void print_json(const run::DesignStudyResult& result) {
   say_whole(json_text(json) + "\n");
 }
 
-/// Adds the movements to choose from, and their number.
-void add_choice_options(CLI::App& command, program::DesignOptions& options) {
-  run::DesignStudyOptions& design = options.design;
-  command
-      .add_option("--criterion", design.choice.criterion,
-                  "D: volume of the confidence ellipsoid, A: sum of relative variances")
-      ->transform(one_of<run::DesignCriterion>())
-      ->default_str("D");
-  command.add_option("--movements", design.choice.movements, "How many to choose")
-      ->check(between(1, 50))
-      ->capture_default_str();
-  command.add_option("--repeat", design.choice.most_of_each, "The same movement at most so often")
-      ->check(between(1, 50))
-      ->capture_default_str();
-  command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")->check(above_zero());
-  command.add_option("--fatigue", design.fatigued_share, "Share of a muscle that may be fatigued at any time")
-      ->check(between(0.001, 1.0))
-      ->capture_default_str();
-  command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
-      ->check(zero_or_more())
-      ->capture_default_str();
-}
-
-/// Adds the persons and the noise of the expected recording.
-void add_recording_options(CLI::App& command, run::DesignStudyOptions& design) {
-  command.add_option("--persons", design.persons, "Persons drawn from the priors, to average over")
-      ->check(between(1, 1000))
-      ->capture_default_str();
-  command
-      .add_option("--torque-noise", design.torque_sd_nm,
-                  "Standard deviation of the joint torque's error below 2 Hz [N m]")
-      ->check(above_zero())
-      ->capture_default_str();
-  command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
-      ->check(between(0.0, 1.0))
-      ->capture_default_str();
-}
-
 }  // namespace
 
 void add_design(CLI::App& app, Context& context) {
@@ -110,25 +72,10 @@ void add_design(CLI::App& app, Context& context) {
       *app.add_subcommand("design",
                           "Which movements to record so that the target parameters become identifiable.\n"
                           "Example: myoid design --model arm4 --targets max_isometric_force BIC.force_length_width");
-  const auto options = std::make_shared<program::DesignOptions>();
-  const auto no_dynamometer = std::make_shared<bool>(false);
-  run::DesignStudyOptions& design = options->design;
-  command.add_option("study", options->study,
-                     "study.toml: model, muscles and electrodes as they are (or --model arm4)");
-  command.add_option("--model", options->model, "The built-in arm: arm4");
-  command.add_flag("--wire", options->wire, "With arm4: the brachialis has a wire electrode of its own");
-  command.add_option("--targets", design.targets, "all, parameters, muscles or MUSCLE.PARAMETER (default all)")
-      ->capture_default_str();
-  command.add_option("--after", options->after, "Folder of a finished run: its result is known beforehand");
-  add_choice_options(command, *options);
-  command.add_flag("--no-dynamometer", *no_dynamometer,
-                   "No isokinetic movement (isometric torque can be measured still)");
-  add_recording_options(command, design);
+  declare_options<DesignOptions>(command);
   add_common_options(command, context, {.range = false, .overwrite = false});
-  command.callback([&context, options, no_dynamometer] {
-    options->call = context.call();
-    options->dynamometer = !*no_dynamometer;
-    const program::DesignResult result = program::design(*options);
+  command.callback([&context, &command] {
+    const program::DesignResult result = program::design(given_options<DesignOptions>(command, context));
     context.end_progress();
     if (context.json) {
       print_json(result.design);

@@ -7,7 +7,7 @@
 
 #include "myoid/ground/core/json_text.h"
 #include "myoid/program/cli/context.h"
-#include "myoid/program/cli/option_checks.h"
+#include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 
 namespace myoid::program {
@@ -81,63 +81,29 @@ void print_simulation(const MuscleResult& result) {
   }
 }
 
+void carry_out(Context& context, const MuscleOptions& o, const CLI::App& /*command*/) {
+  if (!o.out.empty()) context.prepare_file(o.out, o.inputs());
+  const program::MuscleResult result = program::muscle(o);
+  context.end_progress();
+  if (!o.out.empty()) program::write_muscle(result, o.out);
+  if (failed(result)) context.exit_code = kQualityGateFailed;
+  if (result.simulated && result.simulated->simulated.status != math::OdeStatus::done) return;
+  if (context.json) {
+    say_whole(json_text(result.fit ? fit_json(result) : simulation_json(result)) + "\n");
+    return;
+  }
+  result.fit ? print_fit(result) : print_simulation(result);
+  if (!o.out.empty()) say("{}\n", o.out);
+}
+
 }  // namespace
 
 void add_muscle(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "muscle",
+  add_command<MuscleOptions>(
+      app, context, "muscle",
       "One muscle alone: which force does it make under an imposed length?\n"
-      "Example: myoid muscle --muscle soleus.toml --length length.sto --excitation 1 --out force.sto");
-  const auto o = std::make_shared<program::MuscleOptions>();
-  command.add_option("--muscle", o->muscle, "The muscle (.toml)")->required();
-  command.add_option("--length", o->lengths, "Length of fiber and tendon together over time [m] (.sto, .mot, .csv)")
-      ->required();
-  command.add_option("--column", o->column, "Which column of it (default: the only one)");
-  command.add_option("--scale", o->scales, "Its numbers times this ... (default 1); with several files one for each");
-  command.add_option("--offset", o->offset_m, "... plus this are the length [m] (default 0)");
-  command.add_option("--activation", o->activation,
-                     "Activation, a number in 0..1 or a file; with several --length one, or one for each");
-  command.add_option("--excitation", o->excitation,
-                     "Excitation, a number in 0..1 or a file; with several --length one, or one for each");
-  command.add_option("--drive-column", o->drive_column, "Which column of these files (default: the only one)");
-  command.add_option("--initial-activation", o->initial_activation,
-                     "Activation at the start, with --excitation: a number, or `settled` on the first excitation "
-                     "(default 0.01: at rest)");
-  command.add_option("--measured", o->measured, "Measured force over time [N], to compare");
-  command.add_option("--measured-column", o->measured_column, "Which column of it (default: the only one)");
-  command
-      .add_option("--fit", o->fit,
-                  "Parameters to identify from one or several --length and --measured, by comma: "
-                  "max_isometric_force,tendon_strain,...; each recording is also predicted from the others")
-      ->delimiter(',');
-  command.add_option("--isometric-force", o->isometric_n,
-                     "Force that the error is related to [N] (default: F_max of the muscle)");
-  command.add_option("--tolerance", o->tolerance, "Relative, of the integration (default 1e-9)")
-      ->check(between(1e-13, 1e-3));
-  const auto out = std::make_shared<std::string>();
-  command.add_option("--out", *out,
-                     "Forces, lengths, velocities, activation over time (.sto); with --fit the parameters (.csv)");
-  add_common_options(command, context, {.threads = false, .seed = false});
-  command.callback([&context, o, out] {
-    if (!out->empty()) {
-      std::vector<std::string> inputs{o->muscle};
-      for (const auto* files : {&o->lengths, &o->activation, &o->excitation, &o->measured})
-        inputs.insert(inputs.end(), files->begin(), files->end());
-      context.prepare_file(*out, inputs);
-    }
-    o->call = context.call();
-    const program::MuscleResult result = program::muscle(*o);
-    context.end_progress();
-    if (!out->empty()) program::write_muscle(result, *out);
-    if (failed(result)) context.exit_code = kQualityGateFailed;
-    if (result.simulated && result.simulated->simulated.status != math::OdeStatus::done) return;
-    if (context.json) {
-      say_whole(json_text(result.fit ? fit_json(result) : simulation_json(result)) + "\n");
-      return;
-    }
-    result.fit ? print_fit(result) : print_simulation(result);
-    if (!out->empty()) say("{}\n", *out);
-  });
+      "Example: myoid muscle --muscle soleus.toml --length length.sto --excitation 1 --out force.sto",
+      {.threads = false, .seed = false}, carry_out);
 }
 
 }  // namespace myoid::program

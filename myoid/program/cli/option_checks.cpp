@@ -28,11 +28,6 @@ CLI::Validator number_check(const std::string& range, const std::string& expecte
 
 }  // namespace
 
-const CLI::Validator& above_zero() {
-  static const CLI::Validator check = number_check("above 0", "above 0", [](double x) { return x > 0.0; });
-  return check;
-}
-
 const CLI::Validator& zero_or_more() {
   static const CLI::Validator check = number_check("0 or more", "of 0 or more", [](double x) { return x >= 0.0; });
   return check;

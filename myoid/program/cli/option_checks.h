@@ -4,15 +4,10 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "myoid/ground/core/choice.h"
 
 /// Checks of options, in the program's own words: what was found and what is expected.
 namespace myoid::program {
 
-[[nodiscard]] const CLI::Validator& above_zero();
 [[nodiscard]] const CLI::Validator& zero_or_more();
 [[nodiscard]] CLI::Validator between(double lower, double upper);
 
@@ -21,19 +16,6 @@ namespace myoid::program {
 
 /// Returns the check of an option that takes one of these words.
 [[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
-
-/// Returns the check of an option that takes the name of an enumerator (`choice_names`).
-template <typename Enumeration>
-[[nodiscard]] CLI::Validator one_of() {
-  const ChoiceNames names = choice_names(Enumeration{});
-  return CLI::Validator(
-      [words = std::vector<std::string>(names.begin(), names.end())](std::string& word) {
-        std::string reason = refused_word(word, words);
-        if (reason.empty()) word = std::to_string(static_cast<int>(*choice_named<Enumeration>(word)));
-        return reason;
-      },
-      fmt::format("{{{}}}", fmt::join(names, ",")), "choice");
-}
 
 /// Returns the reason to refuse a text for a number of this type of CLI11 ("INT", "UINT", "FLOAT"); empty: it is one,
 /// or the type is another.

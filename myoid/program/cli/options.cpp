@@ -1,5 +1,6 @@
 #include "myoid/program/cli/options.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -7,115 +8,106 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/files/text_file.h"
-#include "myoid/program/cli/command_help.h"
-#include "myoid/program/cli/option_checks.h"
-#include "myoid/program/commands/twin.h"
 #include "myoid/results/mat/results_mat.h"
 #include "myoid/study/setting_rows.h"
 
 namespace myoid::program {
 namespace {
 
-bool is_number(const study::Setting& setting) {
-  return setting.kind == study::SettingKind::number || setting.kind == study::SettingKind::count;
+std::string option_name(const study::Setting& setting) {
+  return fmt::format("{}{}", setting.about.option.by_place ? "" : "--", setting.key);
 }
 
-std::string option_name(const study::Setting& setting) { return fmt::format("--{}", setting.key); }
-
-/// Returns the sentences of the guide with range and default, for a terminal.
-std::string help_of(const study::Setting& setting, const study::SettingRow& row) {
-  std::vector<std::string> facts;
-  if (is_number(setting)) facts.push_back(study::without_markdown(row.allowed));
-  const std::string usual = study::without_markdown(row.usual);
-  if (usual != "–" && usual != "required" && usual != "off") facts.push_back("default: " + usual);
-  const std::string text = study::without_markdown(row.says);
-  return facts.empty() ? text : fmt::format("{} ({})", text, fmt::join(facts, "; "));
+CLI::Option* option_named(const CLI::App& command, const std::string& key) {
+  const CLI::Option* const option = command.get_option_no_throw("--" + key);
+  return const_cast<CLI::Option*>(option != nullptr ? option : command.get_option(key));
 }
 
-/// Returns "{delay,shared}", NUMBER, FILE or TEXT.
 std::string type_of(const study::Setting& setting) {
-  if (!setting.about.words.empty()) return fmt::format("{{{}}}", fmt::join(setting.about.words, ","));
+  using study::SettingKind;
   if (is_number(setting)) return "NUMBER";
-  return setting.kind == study::SettingKind::path ? "FILE" : "TEXT";
+  if (setting.kind == SettingKind::folder) return "FOLDER";
+  return setting.kind == SettingKind::path || setting.kind == SettingKind::paths ? "FILE" : "TEXT";
 }
 
-/// Returns the check of a number or a word, with the sentence that study.toml gets too.
+/// Returns the check of a number or a word, with the sentence that study.toml gets too. Its name is the range or the
+/// words: "0 to 0.3 s", "{delay,shared}".
 CLI::Validator check_of(const study::Setting& setting) {
+  const study::SettingLimits& limits = setting.about.limits;
+  const bool is_limited = std::isfinite(limits.lower) || std::isfinite(limits.upper);
   return CLI::Validator(
       [setting](const std::string& text) -> std::string {
         if (!is_number(setting)) return study::refusal(setting, text);
         const auto value = parse_number(text);
         return value ? study::refusal(setting, *value) : fmt::format("found '{}', expected a number", text);
       },
-      "");
+      !is_number(setting) ? fmt::format("{{{}}}", fmt::join(setting.about.words, ","))
+      : is_limited        ? study::range_text(limits)
+                          : "");
 }
 
 study::SettingValue value_of(const study::Setting& setting, const std::vector<std::string>& given) {
-  if (is_number(setting)) return *parse_number(given.front());
-  if (setting.kind == study::SettingKind::texts) return given;
-  return given.front();
+  using study::SettingKind;
+  if (setting.kind == SettingKind::flag) return true;
+  if (setting.kind == SettingKind::texts || setting.kind == SettingKind::paths) return given;
+  if (!is_number(setting)) return given.front();
+  std::vector<double> numbers;
+  for (const std::string& text : given) numbers.push_back(*parse_number(text));
+  return setting.kind == SettingKind::numbers ? study::SettingValue(numbers) : numbers.front();
+}
+
+bool takes_several(const study::Setting& setting) {
+  using study::SettingKind;
+  return setting.kind == SettingKind::texts || setting.kind == SettingKind::paths ||
+         setting.kind == SettingKind::numbers;
 }
 
 }  // namespace
 
-void add_truth_option(CLI::App& command, std::vector<std::string>& settings) {
-  command
-      .add_option("--truth", settings, "Keys of [truth] in place of the protocol's: moment_arm_sd=0.15 curves=millard")
-      ->type_name("KEY=VALUE");
-  command.footer([] { return program::truth_help(help_width()); });
-}
-
 bool OptionDeclarer::met(const study::Setting& setting, const study::SettingValue& now, const Set& /*set*/) {
+  const study::About& about = setting.about;
+  const std::string name = option_name(setting);
+  if (command_->get_option_no_throw(name) != nullptr) return false;  // of another struct of the command, too
   const study::SettingRow row = study::setting_row(setting, now, study::SettingNotation::command_line);
-  const std::string help = help_of(setting, row);
-  if (setting.kind == study::SettingKind::flag) {
-    command_->add_flag(option_name(setting), help);
-    return false;
-  }
-  CLI::Option* const option = command_->add_option(option_name(setting), help);
-  option->required(!setting.about.required.empty());
-  option->type_name(type_of(setting));
-  if (setting.kind == study::SettingKind::texts)
-    option->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args();
-  if (is_number(setting) || !setting.about.words.empty()) option->check(check_of(setting));
+  const std::string names = fmt::format("{}{}{}", name, about.option.also.empty() ? "" : ",", about.option.also);
+  std::string says = study::without_markdown(row.says);
+  if (says.ends_with('.')) says.pop_back();
+  const bool is_flag = setting.kind == study::SettingKind::flag;
+  CLI::Option* const option = is_flag ? command_->add_flag_callback(
+                                            names, [] {}, says)
+                                      : command_->add_option(names, says);
+  if (!about.option.group.empty()) option->group(std::string(about.option.group));
+  study::for_each_name(about.option.needs,
+                       [&](const std::string& key) { option->needs(option_named(*command_, key)); });
+  study::for_each_name(about.option.excludes,
+                       [&](const std::string& key) { option->excludes(option_named(*command_, key)); });
+  if (about.required.empty() && row.usual != "–" && row.usual != "off")
+    option->default_str(study::without_markdown(row.usual));
+  if (is_flag) return false;
+  option->required(!about.required.empty())->type_name(type_of(setting));
+  if (is_number(setting) || !about.words.empty()) option->check(check_of(setting));
+  if (about.count > 0) option->expected(static_cast<int>(about.count));
+  if (about.count == 0 && takes_several(setting))
+    option->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args(!about.option.one_each);
+  if (about.option.by_comma) option->delimiter(',');
   return false;
 }
 
 bool OptionReader::met(const study::Setting& setting, const study::SettingValue& /*now*/, const Set& set) {
   const CLI::Option* const option = command_->get_option(option_name(setting));
   if (option->count() == 0) return false;
-  set(setting.kind == study::SettingKind::flag ? study::SettingValue(true) : value_of(setting, option->results()));
+  set(value_of(setting, option->results()));
   return true;
 }
 
-void add_video_options(CLI::App& command, study::VideoChoice& video) {
-  command
-      .add_option("--video", video.files, "Film that the report shows beside the model, [TRIAL=]FILE; may be repeated")
-      ->allow_extra_args(false);
-  command.add_option("--video-offset", video.offset_s, "When these films begin, in seconds of the motion (default 0)");
+void prepare_mat(const Context& context, const std::string& file, const std::vector<std::string>& inputs) {
+  if (file.empty()) return;
+  results::check_mat_file(file);
+  context.prepare_file(file, inputs);
 }
 
-CLI::Option* add_export_option(CLI::App& command, std::vector<results::ExportFormat>& formats) {
-  return command
-      .add_option("--export", formats,
-                  "Muscles for other programs: ceinms, ceinms-rt, osimx; osim, the identified model, is always written")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(one_of<results::ExportFormat>());
-}
-
-MatOption::MatOption(CLI::App& command) {
-  command.add_option("--mat", *file_, "Also write parameters, series, remarks and draws as one MATLAB file (.mat)");
-}
-
-void MatOption::prepare(const Context& context, const std::vector<std::string>& inputs) const {
-  if (file_->empty()) return;
-  results::check_mat_file(*file_);
-  context.prepare_file(*file_, inputs);
-}
-
-void MatOption::write(const std::filesystem::path& folder) const {
-  if (!file_->empty()) results::write_results_mat(folder, *file_);
+void write_mat(const std::string& file, const std::filesystem::path& folder) {
+  if (!file.empty()) results::write_results_mat(folder, file);
 }
 
 }  // namespace myoid::program

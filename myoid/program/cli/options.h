@@ -1,16 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "myoid/program/cli/context.h"
-#include "myoid/results/exports/law_differences.h"
 #include "myoid/study/setting.h"
-#include "myoid/study/study.h"
 
 namespace myoid::program {
 
@@ -38,26 +35,41 @@ class OptionReader : public study::FlatSettingVisitor {
   const CLI::App* command_;
 };
 
-/// Declares `--truth KEY=VALUE`, and the keys below the help.
-void add_truth_option(CLI::App& command, std::vector<std::string>& settings);
+/// Declares the options of a command, whose struct `visit` describes.
+template <typename Options>
+void declare_options(CLI::App& command, Options usual = {}) {
+  OptionDeclarer declarer(command);
+  visit(usual, declarer);
+}
 
-/// Adds --export: forms for other programs, separated by commas.
-CLI::Option* add_export_option(CLI::App& command, std::vector<results::ExportFormat>& formats);
+/// Returns the options as the user gave them, with the common ones.
+template <typename Options>
+[[nodiscard]] Options given_options(const CLI::App& command, const Context& context) {
+  Options options;
+  OptionReader reader(command);
+  visit(options, reader);
+  options.call = context.call();
+  return options;
+}
 
-/// Adds --video and --video-offset: films that the report shows beside the model.
-void add_video_options(CLI::App& command, study::VideoChoice& video);
+/// Adds a command that takes the options of a struct, and the common ones; `run` does its work.
+template <typename Options>
+CLI::App* add_command(CLI::App& app,
+                      Context& context,
+                      const char* name,
+                      const char* says,
+                      const CommonOptions& used,
+                      void (*run)(Context&, const Options&, const CLI::App&)) {
+  CLI::App* const command = app.add_subcommand(name, says);
+  declare_options<Options>(*command);
+  add_common_options(*command, context, used);
+  command->callback([command, &context, run] { run(context, given_options<Options>(*command, context), *command); });
+  return command;
+}
 
-/// The option --mat of commands that fill a folder with results: writes them as one MATLAB file, too.
-class MatOption {
- public:
-  explicit MatOption(CLI::App& command);
-  /// Refuses a file that cannot be written, before anything is computed.
-  void prepare(const Context& context, const std::vector<std::string>& inputs) const;
-  /// Writes the file if the option is given.
-  void write(const std::filesystem::path& folder) const;
-
- private:
-  std::shared_ptr<std::string> file_ = std::make_shared<std::string>();
-};
+/// Refuses a MATLAB file that cannot be written, before anything is computed; an empty name is none.
+void prepare_mat(const Context& context, const std::string& file, const std::vector<std::string>& inputs);
+/// Writes the results in the folder as a MATLAB file, if it has a name.
+void write_mat(const std::string& file, const std::filesystem::path& folder);
 
 }  // namespace myoid::program

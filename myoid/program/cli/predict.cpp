@@ -4,6 +4,7 @@
 
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/program/cli/context.h"
+#include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/results/prediction_files.h"
 
@@ -21,35 +22,27 @@ void print_predict(const program::PredictResult& result) {
   say("{}\n", results::band_sentence(result.trials));
 }
 
+void carry_out(Context& context, const PredictOptions& o, const CLI::App& /*command*/) {
+  context.prepare_folder(o.out);
+  const program::PredictResult result = program::predict(o);
+  context.end_progress();
+  program::write_predict(result, o.out);
+  if (context.json) {
+    say_whole(program::predict_json(result));
+  } else {
+    print_predict(result);
+    say("{}\n", o.out);
+  }
+}
+
 }  // namespace
 
 void add_predict(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("predict",
-                          "Torque and muscle forces, with 95 % bands, of trials that took no part in a run's fit.\n"
-                          "The bands are of the person.\n"
-                          "Example: myoid predict results --trials fast_lift --out predicted");
-  const auto out = std::make_shared<std::string>();
-  const auto o = std::make_shared<program::PredictOptions>();
-  command.add_option("folder", o->folder, "Folder of a run (with run.json)")->required();
-  command.add_option("--study", o->study,
-                     "Another study of the same person and muscles, with the trials (default: the study of the run)");
-  command.add_option("--trials", o->trials, "Names of the trials (default: all that took no part in the fit)");
-  command.add_option("--out", *out, "Folder of the predictions")->required();
-  add_common_options(command, context, {.seed = false});
-  command.callback([&context, o, out] {
-    context.prepare_folder(*out);
-    o->call = context.call();
-    const program::PredictResult result = program::predict(*o);
-    context.end_progress();
-    program::write_predict(result, *out);
-    if (context.json) {
-      say_whole(program::predict_json(result));
-    } else {
-      print_predict(result);
-      say("{}\n", *out);
-    }
-  });
+  add_command<PredictOptions>(app, context, "predict",
+                              "Torque and muscle forces, with 95 % bands, of trials that took no part in a run's fit.\n"
+                              "The bands are of the person.\n"
+                              "Example: myoid predict results --trials fast_lift --out predicted",
+                              {.seed = false}, carry_out);
 }
 
 }  // namespace myoid::program

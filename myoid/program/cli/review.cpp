@@ -6,6 +6,7 @@
 #include "myoid/ground/core/json_text.h"
 #include "myoid/page/json_values.h"
 #include "myoid/program/cli/context.h"
+#include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/results/review/review_report.h"
 
@@ -68,35 +69,29 @@ void print(const results::SecondOpinion& opinion) {
         t.is_calibrating ? "calibration" : "other", r2_text(t.theirs), r2_text(t.ours));
 }
 
+void carry_out(Context& context, const ReviewOptions& o, const CLI::App& /*command*/) {
+  context.prepare_folder(o.folder);
+  const program::ReviewResult result = program::review(o);
+  context.end_progress();
+  program::write_review(result, o.folder);
+  if (context.json) {
+    say_whole(json_text(to_json(result.opinion)) + "\n");
+    return;
+  }
+  print(result.opinion);
+  say("{}/report.html\n", o.folder);
+}
+
 }  // namespace
 
 void add_review(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "review",
+  add_command<ReviewOptions>(
+      app, context, "review",
       "A second opinion on a calibration by CEINMS, CEINMS-RT or NMSM: its torque by its own law, its numbers on "
       "bounds "
       "and without EMG, and the numbers that its recordings tell. Nothing is written into the project.\n"
-      "Example: myoid review ceinms_project --out opinion");
-  const auto o = std::make_shared<program::ReviewOptions>();
-  o->folder = "review";
-  command.add_option("project", o->project, "Folder, set-up or subject of the project")->required();
-  command.add_option("--joint", o->joints, "Joints to judge (default: those of the calibration)");
-  command.add_option("--out", o->folder, "Folder for report.html, tables, figures and study.toml")
-      ->capture_default_str();
-  add_common_options(command, context);
-  command.callback([&context, o] {
-    context.prepare_folder(o->folder);
-    o->call = context.call();
-    const program::ReviewResult result = program::review(*o);
-    context.end_progress();
-    program::write_review(result, o->folder);
-    if (context.json) {
-      say_whole(json_text(to_json(result.opinion)) + "\n");
-      return;
-    }
-    print(result.opinion);
-    say("{}/report.html\n", o->folder);
-  });
+      "Example: myoid review ceinms_project --out opinion",
+      {}, carry_out);
 }
 
 }  // namespace myoid::program

@@ -12,7 +12,6 @@
 #include "myoid/page/report.h"
 #include "myoid/program/cli/command_help.h"
 #include "myoid/program/cli/context.h"
-#include "myoid/program/cli/option_checks.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/results/answer.h"
@@ -175,15 +174,14 @@ void tell_gates(const std::vector<page::Gate>& gates, const Context& context) {
 
 }  // namespace
 
-program::RunResult compute_run(Context& context, program::RunOptions options, const std::string& out) {
+program::RunResult compute_run(Context& context, program::RunOptions options) {
   const auto begin = std::chrono::steady_clock::now();
-  context.prepare_folder(out, program::kStageFolder);
-  protect_files(out, program::kRunFiles, {options.study});
-  options.call = context.call();
-  options.store = std::filesystem::path(out) / program::kStageFolder;
+  context.prepare_folder(options.out, program::kStageFolder);
+  protect_files(options.out, program::kRunFiles, {options.study});
+  options.store = std::filesystem::path(options.out) / program::kStageFolder;
   program::RunResult result = program::run(options);
   const auto computed = std::chrono::steady_clock::now();
-  program::write_run(result, out);
+  program::write_run(result, options.out);
   context.end_progress();
   if (const auto ended = context.stage_ended())
     ended("writes files and page", std::chrono::duration<double>(std::chrono::steady_clock::now() - computed).count());
@@ -210,28 +208,24 @@ void say_run(Context& context, const program::RunResult& result, const std::stri
   if (run::failed_trials(study.trials) > 0) context.exit_code = kSomeTrialsFailed;
 }
 
+namespace {
+
+void carry_out(Context& context, const RunOptions& o, const CLI::App& /*command*/) {
+  prepare_mat(context, o.mat, {o.study});
+  const program::RunResult result = compute_run(context, o);
+  write_mat(o.mat, o.out);
+  say_run(context, result, o.out, std::ranges::find(o.methods, fit::Method::paper) != o.methods.end());
+}
+
+}  // namespace
+
 void add_run(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("run",
-                          "The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.\n"
-                          "Example: myoid run study.toml --out results");
-  const auto out = std::make_shared<std::string>();
-  const auto options = std::make_shared<program::RunOptions>();
-  command.add_option("study", options->study, "study.toml")->required();
-  command.add_option("--method", options->methods, "torque, force, paper; several, in place of the study's")
-      ->transform(one_of<fit::Method>());
-  command.add_option("--out", *out, "Folder of the results")->required();
-  add_video_options(command, options->video);
-  add_export_option(command, options->exports);
-  const MatOption mat(command);
-  command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
-  add_common_options(command, context);
-  command.callback([&context, options, out, mat] {
-    mat.prepare(context, {options->study});
-    const program::RunResult result = compute_run(context, *options, *out);
-    mat.write(*out);
-    say_run(context, result, *out, std::ranges::find(options->methods, fit::Method::paper) != options->methods.end());
-  });
+  CLI::App* const command = add_command<RunOptions>(
+      app, context, "run",
+      "The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.\n"
+      "Example: myoid run study.toml --out results",
+      {}, carry_out);
+  command->add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
 }
 
 }  // namespace myoid::program

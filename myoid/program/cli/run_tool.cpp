@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,7 @@
 
 #include "myoid/ground/core/counted.h"
 #include "myoid/program/cli/context.h"
-#include "myoid/program/cli/option_checks.h"
+#include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/program/commands/run_tools.h"
 
@@ -72,48 +71,20 @@ void run_several(program::RunToolsOptions options, Context& context) {
     context.exit_code = kQualityGateFailed;
 }
 
+void carry_out(Context& context, const RunToolsOptions& o, const CLI::App& /*command*/) {
+  if (o.setups.size() != 1 || std::filesystem::is_directory(o.setups.front())) return run_several(o, context);
+  RunToolOptions one = o;
+  one.setup = o.setups.front();
+  run_one(one, context);
+}
+
 }  // namespace
 
 void add_run_tool(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("run-tool",
-                          "Run OpenSim set-up files: inverse kinematics, inverse dynamics, analyses, scaling\n"
-                          "Example: myoid run-tool subject01_Setup_IK.xml");
-  const auto o = std::make_shared<program::RunToolOptions>();
-  const auto setups = std::make_shared<std::vector<std::string>>();
-  command.add_option("setup", *setups, "Set-up files (.xml) and folders of set-up files")->required();
-  command.add_option("--model", o->files.model, "Model (.osim), instead of the set-up's");
-  command.add_option(
-      "--motion", o->files.motion,
-      "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers (.trc), instead of the set-up's");
-  command.add_option("--external-loads", o->files.external_loads, "External loads (.xml), instead of the set-up's");
-  command.add_option("--out", o->files.out,
-                     "Folder of the results, instead of the set-up's; of several set-ups a folder in it for each");
-  command.add_flag("--anywhere", o->anywhere,
-                   "Write outside the folder of the set-up too, where the set-up says so (default: refused)");
-  command
-      .add_option(
-          "--compat", o->compat,
-          "opensim: paths of muscles as OpenSim 4.5.2 computes them; exact: as their geometry is (default opensim)")
-      ->check(one_of({"opensim", "exact"}));
-  add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
-  command.callback([&context, o, setups] {
-    o->call = context.call();
-    if (setups->size() == 1 && !std::filesystem::is_directory(setups->front())) {
-      o->setup = setups->front();
-      run_one(*o, context);
-      return;
-    }
-    if (!o->files.motion.empty() || !o->files.external_loads.empty())
-      throw InvalidInput("--motion and --external-loads name the files of one trial; give one set-up with them");
-    run_several({.call = o->call,
-                 .setups = *setups,
-                 .model = o->files.model.string(),
-                 .out = o->files.out.string(),
-                 .anywhere = o->anywhere,
-                 .compat = o->compat},
-                context);
-  });
+  add_command<RunToolsOptions>(app, context, "run-tool",
+                               "Run OpenSim set-up files: inverse kinematics, inverse dynamics, analyses, scaling\n"
+                               "Example: myoid run-tool subject01_Setup_IK.xml",
+                               {.seed = false, .range = false, .overwrite = false}, carry_out);
 }
 
 }  // namespace myoid::program

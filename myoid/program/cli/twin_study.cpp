@@ -7,10 +7,11 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/math/statistics.h"
+#include "myoid/program/cli/command_help.h"
 #include "myoid/program/cli/context.h"
-#include "myoid/program/cli/option_checks.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
+#include "myoid/program/commands/twin.h"
 
 namespace myoid::program {
 namespace {
@@ -92,49 +93,34 @@ void print_verdicts(const lab::TwinStudyResult& result, const std::vector<lab::T
   print_predictions(result);
 }
 
+void carry_out(Context& context, const TwinStudyOptions& o, const CLI::App& command) {
+  context.prepare_folder(o.out);
+  const program::TwinStudyResult result = program::twin_study(o);
+  context.end_progress();
+  program::write_twin_study(result, o.out);
+  const lab::TwinStudyResult& study = result.study;
+  const std::string persons = study.interrupted
+                                  ? fmt::format("INTERRUPTED: only {} of {}", study.finished, study.subjects)
+                                  : fmt::format("{}", study.finished);
+  say("protocol {}, level {}, {} persons, {} failures\n\n", study.protocol, study.level, persons,
+      study.failures.size());
+  print_summary(result.summaries, command.count("--each-muscle") > 0);
+  print_verdicts(study, result.summaries);
+  if (study.interrupted) throw Interrupted();
+  if (!study.failures.empty()) context.exit_code = kSomeTrialsFailed;
+}
+
 }  // namespace
 
 void add_twin_study(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "twin-study",
+  add_command<TwinStudyOptions>(
+      app, context, "twin-study",
       "How good is the method? Many virtual persons, the whole chain, compared with the truth.\n"
-      "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out study");
-  const auto out = std::make_shared<std::string>();
-  const auto each_muscle = std::make_shared<bool>(false);
-  const auto options = std::make_shared<program::TwinStudyOptions>();
-  command.add_option("--protocol", options->protocol, "Protocol of the recording (.toml), or demo, the program's own")
-      ->required();
-  command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
-      ->check(one_of({"L0", "L1", "L2"}));
-  command.add_option("--offset", options->offset, "Mean of the persons away from the priors', in standard deviations")
-      ->check(between(-3.0, 3.0));
-  add_truth_option(command, options->truth);
-  command.add_option("--subjects", options->study.subjects, "Virtual persons")
-      ->check(between(1, 1000000))
-      ->capture_default_str();
-  command.add_option("--method", options->study.methods, "torque, force, paper; several")
-      ->transform(one_of<fit::Method>())
-      ->default_str("torque");
-  command.add_flag("--each-muscle", *each_muscle, "A line for each muscle too");
-  command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")->required();
-  add_common_options(command, context, {.range = false});
-  command.callback([&context, options, out, each_muscle] {
-    context.prepare_folder(*out);
-    options->call = context.call();
-    const program::TwinStudyResult result = program::twin_study(*options);
-    context.end_progress();
-    program::write_twin_study(result, *out);
-    const lab::TwinStudyResult& study = result.study;
-    const std::string persons = study.interrupted
-                                    ? fmt::format("INTERRUPTED: only {} of {}", study.finished, study.subjects)
-                                    : fmt::format("{}", study.finished);
-    say("protocol {}, level {}, {} persons, {} failures\n\n", study.protocol, study.level, persons,
-        study.failures.size());
-    print_summary(result.summaries, *each_muscle);
-    print_verdicts(study, result.summaries);
-    if (study.interrupted) throw Interrupted();
-    if (!study.failures.empty()) context.exit_code = kSomeTrialsFailed;
-  });
+      "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out study",
+      {.range = false}, carry_out)
+      ->footer([] { return program::truth_help(help_width()); })
+      ->add_flag_callback(
+          "--each-muscle", [] {}, "A line for each muscle too");
 }
 
 }  // namespace myoid::program

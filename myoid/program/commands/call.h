@@ -31,6 +31,8 @@ namespace myoid::program {
 struct Call {
   std::uint64_t seed = 1;
   std::optional<double> start_s, end_s;  ///< Time of the data in use [s].
+  bool overwrite = false;                ///< Replaces existing results.
+  bool quiet = false;                    ///< Nobody hears warnings: what only warns is not computed.
   std::string command;                   ///< Written into results as the command that made them.
   Progress progress;
   /// Receives the end of each stage of a run: its work, and its seconds; may be empty.

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "myoid/ground/files/file_format.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/stage_input.h"
+#include "myoid/program/commands/stage_options.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/study/checks/check_file.h"
 #include "myoid/study/checks/check_study.h"
@@ -11,7 +13,19 @@
 
 namespace myoid::program {
 
+void visit(CheckOptions& o, study::SettingVisitor& v) {
+  static const std::string kInputs = "study.toml, a model (.osim), or a single recording: " +
+                                     endings_text([](const FormatEntry& entry) { return is_recording(entry.format); });
+  v.path("study", o.input, {.says = kInputs, .option = {.by_place = true}});
+  v.path("model", o.model,
+         {.says = "Model of a motion (.mot, .sto), whose columns are its coordinates: a file (.osim), or arm4."});
+  visit_up(
+      o.up, v,
+      {.says = "Vertical of a single recording's laboratory, for its force plates.", .otherwise = "as the file says"});
+}
+
 CheckResult check(const CheckOptions& o) {
+  check_options(o);
   CheckResult result;
   result.of_study = format_of(o.input) == FileFormat::toml;
   if (result.of_study) {
@@ -25,7 +39,7 @@ CheckResult check(const CheckOptions& o) {
   } else {
     std::optional<body::BodyModel> model;
     Remarks of_model(Call{});  // `check MODEL` tells them
-    if (!o.model.empty()) model = load_model(o.model, "exact", of_model);
+    if (!o.model.empty()) model = load_model(o.model, body::Compatibility::exact, of_model);
     result.findings = study::check_recording(o.input, recording::axis_vector(o.up), model ? &*model : nullptr);
   }
   result.errors = static_cast<std::size_t>(

@@ -6,6 +6,7 @@
 
 #include "myoid/ground/core/remark.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -16,6 +17,7 @@ struct CheckOptions {
   std::string model;  ///< Model of a motion (.mot, .sto), .osim or "arm4"; empty: unknown.
   std::string up;     ///< Vertical of a recording's laboratory: x, -y, ...; empty: as the file states.
 };
+void visit(CheckOptions& options, study::SettingVisitor& v);
 
 struct CheckResult {
   std::vector<Remark> findings;  ///< Worst first.

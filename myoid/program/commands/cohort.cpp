@@ -14,6 +14,7 @@
 #include "myoid/ground/files/output_file.h"
 #include "myoid/ground/files/quoted_text.h"
 #include "myoid/ground/files/result_folder.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/run.h"
 #include "myoid/results/cohort/person_study.h"
 
@@ -31,6 +32,29 @@ constexpr const char* kStageFolder = ".stages";
 constexpr const char* kCohortWord = "cohort";
 /// Names of the group's results, which a folder of other content must not have.
 const std::vector<std::string_view> kGroupFiles{"persons.csv", "cohort.csv", "report."};
+
+/// Memory that a person under way needs at most, with markers and EMG of some minutes.
+constexpr std::size_t kPersonMemory_mb = 500;
+/// Limit on the persons under way, if none follows from the memory.
+constexpr std::size_t kMostJobs = 1024;
+
+/// Returns the trials in use by the entities of their files' names.
+results::BidsFilter filter_of(const CohortOptions& o) {
+  results::BidsFilter filter;
+  for (const auto& [entity, values] : {std::pair{"ses", &o.sessions}, std::pair{"task", &o.tasks}}) {
+    const std::string begin = std::string(entity) + "-";
+    for (const std::string& value : *values)
+      filter[entity].push_back(value.starts_with(begin) ? value.substr(begin.size()) : value);
+  }
+  for (const std::string& pair : o.entities) {
+    const std::size_t equals = pair.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      throw InvalidInput(fmt::format("--entity: {}: expected NAME=VALUE, as run=1", pair));
+    filter[pair.substr(0, equals)].push_back(pair.substr(equals + 1));
+  }
+  if (!o.filter_file.empty()) results::add_bids_filter(o.filter_file, filter);
+  return filter;
+}
 
 void judge(const RunResult& result, Outcome& outcome) {
   std::vector<std::string> gates, trials;
@@ -77,7 +101,7 @@ Outcome failure(const std::string& message) { return {.kind = OutcomeKind::faile
 results::PersonOutcome job_in(const CohortOptions& o, const Person& person, const fs::path& folder) {
   Outcome outcome;
   try {
-    const fs::path study = results::person_study(person, folder, o.filter);
+    const fs::path study = results::person_study(person, folder, filter_of(o));
     const auto earlier = results::recorded_outcome(folder);
     if (earlier && earlier->kept == o.kept && results::is_current(*earlier, study))
       return {.person = person.name, .outcome = earlier, .reused = true};
@@ -108,7 +132,7 @@ struct PersonJob {
 PersonJob job(const CohortOptions& o, const Person& person, const fs::path& out) {
   const fs::path place = results::person_folder(out, person);
   try {
-    ResultFolder folder(place, o.call.command, kCohortWord, o.overwrite);
+    ResultFolder folder(place, o.call.command, kCohortWord, o.call.overwrite);
     PersonJob done{job_in(o, person, place)};
     folder.finish();
     done.notes = folder.take_notes();
@@ -122,6 +146,49 @@ PersonJob job(const CohortOptions& o, const Person& person, const fs::path& out)
 
 }  // namespace
 
+void visit(CohortOptions& o, study::SettingVisitor& v) {
+  constexpr std::string_view kBids = "BIDS App";
+  v.path("manifest", o.manifest,
+         {.says = "Table with the columns name and study, a row a person; or the folder of a BIDS data set.",
+          .required = "a file",
+          .option = {.by_place = true}});
+  v.folder("out", o.out, {.says = "Folder of the results.", .required = "a folder", .option = {.also = "output_dir"}});
+  v.path("study", o.study, {.says = "BIDS: the study of every person.", .otherwise = "code/study.toml"});
+  v.texts("person", o.persons,
+          {.says = "Only these persons, by name, id or label without sub-, and without the group; several.",
+           .option = {.also = "--participant-label,--participant_label"}});
+  v.flag("group", o.group,
+         {.says = "Only the group: the tables and page of all persons.", .option = {.excludes = "person"}});
+  v.choice("workflow", o.workflow,
+           {.says = "Writes the files for an engine and computes nothing.", .option = {.excludes = "person,group"}});
+  v.choice("keep", o.kept,
+           {.says = "Files of each person: tables; page, also a report without the moving model; all, as run writes "
+                    "them."});
+  v.folder("work-dir", o.work,
+           {.says = "Folder for the stages of persons under way.",
+            .otherwise = "in the folder of each person",
+            .option = {.also = "-w,--work_dir"}});
+  v.count("jobs", o.jobs,
+          {.says = "Persons at a time; the files are the same for every number.",
+           .limits = study::within(1, 1024),
+           .otherwise = "as many as threads"});
+  v.texts("session-label", o.sessions,
+          {.says = "Only trials of these sessions, by the names of their files.",
+           .option = {.also = "--session_label", .group = kBids}});
+  v.texts("task-label", o.tasks,
+          {.says = "Only trials of these tasks.", .option = {.also = "--task_label,--task-id", .group = kBids}});
+  v.texts("entity", o.entities,
+          {.says = "Only trials with this entity in the names of their files, NAME=VALUE; several.",
+           .option = {.group = kBids}});
+  v.path("bids-filter-file", o.filter_file,
+         {.says = "The same as a file: {\"motion\": {\"session\": \"01\", \"task\": [\"lift\"]}}.",
+          .option = {.also = "--bids_filter_file", .group = kBids}});
+  v.count("mem-mb", o.memory_mb,
+          {.says = "Memory: a person at a time for every 500.",
+           .limits = study::within(1, 100000000, "MB"),
+           .option = {.also = "--mem_mb", .group = kBids}});
+}
+
 std::vector<results::PersonOutcome> write_cohort_persons(const CohortOptions& o, const fs::path& folder) {
   const results::Manifest manifest = results::read_manifest(o.manifest, o.study);
   const std::vector<const Person*> persons = results::chosen_persons(manifest, o.persons);
@@ -130,7 +197,7 @@ std::vector<results::PersonOutcome> write_cohort_persons(const CohortOptions& o,
   std::size_t done = 0;
   Remarks remarks(o.call);
   in_jobs(
-      persons.size(), o.jobs,
+      persons.size(), o.jobs.value_or(0),
       [&](std::size_t i) {
         o.call.progress.check();
         PersonJob done_job = job(o, *persons[i], folder);
@@ -141,14 +208,14 @@ std::vector<results::PersonOutcome> write_cohort_persons(const CohortOptions& o,
                              fmt::format("{} of {} persons", done, persons.size()));
         if (o.heard) o.heard(outcomes[i]);
       },
-      o.most_jobs);
+      o.memory_mb ? std::max<std::size_t>(1, *o.memory_mb / kPersonMemory_mb) : kMostJobs);
   return outcomes;
 }
 
 results::Group write_cohort_group(const CohortOptions& o, const fs::path& folder) {
   const results::Manifest manifest = results::read_manifest(o.manifest, o.study);
   results::Group group = results::read_group(manifest, folder);
-  ResultFolder held(folder, o.call.command, kCohortWord, o.overwrite);
+  ResultFolder held(folder, o.call.command, kCohortWord, o.call.overwrite);
   results::write_group(group, manifest, folder);
   held.finish();
   Remarks remarks(o.call);
@@ -156,16 +223,16 @@ results::Group write_cohort_group(const CohortOptions& o, const fs::path& folder
   return group;
 }
 
-std::string write_cohort_workflow(const CohortOptions& o, results::Engine engine, const fs::path& folder) {
+std::string write_cohort_workflow(const CohortOptions& o, const fs::path& folder) {
   const results::Manifest manifest = results::read_manifest(o.manifest, o.study);
   std::string options;
-  for (const auto& [entity, values] : o.filter)
+  for (const auto& [entity, values] : filter_of(o))
     for (const std::string& value : values) options += fmt::format("--entity {} ", shell_word(entity + "=" + value));
   if (o.kept != page::Kept::page) options += fmt::format("--keep {} ", choice_name(o.kept));
   if (!o.work.empty())
     options += fmt::format("--work-dir {} ", shell_word(fs::absolute(o.work).lexically_normal().string()));
   if (!o.study.empty()) options += "--study " + shell_word(fs::absolute(o.study).lexically_normal().string());
-  const results::Workflow workflow = results::workflow(engine, manifest, folder, options);
+  const results::Workflow workflow = results::workflow(*o.workflow, manifest, folder, options);
   RecordedFolder held(folder / "workflow", "workflow");
   for (const results::WorkflowFile& file : workflow.files) write_file(folder / "workflow" / file.name, file.text);
   held.finish();
@@ -193,6 +260,8 @@ void refuse_data_set(const fs::path& data, const fs::path& folder) {
 }  // namespace
 
 void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder) {
+  check_options(o);
+  (void)filter_of(o);
   const results::Manifest manifest = results::read_manifest(o.manifest, o.study);
   (void)results::chosen_persons(manifest, o.persons);
   refuse_data_set(o.manifest, folder);
@@ -204,7 +273,7 @@ void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder) {
       return is_of_earlier_version(results::person_folder(folder, person));
     });
     RecordedFolder record(folder, kCohortWord, {.earlier_version = earlier});
-    if (!record.is_signed_by(kCohortWord) && holds_content(folder) && !o.overwrite)
+    if (!record.is_signed_by(kCohortWord) && holds_content(folder) && !o.call.overwrite)
       throw InvalidInput(
           fmt::format("the folder {} holds other files than a cohort's; give an empty folder, or add --overwrite",
                       folder.string()));

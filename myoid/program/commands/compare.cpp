@@ -8,6 +8,14 @@
 
 namespace myoid::program {
 
+void visit(CompareOptions& o, study::SettingVisitor& v) {
+  v.folder("first", o.first,
+           {.says = "Folder of a run (with parameters.json).", .required = "a folder", .option = {.by_place = true}});
+  v.folder("second", o.second,
+           {.says = "Folder of the run to compare it with.", .required = "a folder", .option = {.by_place = true}});
+  v.folder("out", o.out, {.says = "Folder for report.html, figures and tables."});
+}
+
 CompareResult compare(const CompareOptions& o) {
   std::error_code ignored;
   if (std::filesystem::equivalent(o.first, o.second, ignored)) {

@@ -6,6 +6,7 @@
 
 #include "myoid/program/commands/call.h"
 #include "myoid/results/compare_runs.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -13,7 +14,9 @@ namespace myoid::program {
 struct CompareOptions {
   Call call;
   std::string first, second;  ///< Folders with parameters.json.
+  std::string out;            ///< Folder of `write_compare`; empty: not written.
 };
+void visit(CompareOptions& options, study::SettingVisitor& v);
 
 struct CompareResult {
   results::RunComparison comparison;

@@ -15,6 +15,7 @@
 #include "myoid/ground/files/output_file.h"
 #include "myoid/ground/files/result_record.h"
 #include "myoid/ground/files/text_file.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/convert_parts.h"
 #include "myoid/program/commands/stage_input.h"
 #include "myoid/recording/bids_derivative.h"
@@ -59,10 +60,10 @@ class Converter {
       everything(out);
     } else if (format == FileFormat::c3d) {
       to_c3d(out);
-    } else if (format == FileFormat::trc || o_.what == "markers") {
+    } else if (format == FileFormat::trc || o_.what == RecordingPart::markers) {
       if (format != FileFormat::trc) throw InvalidInput("markers are written as .trc or .c3d");
       markers(out);
-    } else if (o_.what == "plates") {
+    } else if (o_.what == RecordingPart::plates) {
       recording::Recording file = recording::read_recording(o_.in);
       stand(file);
       plates(out, std::move(file));
@@ -73,7 +74,7 @@ class Converter {
   }
 
  private:
-  void claim(const fs::path& path) const { check_output(path, {o_.in, o_.analog}, o_.overwrite); }
+  void claim(const fs::path& path) const { check_output(path, {o_.in, o_.analog}, o_.call.overwrite); }
 
   void report(const std::vector<Repair>& repairs) const { report(o_.in, repairs); }
   void report(const std::string& path, const std::vector<Repair>& repairs) const {
@@ -137,7 +138,7 @@ class Converter {
 
   /// Returns true if all channels are written unchanged, in the compact form of their file.
   [[nodiscard]] bool stays(const AnalogChannels& channels, const fs::path& out) const {
-    return o_.channels.empty() && !o_.call.start_s && !o_.call.end_s && o_.rate_hz <= 0.0 &&
+    return o_.channels.empty() && !o_.call.start_s && !o_.call.end_s && !o_.rate_hz &&
            (!is_storage(out.string()) || channels.all_finite());
   }
 
@@ -150,7 +151,7 @@ class Converter {
                                   const fs::path& out,
                                   const std::string& from) const {
     TimeSeries series = cut(recording::choose_channels(clocks, o_.channels, from), o_.call);
-    if (!is_storage(out.string()) && o_.rate_hz <= 0.0) return series;
+    if (!is_storage(out.string()) && !o_.rate_hz) return series;
     std::vector<Repair> gaps;
     series = recording::without_gaps(series, gaps);
     report(from, gaps);
@@ -159,16 +160,16 @@ class Converter {
 
   /// Resamples to the even clock of --rate, after a low-pass where the new clock is slower.
   [[nodiscard]] TimeSeries at_rate(const TimeSeries& series) const {
-    if (o_.rate_hz <= 0.0 || series.sample_count() < 4) return series;
+    if (!o_.rate_hz || series.sample_count() < 4) return series;
     return recording::resample(series, new_clock(o_, series.time_s()));
   }
   [[nodiscard]] MarkerSeries at_rate(MarkerSeries markers) const {
-    if (o_.rate_hz <= 0.0 || markers.frame_count() < 4) return markers;
+    if (!o_.rate_hz || markers.frame_count() < 4) return markers;
     return recording::resample(markers, new_clock(o_, markers.time_s));
   }
   void channels(const fs::path& out) {
     claim(out);
-    if (o_.what == "emg" || !o_.unit.empty()) {
+    if (o_.what == RecordingPart::emg || !o_.unit.empty()) {
       write_read(out, recording::rows_of(chosen(voltages(o_.in), out, o_.in)));
     } else if (is_storage(o_.in)) {
       storage_channels(out);
@@ -240,7 +241,8 @@ class Converter {
       return;
     }
     const fs::path xml = fs::path(out).replace_extension(".xml");
-    check_companion(xml, {o_.in, o_.analog}, o_.overwrite, "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSim");
+    check_companion(xml, {o_.in, o_.analog}, o_.call.overwrite,
+                    "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSim");
     write_file(xml, recording::format_external_loads(out.stem().string(), numbers, o_.bodies, out.filename().string()));
     wrote(xml);
   }
@@ -298,7 +300,7 @@ class Converter {
   void to_c3d(const fs::path& out) {
     claim(out);
     if (format_of(o_.in) == FileFormat::c3d) {
-      if (!R_.isIdentity(0.0) || o_.call.start_s || o_.call.end_s || o_.rate_hz > 0.0)
+      if (!R_.isIdentity(0.0) || o_.call.start_s || o_.call.end_s || o_.rate_hz)
         throw InvalidInput("a C3D file is rewritten as it is; convert it to .trc to turn, cut or resample it");
       recording::C3dFile file = recording::read_c3d(o_.in);
       report(file.repairs);
@@ -335,7 +337,7 @@ class Converter {
 
 /// Returns the options with the kind of content that the endings of the names imply.
 ConvertOptions with_kind(ConvertOptions o) {
-  if (o.what.empty() && extension_of(o.out) == ".mot" && format_of(o.in) == FileFormat::c3d) o.what = "plates";
+  if (!o.what && extension_of(o.out) == ".mot" && format_of(o.in) == FileFormat::c3d) o.what = RecordingPart::plates;
   return o;
 }
 
@@ -351,9 +353,9 @@ bool is_markup(const fs::path& path) {
 
 /// Writes an OpenSim file of any version in the newest form.
 void write_updated(const ConvertOptions& o, ConvertResult& result, Remarks& remarks) {
-  check_output(o.out, {o.in}, o.overwrite);
+  check_output(o.out, {o.in}, o.call.overwrite);
   const body::UpdatedOsim updated =
-      body::updated_osim(read_text_file(o.in), o.in, {.six_digits = body::parse_compat(o.compat).six_digit_offsets});
+      body::updated_osim(read_text_file(o.in), o.in, {.six_digits = body::compat_of(o.compat).six_digit_offsets});
   for (const Remark& note : updated.notes) remarks.add(note);
   write_file(o.out, updated.text);
   result.files = {o.out};
@@ -362,6 +364,46 @@ void write_updated(const ConvertOptions& o, ConvertResult& result, Remarks& rema
 }
 
 }  // namespace
+
+void visit(ConvertOptions& o, study::SettingVisitor& v) {
+  static const std::string kInputs = endings_text([](const FormatEntry& entry) { return is_recording(entry.format); }) +
+                                     ", .osim, .xml, or the folder of a finished run";
+  constexpr std::string_view kLaboratory = "Laboratory";
+  v.path("in", o.in, {.says = kInputs, .required = "a file", .option = {.keyword = "source", .by_place = true}});
+  v.path("out", o.out,
+         {.says = ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it; .osim, .xml of an OpenSim file; "
+                  ".mat of a storage file or of the folder of a run.",
+          .required = "a file",
+          .option = {.by_place = true}});
+  v.choice("what", o.what,
+           {.says = "emg: voltages only.", .otherwise = "markers for .trc, plates for .mot from .c3d, else channels"});
+  visit_up(o.up, v,
+           {.says = "Vertical axis of the laboratory, turned to y.",
+            .otherwise = "with force plates as the file says, else nothing is turned",
+            .option = {.group = kLaboratory}});
+  v.texts("rotate", o.turns,
+          {.says = "AXIS:DEGREES, repeated: further turns, one after another.", .option = {.group = kLaboratory}});
+  v.texts("body", o.bodies,
+          {.says = "Body of the model that stands on plate 1, 2, ...: writes ExternalLoads too.",
+           .option = {.group = kLaboratory}});
+  v.number("least-force", o.least_force_n,
+           {.says = "Below it a plate counts as unloaded.",
+            .limits = study::above_zero("N"),
+            .option = {.group = kLaboratory}});
+  v.text("unit", o.unit, {.says = "Unit of EMG where the file does not say: V, mV, uV."});
+  v.texts("channel", o.channels, {.says = "Only this channel, repeated."});
+  v.path("analog", o.analog, {.says = "Channels to go with the markers of a .trc into a .c3d."});
+  v.number("rate", o.rate_hz,
+           {.says = "Put everything on an even clock of this rate; low-passed first where that is slower (0 dB to 0.4 "
+                    "of it, -100 dB from half of it on).",
+            .limits = study::above_zero("Hz"),
+            .otherwise = "as recorded"});
+  v.text("subject", o.subject,
+         {.says = "Label of the person where IN is a folder of results, written as a BIDS derivative."});
+  v.choice("compat", o.compat,
+           {.says = "Of an OpenSim file: exact keeps the digits of the offsets of joints and inertias; opensim rounds "
+                    "them to six, as OpenSim converts them."});
+}
 
 Conversion conversion_of(const ConvertOptions& o) {
   const auto from = format_of(o.in), to = format_of(o.out);
@@ -383,7 +425,7 @@ Conversion conversion_of(const ConvertOptions& o) {
 }
 
 ConvertResult convert(const ConvertOptions& options) {
-  if (!options.what.empty()) check_word("--what", options.what, {"markers", "channels", "emg", "plates"});
+  check_options(options);
   Remarks remarks(options.call);
   const ConvertOptions o = with_kind(options);
   ConvertResult result;

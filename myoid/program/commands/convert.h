@@ -1,18 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/program/commands/call.h"
+#include "myoid/program/commands/stage_options.h"
 
 namespace myoid::program {
+
+/// A part of a recording.
+enum class RecordingPart { markers, channels, emg, plates };
+inline constexpr std::string_view kRecordingPartNames[] = {"markers", "channels", "emg", "plates"};
+constexpr ChoiceNames choice_names(RecordingPart) { return kRecordingPartNames; }
 
 /// A recording in another format, or an OpenSim file in the newest form.
 struct ConvertOptions {
   Call call;
   std::string in;                     ///< A recording, a table, an OpenSim file, or the folder of a finished run.
   std::string out;                    ///< .c3d, .trc, .sto, .mot, .csv, .osim, .xml, or a folder for everything.
-  std::string what;                   ///< markers, channels, emg or plates; empty: by the endings of the names.
+  std::optional<RecordingPart> what;  ///< Empty: by the endings of the names.
   std::string up;                     ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
   std::vector<std::string> turns;     ///< "AXIS:DEGREES", one after another.
   std::string unit;                   ///< Unit of EMG if the file does not state it: V, mV, uV.
@@ -20,11 +28,12 @@ struct ConvertOptions {
   std::string analog;                 ///< Channels that join the markers of a .trc in a .c3d.
   std::vector<std::string> bodies;    ///< Bodies on plate 1, 2, ...: writes ExternalLoads, too.
   double least_force_n = 10.0;        ///< Smaller forces count as an unloaded plate.
-  double rate_hz = 0.0;               ///< Rate of an even clock for all data; 0: as recorded.
+  std::optional<double> rate_hz;      ///< Rate of an even clock for all data; empty: as recorded.
   std::string subject = "01";         ///< Label of the person in a BIDS derivative.
-  std::string compat = "exact";       ///< opensim: rounds offsets of an OpenSim file to six digits, as OpenSim does.
-  bool overwrite = false;             ///< Replaces existing files.
+  body::Compatibility compat =
+      body::Compatibility::exact;  ///< opensim: rounds offsets of an OpenSim file to six digits, as OpenSim does.
 };
+void visit(ConvertOptions& options, study::SettingVisitor& v);
 
 struct ConvertResult {
   std::vector<std::string> files;    ///< Written files.

@@ -65,10 +65,11 @@ std::vector<int> plate_numbers(const ConvertOptions& o, const recording::Recordi
 
 Eigen::VectorXd new_clock(const ConvertOptions& o, const Eigen::VectorXd& old) {
   const double length_s = old[old.size() - 1] - old[0];
-  const auto intervals = static_cast<Eigen::Index>(std::floor(length_s * o.rate_hz + 1e-6));
+  const auto intervals = static_cast<Eigen::Index>(std::floor(length_s * *o.rate_hz + 1e-6));
   if (intervals < 1 || intervals > 100'000'000)
-    throw InvalidInput(fmt::format("--rate {}: that makes {} samples of {:.3g} s", o.rate_hz, intervals + 1, length_s));
-  return Eigen::VectorXd::LinSpaced(intervals + 1, old[0], old[0] + static_cast<double>(intervals) / o.rate_hz);
+    throw InvalidInput(
+        fmt::format("--rate {}: that makes {} samples of {:.3g} s", *o.rate_hz, intervals + 1, length_s));
+  return Eigen::VectorXd::LinSpaced(intervals + 1, old[0], old[0] + static_cast<double>(intervals) / *o.rate_hz);
 }
 
 }  // namespace myoid::program

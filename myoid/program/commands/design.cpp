@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/run_identity.h"
 
@@ -49,7 +50,37 @@ run::EarlierRun read_earlier(const DesignOptions& o, const study::Study& study, 
 
 }  // namespace
 
+void visit(DesignOptions& o, study::SettingVisitor& v) {
+  run::DesignStudyOptions& design = o.design;
+  v.path("study", o.study,
+         {.says = "study.toml: model, muscles and electrodes as they are (or --model arm4).",
+          .option = {.by_place = true}});
+  v.text("model", o.model, {.says = "The built-in arm: arm4."});
+  v.flag("wire", o.wire, {.says = "With arm4: the brachialis has a wire electrode of its own."});
+  v.texts("targets", design.targets, {.says = "all, parameters, muscles or MUSCLE.PARAMETER."});
+  v.folder("after", o.after, {.says = "Folder of a finished run: its result is known beforehand."});
+  v.choice("criterion", design.choice.criterion,
+           {.says = "D: volume of the confidence ellipsoid, A: sum of relative variances."});
+  v.count("movements", design.choice.movements, {.says = "How many to choose.", .limits = study::within(1, 50)});
+  v.count("repeat", design.choice.most_of_each,
+          {.says = "The same movement at most so often.", .limits = study::within(1, 50)});
+  v.number("budget", design.choice.budget_s, {.says = "Recording time at most.", .limits = study::above_zero("s")});
+  v.number("fatigue", design.fatigued_share,
+           {.says = "Share of a muscle that may be fatigued at any time.", .limits = study::within(0.001, 1.0)});
+  v.numbers("masses", design.catalogue.held_masses_kg,
+            {.says = "Held masses there are.", .limits = study::zero_or_more("kg")});
+  v.unset("no-dynamometer", o.dynamometer,
+          {.says = "No isokinetic movement (isometric torque can be measured still)."});
+  v.count("persons", design.persons,
+          {.says = "Persons drawn from the priors, to average over.", .limits = study::within(1, 1000)});
+  v.number("torque-noise", design.torque_sd_nm,
+           {.says = "Standard deviation of the joint torque's error below 2 Hz.", .limits = study::above_zero("N m")});
+  v.number("emg-noise", design.emg_cv,
+           {.says = "Relative noise of the EMG envelope below 2 Hz.", .limits = study::within(0.0, 1.0)});
+}
+
 DesignResult design(const DesignOptions& o) {
+  check_options(o);
   Remarks remarks(o.call);
   study::Study study = study_of(o);
   run::DesignStudyOptions choice = o.design;

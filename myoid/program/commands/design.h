@@ -5,6 +5,7 @@
 
 #include "myoid/program/commands/call.h"
 #include "myoid/run/design/design_study.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -16,8 +17,9 @@ struct DesignOptions {
   bool wire = false;               ///< For arm4: the brachialis has a wire electrode of its own.
   std::string after;               ///< Folder of a run whose results count as known; empty: none.
   bool dynamometer = true;         ///< Isokinetic movements are possible.
-  run::DesignStudyOptions design;  ///< Its seed and `earlier` follow from the above.
+  run::DesignStudyOptions design;  ///< Its seed, `dynamometer` and `earlier` follow from the above.
 };
+void visit(DesignOptions& options, study::SettingVisitor& v);
 
 struct DesignResult {
   run::DesignStudyResult design;

@@ -13,6 +13,7 @@
 #include "myoid/ground/files/quoted_text.h"
 #include "myoid/ground/files/result_record.h"
 #include "myoid/ground/files/text_file.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/emg_input.h"
 #include "myoid/program/commands/stage_input.h"
 #include "myoid/recording/tables/series_file.h"
@@ -79,7 +80,7 @@ SmoothedFiles smooth(const EmgOptions& o, const std::vector<std::string>& paths,
 std::vector<EmgMeasures> measures_of(const std::string& file,
                                      const TimeSeries& filtered,
                                      const std::vector<std::string>& channels,
-                                     double window_s) {
+                                     std::optional<double> window_s) {
   constexpr double kSlowest_hz = 100.0;  // onsets are looked for below 25 Hz
   std::vector<EmgMeasures> found;
   if (filtered.mean_rate_hz() < kSlowest_hz) return found;
@@ -89,7 +90,7 @@ std::vector<EmgMeasures> measures_of(const std::string& file,
     EmgMeasures one{.file = file, .channel = channel};
     for (const recording::EmgBurst& burst : recording::emg_bursts(filtered, *c))
       one.bursts.push_back(recording::emg_window(filtered, *c, burst.onset_s, burst.end_s));
-    if (window_s > 0.0) one.windows = recording::emg_windows(filtered, *c, window_s);
+    if (window_s) one.windows = recording::emg_windows(filtered, *c, *window_s);
     found.push_back(std::move(one));
   }
   return found;
@@ -97,26 +98,42 @@ std::vector<EmgMeasures> measures_of(const std::string& file,
 
 }  // namespace
 
-std::vector<std::string> emg_files(const std::vector<std::string>& inputs, const std::string& to, const char* option) {
-  if (to.empty()) return {};
-  if (inputs.size() == 1) return {to};
-  std::vector<std::string> files;
-  for (const std::string& path : inputs) {
-    const std::string name = std::filesystem::path(path).stem().string() + ".sto";
-    files.push_back((std::filesystem::path(to) / name).string());
-    if (std::ranges::count(files, files.back()) > 1)
-      throw InvalidInput(fmt::format(
-          "two inputs would be written to {}: rename one of them, or give them to two commands with every --mvc",
-          files.back()));
-  }
-  const std::string ending = std::filesystem::path(to).extension().string();
-  if (!ending.empty() && !std::filesystem::is_directory(to))
-    throw InvalidInput(fmt::format("{} {}: of {} inputs this is a folder, found a name that ends in '{}'", option, to,
-                                   inputs.size(), ending));
-  return files;
+void visit(EmgOptions& o, study::SettingVisitor& v) {
+  static const std::string kInputs =
+      fmt::format("EMG ({}); of several files each is normalized by the largest effort of all.", emg_endings_text());
+  v.paths("in", o.in, {.says = kInputs, .required = "a file", .option = {.keyword = "inputs", .by_place = true}});
+  v.path("out", o.out,
+         {.says = "Activation 0..1 (.sto, .mot or .csv); of several inputs a folder, one .sto each.",
+          .required = "a file"});
+  v.paths("mvc", o.mvc,
+          {.says = "Maximal contractions to normalize by, repeated.",
+           .otherwise = "the largest effort in the files themselves"});
+  v.texts("channel", o.channels,
+          {.says = "Only this channel, repeated.", .otherwise = "all of the file's first clock"});
+  v.text("unit", o.unit, {.says = "Unit of the numbers where the file does not say: V, mV, uV."});
+  v.number("highpass", o.chain.highpass_hz, {.says = "High-pass.", .limits = study::above_zero("Hz")});
+  v.number("lowpass", o.chain.lowpass_hz,
+           {.says = "Low-pass of the rectified EMG, -3 dB of both passes.", .limits = study::above_zero("Hz")});
+  v.unset("no-notch", o.chain.notch, {.says = "Leave mains hum in, where it is found."});
+  v.flag("whitening", o.chain.whitening,
+         {.says = "Even out the spectrum of all channels before they are rectified.",
+          .otherwise = "if the files allow it for every channel"});
+  v.unset("no-whitening", o.chain.whitening,
+          {.says = "Even it out in no channel.", .option = {.excludes = "whitening"}});
+  v.flag("remove-ecg", o.chain.remove_ecg, {.says = "Take the heart out of channels that hold it, as the trunk's do."});
+  v.path("measures", o.measures,
+         {.says = "Write onset, end, root mean square and median frequency of every burst here (.csv)."});
+  v.number("measure-window", o.measure_window_s,
+           {.says = "With --measures also root mean square and median frequency of successive windows this long.",
+            .limits = study::above_zero("s")});
+  v.flag("as-published", o.chain.as_published,
+         {.says = "As the source paper: no high-pass, low-pass designed for one pass."});
+  v.number("window", o.window_s, {.says = "Window of the mean that counts as 1.", .limits = study::above_zero("s")});
+  v.path("envelope", o.envelope, {.says = "Also write the envelope [V] here (.sto, .mot or .csv; or a folder)."});
 }
 
 EmgResult emg(const EmgOptions& o) {
+  check_options(o);
   Remarks remarks(o.call);
   const std::vector<std::string> paths = emg_paths(o);
   SmoothedFiles files = smooth(o, paths, remarks);
@@ -143,7 +160,7 @@ EmgResult emg(const EmgOptions& o) {
   for (std::size_t i = 0; i < o.in.size(); ++i) {
     const TimeSeries& envelope = files.stages[i].envelope;
     result.activations.push_back(cut(recording::normalise(envelope, result.normalisation), o.call));
-    if (o.keep_envelopes) result.envelopes.push_back(cut(envelope.select(channels), o.call));
+    if (o.keep_envelopes || !o.envelope.empty()) result.envelopes.push_back(cut(envelope.select(channels), o.call));
     for (EmgMeasures& one : measures_of(o.in[i], cut(files.stages[i].filtered, o.call), channels, o.measure_window_s))
       result.measures.push_back(std::move(one));
     files.stages[i] = {};
@@ -153,6 +170,27 @@ EmgResult emg(const EmgOptions& o) {
 }
 
 namespace {
+
+/// Returns the files for results of the inputs: for one input `to` itself, for several a file of each in the folder
+/// `to`, none if `to` is empty.
+std::vector<std::string> files_of(const std::vector<std::string>& inputs, const std::string& to, const char* option) {
+  if (to.empty()) return {};
+  if (inputs.size() == 1) return {to};
+  std::vector<std::string> files;
+  for (const std::string& path : inputs) {
+    const std::string name = std::filesystem::path(path).stem().string() + ".sto";
+    files.push_back((std::filesystem::path(to) / name).string());
+    if (std::ranges::count(files, files.back()) > 1)
+      throw InvalidInput(fmt::format(
+          "two inputs would be written to {}: rename one of them, or give them to two commands with every --mvc",
+          files.back()));
+  }
+  const std::string ending = std::filesystem::path(to).extension().string();
+  if (!ending.empty() && !std::filesystem::is_directory(to))
+    throw InvalidInput(fmt::format("{} {}: of {} inputs this is a folder, found a name that ends in '{}'", option, to,
+                                   inputs.size(), ending));
+  return files;
+}
 
 /// Holds the folder of the results of several inputs, whose names the program makes; null for one input.
 std::unique_ptr<RecordedFolder> held_folder(const std::vector<std::string>& files) {
@@ -170,27 +208,7 @@ void write_emg_files(const std::vector<std::string>& files,
   if (held) held->finish();
 }
 
-}  // namespace
-
-void check_emg_files(const EmgOptions& options,
-                     const std::vector<std::string>& activations,
-                     const std::vector<std::string>& envelopes,
-                     bool overwrite) {
-  const std::vector<std::string> inputs = emg_paths(options);
-  for (const auto* files : {&activations, &envelopes}) {
-    const auto held = held_folder(*files);
-    for (const std::string& file : *files) {
-      check_output(file, inputs, overwrite);
-      require_replaceable(file);
-    }
-  }
-  for (const std::string& file : envelopes) {
-    if (std::ranges::find(activations, file) != activations.end())
-      throw InvalidInput(fmt::format("--out and --envelope both name {}", file));
-  }
-}
-
-void write_emg_measures(const EmgResult& result, const std::string& path) {
+void write_measures(const EmgResult& result, const std::string& path) {
   std::string text = "file,channel,kind,begin_s,end_s,rms_v,median_frequency_hz\n";
   const auto number = [](double value) { return std::isfinite(value) ? format_number(value) : ""; };
   for (const EmgMeasures& one : result.measures) {
@@ -204,11 +222,31 @@ void write_emg_measures(const EmgResult& result, const std::string& path) {
   write_file(path, text);
 }
 
-void write_emg(const EmgResult& result,
-               const std::vector<std::string>& activations,
-               const std::vector<std::string>& envelopes) {
-  write_emg_files(activations, result.activations, "Activation", result.activation_header);
-  write_emg_files(envelopes, result.envelopes, "EMG envelope volt", result.envelope_header);
+}  // namespace
+
+EmgFiles emg_files(const EmgOptions& o) {
+  EmgFiles files{files_of(o.in, o.out, "--out"), files_of(o.in, o.envelope, "--envelope"), o.measures};
+  const std::vector<std::string> inputs = emg_paths(o), measures(o.measures.empty() ? 0 : 1, o.measures);
+  std::vector<std::string> all;
+  using Named = std::pair<const char*, const std::vector<std::string>*>;
+  for (const auto& [option, named] :
+       {Named{"--out", &files.activations}, Named{"--envelope", &files.envelopes}, Named{"--measures", &measures}}) {
+    const auto held = held_folder(*named);
+    for (const std::string& file : *named) {
+      if (std::ranges::find(all, file) != all.end())
+        throw InvalidInput(fmt::format("{} and another option both name {}", option, file));
+      check_output(file, inputs, o.call.overwrite);
+      require_replaceable(file);
+    }
+    all.insert(all.end(), named->begin(), named->end());
+  }
+  return files;
+}
+
+void write_emg(const EmgResult& result, const EmgFiles& files) {
+  write_emg_files(files.activations, result.activations, "Activation", result.activation_header);
+  write_emg_files(files.envelopes, result.envelopes, "EMG envelope volt", result.envelope_header);
+  if (!files.measures.empty()) write_measures(result, files.measures);
 }
 
 }  // namespace myoid::program

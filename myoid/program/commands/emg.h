@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "myoid/recording/signals/emg_envelope.h"
 #include "myoid/recording/signals/emg_levels.h"
 #include "myoid/recording/signals/emg_measures.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -20,10 +22,13 @@ struct EmgOptions {
   std::vector<std::string> channels;  ///< Only these channels; empty: all of a file's first clock.
   std::string unit;                   ///< V, mV or uV if a file does not state it.
   recording::EnvelopeOptions chain;
-  double window_s = 0.5;          ///< Length of the mean that counts as 1.
-  bool keep_envelopes = false;    ///< Keeps the envelopes in the result, too.
-  double measure_window_s = 0.0;  ///< Length of the windows of the measures; 0: bursts alone.
+  double window_s = 0.5;                   ///< Length of the mean that counts as 1.
+  bool keep_envelopes = false;             ///< Keeps the envelopes in the result, too.
+  std::optional<double> measure_window_s;  ///< Length of the windows of the measures; empty: bursts alone.
+  std::string out, envelope;               ///< For `write_emg`: a file; of several inputs a folder. Empty: not written.
+  std::string measures;                    ///< For `write_emg`: table of the measures; empty: not written.
 };
+void visit(EmgOptions& options, study::SettingVisitor& v);
 
 /// Onsets, root mean square and median frequency of one channel of one file.
 struct EmgMeasures {
@@ -47,26 +52,19 @@ struct EmgResult {
 /// files have no channel in common.
 [[nodiscard]] EmgResult emg(const EmgOptions& options);
 
-/// Returns the files for results of these inputs: for one input `to` itself, for several a file of
-/// each input's name in the folder `to`, none if `to` is empty. Throws InvalidInput with the
-/// option's name if two results would share a file or `to` is no folder.
-[[nodiscard]] std::vector<std::string> emg_files(const std::vector<std::string>& inputs,
-                                                 const std::string& to,
-                                                 const char* option);
+/// The files of the results.
+struct EmgFiles {
+  std::vector<std::string> activations, envelopes;  ///< One per input, or none.
+  std::string measures;                             ///< Empty: none.
+};
 
-/// Throws InvalidInput, as `check_output`, for files that exist or are inputs, and for an
-/// activation and an envelope of one name.
-void check_emg_files(const EmgOptions& options,
-                     const std::vector<std::string>& activations,
-                     const std::vector<std::string>& envelopes,
-                     bool overwrite);
+/// Returns the files that the options name; for several inputs a file of each input's name in the folder. Throws
+/// InvalidInput if two results would share a file or the folder is none, and, as `check_output`, for a file that exists
+/// or is an input.
+[[nodiscard]] EmgFiles emg_files(const EmgOptions& options);
 
-/// Writes the measures as .csv: `file,channel,kind,begin_s,end_s,rms_v,median_frequency_hz`; kind is burst or window.
-void write_emg_measures(const EmgResult& result, const std::string& path);
-
-/// Writes the activation of each input and the envelopes, if files for them are given (.sto, .mot or .csv).
-void write_emg(const EmgResult& result,
-               const std::vector<std::string>& activations,
-               const std::vector<std::string>& envelopes);
+/// Writes activations and envelopes (.sto, .mot or .csv), and the measures as .csv:
+/// `file,channel,kind,begin_s,end_s,rms_v,median_frequency_hz`; kind is burst or window.
+void write_emg(const EmgResult& result, const EmgFiles& files);
 
 }  // namespace myoid::program

@@ -22,11 +22,19 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(EmgFunction, SeveralInputsHaveAFileEachInAFolder) {
-  EXPECT_THAT(emg_files({"a.c3d"}, "", "--out"), ElementsAre());
-  EXPECT_THAT(emg_files({"a.c3d"}, "x.csv", "--out"), ElementsAre("x.csv"));
-  EXPECT_THAT(emg_files({"p/a.c3d", "b.c3d"}, "x", "--out"), ElementsAre("x/a.sto", "x/b.sto"));
-  EXPECT_THROW((void)emg_files({"p/a.c3d", "q/a.c3d"}, "x", "--out"), InvalidInput);
-  EXPECT_THROW((void)emg_files({"a.c3d", "b.c3d"}, "x.csv", "--out"), InvalidInput);
+  const test::TemporaryFolder folder;
+  const auto files = [&](std::vector<std::string> in, const std::string& out) {
+    EmgOptions o;
+    o.in = std::move(in);
+    o.out = out.empty() ? "" : (folder / out).string();
+    return emg_files(o).activations;
+  };
+  EXPECT_THAT(files({"a.c3d"}, ""), ElementsAre());
+  EXPECT_THAT(files({"a.c3d"}, "x.csv"), ElementsAre((folder / "x.csv").string()));
+  EXPECT_THAT(files({"p/a.c3d", "b.c3d"}, "x"),
+              ElementsAre((folder / "x/a.sto").string(), (folder / "x/b.sto").string()));
+  EXPECT_THROW((void)files({"p/a.c3d", "q/a.c3d"}, "x"), InvalidInput);
+  EXPECT_THROW((void)files({"a.c3d", "b.c3d"}, "x.csv"), InvalidInput);
 }
 
 /// Four seconds of two channels at 1000 Hz: bursts of an 80 Hz tone, and a silent wire.
@@ -164,7 +172,8 @@ TEST(EmgFunction, MeasuresHaveOnsetRmsAndMedianFrequency) {
   EXPECT_NEAR(burst.rms, 1e-3 / std::sqrt(2.0), 0.03e-3);
   EXPECT_NEAR(burst.median_frequency_hz, 79.6, 4.0);
   EXPECT_EQ(result.measures[0].windows.size(), 8U);
-  write_emg_measures(result, folder / "m.csv");
+  o.measures = folder / "m.csv";
+  write_emg(result, emg_files(o));
   EXPECT_TRUE(std::filesystem::exists(folder / "m.csv"));
 }
 

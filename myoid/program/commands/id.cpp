@@ -11,6 +11,7 @@
 #include "myoid/body/dynamics/inverse_dynamics.h"
 #include "myoid/body/dynamics/torque_plausibility.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/stage_input.h"
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/study/study_model.h"
@@ -19,23 +20,37 @@ namespace myoid::program {
 namespace {
 
 body::BodyModel holding(body::BodyModel model, const IdOptions& o) {
-  if (o.held_mass_kg == 0.0) return model;
-  Vec3 p_BP_m(o.held_at_m[0], o.held_at_m[1], o.held_at_m[2]);
-  std::string body = o.held_body;
+  if (o.held.mass_kg == 0.0) return model;
+  Vec3 p_BP_m(o.held.at_m[0], o.held.at_m[1], o.held.at_m[2]);
+  std::string body = o.held.body;
   if (body.empty() && o.model == "arm4") {
     body = "forearm_hand";
     if (p_BP_m.isZero()) p_BP_m = body::arm4_held_at_m();
   }
   if (body.empty())
     throw InvalidInput(fmt::format("--held-mass {} needs --held-body, the body that carries it, one of {}",
-                                   o.held_mass_kg, study::body_names(model)));
-  return body::with_held_mass(std::move(model), body, p_BP_m, o.held_mass_kg);
+                                   o.held.mass_kg, study::body_names(model)));
+  return body::with_held_mass(std::move(model), body, p_BP_m, o.held.mass_kg);
 }
 
 }  // namespace
 
+void visit(IdOptions& o, study::SettingVisitor& v) {
+  visit_model(o.model, v);
+  visit_motion(o.motion, v);
+  v.path("out", o.out, {.says = "Generalized forces (.sto, .mot, .csv) [N m, N].", .required = "a file"});
+  visit_lowpass(o.cutoff_hz, v);
+  v.path("speeds", o.speeds,
+         {.says = "Speeds of the coordinates at the times of --motion (.sto), instead of its derivatives."});
+  v.path("accelerations", o.accelerations, {.says = "Accelerations, likewise."});
+  visit_loads(o.loads, v);
+  visit(o.held, v);
+  visit_compat(o.compat, v);
+}
+
 IdResult id(const IdOptions& o) {
-  if (o.cutoff_hz > 0.0 && !(o.speeds.empty() && o.accelerations.empty()))
+  check_options(o);
+  if (o.cutoff_hz && !(o.speeds.empty() && o.accelerations.empty()))
     throw InvalidInput(
         "--lowpass smooths angles that are differentiated: leave it out with --speeds or --accelerations");
   Remarks remarks(o.call);

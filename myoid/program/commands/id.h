@@ -1,27 +1,29 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "myoid/ground/core/time_series.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/program/commands/stage_options.h"
 
 namespace myoid::program {
 
 /// Options of inverse dynamics of a motion.
 struct IdOptions {
   Call call;
-  std::string model;                  ///< A file (.osim), or "arm4".
-  std::string compat = "exact";       ///< Paths and joints: exact, or opensim.
-  std::string motion;                 ///< Joint angles (.mot, .sto).
-  double cutoff_hz = 0.0;             ///< Cut-off of the angles' smoothing, -3 dB; 0: none.
-  std::string speeds, accelerations;  ///< In place of the motion's derivatives; empty: none.
-  std::string loads;                  ///< <ExternalLoads> (.xml); empty: none.
-  double held_mass_kg = 0.0;
-  std::string held_body;                         ///< Empty: the hand of arm4, else no body.
-  std::vector<double> held_at_m{0.0, 0.0, 0.0};  ///< Point on that body; for arm4's hand its grip.
+  std::string model;                                        ///< A file (.osim), or "arm4".
+  body::Compatibility compat = body::Compatibility::exact;  ///< Paths and joints.
+  std::string motion;                                       ///< Joint angles (.mot, .sto).
+  std::optional<double> cutoff_hz;                          ///< Cut-off of the angles' smoothing, -3 dB.
+  std::string speeds, accelerations;                        ///< In place of the motion's derivatives; empty: none.
+  std::string loads;                                        ///< <ExternalLoads> (.xml); empty: none.
+  HeldMass held;
+  std::string out;  ///< File of `write_id`.
 };
+void visit(IdOptions& options, study::SettingVisitor& v);
 
 struct IdResult {
   TimeSeries forces;  ///< A generalized force for each coordinate [N m, N].

@@ -7,6 +7,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/text_file.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/identify_study.h"
 #include "myoid/program/commands/project_files.h"
 #include "myoid/study/study_text.h"
@@ -44,7 +45,7 @@ IdentifyResult identify_project(const IdentifyOptions& o, Remarks& remarks) {
 }  // namespace
 
 IdentifyResult identify(const IdentifyOptions& o) {
-  check_values(o);
+  check_options(o);
   Remarks remarks(o.call);
   if (!o.from.empty()) return identify_project(o, remarks);
   const run::MuscleTable table = run::read_muscles_csv(o.muscles, o.method != fit::Method::paper);

@@ -7,6 +7,7 @@
 
 #include "myoid/fit/measurement/parameter_fields.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/program/commands/stage_options.h"
 
 namespace myoid::program {
 namespace {
@@ -38,22 +39,12 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
   }
 }
 
-/// Throws InvalidInput for a number that its setting does not allow.
-class ValueCheck : public study::FlatSettingVisitor {
- protected:
-  bool met(const study::Setting& setting, const study::SettingValue& now, const Set& /*set*/) override {
-    std::string reason;
-    if (const auto* number = std::get_if<double>(&now)) reason = study::refusal(setting, *number);
-    if (!reason.empty()) throw InvalidInput(fmt::format("--{}: {}", setting.key, reason));
-    return false;
-  }
-};
-
 void visit_files(IdentifyOptions& o, study::SettingVisitor& v) {
   v.text("from", o.from,
          {.says = "[Project of CEINMS, CEINMS-RT or NMSM](review.md#going-on) in place of muscles.csv and all files; "
                   "`--coordinate` names its joints.",
-          .otherwise = "none"});
+          .otherwise = "none",
+          .option = {.keyword = "from_"}});
   v.path("muscles", o.muscles,
          {.says = "[muscles.csv](#musclescsv): the muscles and their starting values, SI.", .required = "muscles.csv"});
   v.texts("activations", o.files.activations,
@@ -111,10 +102,12 @@ void visit_law(IdentifyOptions& o, study::SettingVisitor& v) {
   v.texts("free", o.free_more,
           {.says = "Further parameters to identify, of all muscles, channels or the joint, by comma: "
                    "`emg_shape,joint_inertia`, beside [those of every fit](#what-is-identified).",
-           .otherwise = "none"});
+           .otherwise = "none",
+           .option = {.by_comma = true}});
   v.texts("hold", o.hold,
           {.says = "Parameters that are known, by comma: `emg_exponent,emg_gain` for activations without error.",
-           .otherwise = "none"});
+           .otherwise = "none",
+           .option = {.by_comma = true}});
 }
 
 /// Visits the fit and the certainty of its result.
@@ -157,12 +150,9 @@ void visit(IdentifyOptions& o, study::SettingVisitor& v) {
   visit_files(o, v);
   visit_law(o, v);
   visit_fit(o, v);
-}
-
-void check_values(const IdentifyOptions& options) {
-  IdentifyOptions checked = options;
-  ValueCheck checker;
-  visit(checked, checker);
+  v.folder("out", o.folder, {.says = "Folder of the results.", .required = "a folder"});
+  visit_exports(o.exports, v);
+  visit_mat(o.mat, v);
 }
 
 void refuse_impossible(const IdentifyOptions& o, const run::MuscleTable& table) {

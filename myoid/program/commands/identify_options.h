@@ -14,11 +14,11 @@
 
 namespace myoid::program {
 
-/// Options of the identification of muscle parameters from files. `visit` explains each option but `exports`.
+/// Options of the identification of muscle parameters from files. `visit` explains each option.
 struct IdentifyOptions {
   Call call;
   std::string from;    ///< Project of another program, in place of muscles.csv and all files.
-  std::string folder;  ///< Of the results; of a project alone.
+  std::string folder;  ///< Of the results.
   std::filesystem::path muscles;
   run::IdentifySources files;
   fit::Method method = fit::Method::torque;
@@ -32,14 +32,12 @@ struct IdentifyOptions {
   std::optional<fit::FoldKind> folds = fit::FoldKind::trial;  ///< Empty: none.
   std::vector<results::ExportFormat> exports;                 ///< Forms for other programs.
   bool own_scales = false;  ///< Muscles that share an electrode have scales of their own.
+  std::string mat;          ///< File of the results for MATLAB; empty: not written.
 };
 
 /// Visits every option of `myoid identify` once: key, allowed values, default and meaning. The
 /// command line, the check of the options and the guide's table use this list.
 void visit(IdentifyOptions& options, study::SettingVisitor& v);
-
-/// Throws InvalidInput for numbers out of range.
-void check_values(const IdentifyOptions& options);
 
 /// Throws InvalidInput if the options ask for a result that the method or the files cannot give.
 void refuse_impossible(const IdentifyOptions& options, const run::MuscleTable& table);

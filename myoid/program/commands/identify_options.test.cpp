@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/study/setting_rows.h"
 
 #include "tests/support/printed_page.h"
@@ -57,9 +58,9 @@ TEST(IdentifyOptions, WhatTheMethodOrTheFilesCannotGiveIsRefused) {
   o.delay_s = 0.05;
   EXPECT_THROW(refuse_impossible(o, table), InvalidInput);
   o = {};
-  EXPECT_NO_THROW(check_values(o));
+  EXPECT_NO_THROW(check_options(o));
   o.delay_s = 60.0;  // ms
-  EXPECT_THROW(check_values(o), InvalidInput);
+  EXPECT_THROW(check_options(o), InvalidInput);
 }
 
 }  // namespace

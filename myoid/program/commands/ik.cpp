@@ -7,6 +7,7 @@
 
 #include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/stage_input.h"
 #include "myoid/recording/recording.h"
 #include "myoid/results/stage_files.h"
@@ -56,7 +57,20 @@ std::map<std::string, double> marker_weights(const std::vector<std::string>& pai
 
 }  // namespace
 
+void visit(IkOptions& o, study::SettingVisitor& v) {
+  visit_model(o.model, v);
+  v.path("markers", o.markers, {.says = "Markers (.trc, .c3d).", .required = "a file"});
+  v.path("out", o.out, {.says = "Joint angles (.mot); the marker errors go beside it.", .required = "a file"});
+  visit_up(o.up, v,
+           {.says = "Vertical axis of the laboratory.", .otherwise = "as a .c3d file says, else as the model"});
+  v.texts("weight", o.weights, {.says = "MARKER=WEIGHT, repeated; 1 where not given."});
+  v.texts("lock", o.lock, {.says = "Coordinate held at its default value, repeated."});
+  v.texts("unlock", o.unlock, {.says = "Coordinate freed although the model locks it, repeated."});
+  visit_compat(o.compat, v);
+}
+
 IkResult ik(const IkOptions& o) {
+  check_options(o);
   Remarks remarks(o.call);
   IkResult result;
   result.model = read_posed_model(o, remarks);

@@ -8,19 +8,22 @@
 #include "myoid/body/kinematics/inverse_kinematics.h"
 #include "myoid/body/kinematics/marker_misfit.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/program/commands/stage_options.h"
 
 namespace myoid::program {
 
 /// Options of inverse kinematics of markers.
 struct IkOptions {
   Call call;
-  std::string model;                      ///< A file (.osim), or "arm4".
-  std::string compat = "exact";           ///< Paths and joints: exact, or opensim.
-  std::string markers;                    ///< .trc, .c3d
+  std::string model;                                        ///< A file (.osim), or "arm4".
+  body::Compatibility compat = body::Compatibility::exact;  ///< Paths and joints.
+  std::string markers;                                      ///< .trc, .c3d
   std::string up;                         ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
   std::vector<std::string> weights;       ///< "MARKER=WEIGHT"; 1 for other markers.
   std::vector<std::string> lock, unlock;  ///< Coordinates.
+  std::string out;                        ///< File of `write_ik`.
 };
+void visit(IkOptions& options, study::SettingVisitor& v);
 
 struct IkResult {
   body::BodyModel model;

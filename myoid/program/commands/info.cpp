@@ -13,6 +13,7 @@
 #include "myoid/ground/files/named_file.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/opensim/opensim_setup.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/contents/project_contents.h"
 #include "myoid/program/contents/recording_contents.h"
 #include "myoid/recording/recording.h"
@@ -39,7 +40,7 @@ ordered_json study_contents(const std::string& path) {
 }
 
 ordered_json contents_of_model(const InfoOptions& o) {
-  const body::OsimOptions options{.compat = body::parse_compat(o.compat)};
+  const body::OsimOptions options{.compat = body::compat_of(o.compat)};
   ModelQuestions ask = o.ask;
   ask.seed = o.call.seed;
   return model_contents(
@@ -132,7 +133,24 @@ bool is_model(const std::string& file) {
   return format_of(file) == FileFormat::model || (file == "arm4" && !std::filesystem::exists(file));
 }
 
+void visit(InfoOptions& o, study::SettingVisitor& v) {
+  v.path("file", o.file, {.says = "A recording, table, model or study; or arm4.", .required = "a file"});
+  visit_questions(o, v);
+}
+
+void visit_questions(InfoOptions& o, study::SettingVisitor& v) {
+  v.flag("compare-compat", o.ask.compare_compat,
+         {.says = "Of a model: for which muscles exact paths differ from OpenSim 4.5.2's, and by how much, over random "
+                  "postures."});
+  v.count("postures", o.ask.postures,
+          {.says = "Random postures for --compare-compat.", .limits = study::within(1, 1000000)});
+  v.flag("jumps", o.ask.jumps,
+         {.says = "Of a model: where a muscle's length or moment arm jumps over the range of a coordinate."});
+  visit_compat(o.compat, v);
+}
+
 ordered_json info(const InfoOptions& options) {
+  check_options(options);
   ordered_json j{{"file", options.file}};
   j.update(contents_of(options));
   return j;

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "myoid/program/commands/call.h"
+#include "myoid/program/commands/stage_options.h"
 #include "myoid/program/contents/model_contents.h"
 
 namespace myoid::program {
@@ -12,10 +13,13 @@ namespace myoid::program {
 /// The content of one file.
 struct InfoOptions {
   Call call;
-  std::string file;              ///< A recording, table, model or study; or "arm4".
-  std::string compat = "exact";  ///< Paths of a model: exact, or opensim.
-  ModelQuestions ask;            ///< Questions about a model; their seed is the call's.
+  std::string file;                                         ///< A recording, table, model or study; or "arm4".
+  body::Compatibility compat = body::Compatibility::exact;  ///< Paths of a model: exact, or opensim.
+  ModelQuestions ask;                                       ///< Questions about a model; their seed is the call's.
 };
+void visit(InfoOptions& options, study::SettingVisitor& v);
+/// Visits all options but the file.
+void visit_questions(InfoOptions& options, study::SettingVisitor& v);
 
 /// Returns "file", "kind" and the content: channels, units, rates, bodies, muscles, ...
 /// `contents_text` formats the content as text. Throws ReadError for a file of no known kind.

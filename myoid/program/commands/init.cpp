@@ -35,6 +35,17 @@ std::optional<InitResult> draft_of_project(const InitOptions& o, Remarks& remark
 
 }  // namespace
 
+void visit(InitOptions& o, study::SettingVisitor& v) {
+  v.folder("dir", o.folder, {.says = "Folder for study.toml.", .required = "a folder", .option = {.by_place = true}});
+  v.paths("from", o.from,
+          {.says = "A recording or a folder of them, repeated, or a project of CEINMS, CEINMS-RT or NMSM.",
+           .otherwise = "the folder itself",
+           .option = {.keyword = "from_"}});
+  v.path("model", o.model,
+         {.says = "OpenSim model (.osim).", .otherwise = "the only one in the folders, else the built-in arm4"});
+  v.text("coordinate", o.coordinate, {.says = "The joint, by the model's coordinate.", .otherwise = "guessed"});
+}
+
 InitResult init(const InitOptions& o) {
   study::DraftOptions options;
   for (const std::string& from : o.from) options.from.emplace_back(from);

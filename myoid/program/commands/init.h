@@ -7,6 +7,7 @@
 #include "myoid/program/commands/call.h"
 #include "myoid/results/review/project_study.h"
 #include "myoid/study/draft/study_draft.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -19,6 +20,7 @@ struct InitOptions {
   std::string model;       ///< .osim; empty: the only one in the folders, else arm4.
   std::string coordinate;  ///< The joint; empty: guessed.
 };
+void visit(InitOptions& options, study::SettingVisitor& v);
 
 struct InitResult {
   study::StudyDraft draft;

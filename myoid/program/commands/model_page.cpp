@@ -10,6 +10,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/text_file.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/stage_input.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/storage_reader.h"
@@ -44,9 +45,30 @@ MarkerSeries read_page_markers(const ModelPageOptions& o, const body::BodyModel&
 
 }  // namespace
 
+void visit(ModelPageOptions& o, study::SettingVisitor& v) {
+  constexpr std::string_view kGroup = "Page of a model";
+  constexpr study::OptionFacts kOfPage{.group = kGroup, .needs = "html"};
+  v.path("html", o.out,
+         {.says = "Of a model: write a page that shows it in the browser, moving; one file, works offline.",
+          .option = {.group = kGroup}});
+  v.path("motion", o.motion, {.says = "Joint angles to play on the page (.mot, .sto).", .option = kOfPage});
+  v.path("forces", o.forces, {.says = "Muscle forces [N] to color by (.sto).", .option = kOfPage});
+  v.path("activations", o.activations, {.says = "Muscle activations, 0..1, to color by (.sto).", .option = kOfPage});
+  v.path("markers", o.markers,
+         {.says = "Measured markers to show beside the model's (.trc, .c3d).", .option = kOfPage});
+  v.paths("meshes", o.mesh_folders,
+          {.says = "Folder with the model's meshes (.vtp, .stl, .obj), repeated; the model's folder and its subfolder "
+                   "Geometry are looked through without it.",
+           .option = kOfPage});
+  visit_up(o.up, v,
+           {.says = "Vertical axis of --markers.",
+            .otherwise = "as a .c3d file says, else as the model",
+            .option = kOfPage});
+}
+
 ModelPageResult model_page(const ModelPageOptions& o) {
   refuse_without_motion(o);
-  if (!o.up.empty()) check_word("--up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
+  check_options(o);
   Remarks remarks(o.call);
   const body::BodyModel model = load_model(o.model, o.compat, remarks);
   body::SceneInput input;
@@ -57,7 +79,7 @@ ModelPageResult model_page(const ModelPageOptions& o) {
   if (!o.motion.empty()) {
     input.name = std::filesystem::path(o.motion).filename().string();
     result.page.subtitle += ", " + input.name;
-    input.q = load_motion(model, o.motion, 0.0, o.call, remarks).q;
+    input.q = load_motion(model, o.motion, {}, o.call, remarks).q;
   }
   add_coloring("force", "N", o.forces, input, remarks);
   add_coloring("activation", "", o.activations, input, remarks);

@@ -10,6 +10,7 @@
 #include "myoid/ground/core/provenance.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/muscle/isolated_checks.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/muscle_input.h"
 #include "myoid/recording/tables/storage_writer.h"
 
@@ -42,7 +43,7 @@ void refuse_contradictions(const MuscleOptions& o) {
 
 /// Returns the reference force of relative errors [N].
 double related_to(const MuscleOptions& o, const muscle::MuscleFile& file) {
-  return o.isometric_n > 0.0 ? o.isometric_n : file.parameters.hill.max_isometric_force_n;
+  return o.isometric_n.value_or(file.parameters.hill.max_isometric_force_n);
 }
 
 ForceComparison compare_force(const Eigen::VectorXd& force_n,
@@ -205,7 +206,48 @@ std::string table_rows(const std::string& left_out, const muscle::IsolatedFit& f
 
 }  // namespace
 
+std::vector<std::string> MuscleOptions::inputs() const {
+  std::vector<std::string> files{muscle};
+  for (const auto* more : {&lengths, &activation, &excitation, &measured})
+    files.insert(files.end(), more->begin(), more->end());
+  return files;
+}
+
+void visit(MuscleOptions& o, study::SettingVisitor& v) {
+  v.path("muscle", o.muscle, {.says = "The muscle (.toml).", .required = "a file"});
+  v.paths("length", o.lengths,
+          {.says = "Length of fiber and tendon together over time [m] (.sto, .mot, .csv).", .required = "a file"});
+  v.text("column", o.column, {.says = "Which column of it.", .otherwise = "the only one"});
+  v.numbers("scale", o.scales, {.says = "Its numbers times this ...; with several files one for each."});
+  v.number("offset", o.offset_m, {.says = "... plus this are the length [m]."});
+  v.texts("activation", o.activation,
+          {.says = "Activation, a number in 0..1 or a file; with several --length one, or one for each.",
+           .option = {.or_number = true}});
+  v.texts("excitation", o.excitation,
+          {.says = "Excitation, a number in 0..1 or a file; with several --length one, or one for each.",
+           .option = {.or_number = true}});
+  v.text("drive-column", o.drive_column, {.says = "Which column of these files.", .otherwise = "the only one"});
+  v.text("initial-activation", o.initial_activation,
+         {.says = "Activation at the start, with --excitation: a number, or `settled` on the first excitation.",
+          .otherwise = "0.01, at rest",
+          .option = {.or_number = true}});
+  v.paths("measured", o.measured, {.says = "Measured force over time [N], to compare."});
+  v.text("measured-column", o.measured_column, {.says = "Which column of it.", .otherwise = "the only one"});
+  v.texts("fit", o.fit,
+          {.says = "Parameters to identify from one or several --length and --measured, by comma: "
+                   "max_isometric_force,tendon_strain,...; each recording is also predicted from the others.",
+           .option = {.by_comma = true}});
+  v.number("isometric-force", o.isometric_n,
+           {.says = "Force that the error is related to.",
+            .limits = study::above_zero("N"),
+            .otherwise = "F_max of the muscle"});
+  v.number("tolerance", o.tolerance, {.says = "Relative, of the integration.", .limits = study::within(1e-13, 1e-3)});
+  v.path("out", o.out,
+         {.says = "Forces, lengths, velocities, activation over time (.sto); with --fit the parameters (.csv)."});
+}
+
 MuscleResult muscle(const MuscleOptions& options) {
+  check_options(options);
   refuse_contradictions(options);
   Remarks remarks(options.call);
   const muscle::MuscleFile file = muscle::read_muscle_file(options.muscle);

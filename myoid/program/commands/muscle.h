@@ -8,6 +8,7 @@
 #include "myoid/muscle/fit_isolated.h"
 #include "myoid/muscle/isolated_muscle.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -27,9 +28,14 @@ struct MuscleOptions {
   std::vector<std::string> measured;        ///< Force [N] over time; with `fit` one file for each length.
   std::string measured_column;              ///< Column of the forces; empty: the only one.
   std::vector<std::string> fit;             ///< Parameters to identify; empty: simulates only.
-  double isometric_n = 0.0;                 ///< Reference force of relative errors; 0: F_max.
+  std::optional<double> isometric_n;        ///< Reference force of relative errors; empty: F_max.
   double tolerance = 1e-9;                  ///< Relative tolerance of the integration.
+  std::string out;                          ///< File of `write_muscle`.
+
+  /// Returns the files that are read.
+  [[nodiscard]] std::vector<std::string> inputs() const;
 };
+void visit(MuscleOptions& options, study::SettingVisitor& v);
 
 /// Mean absolute errors of one recording, relative to the reference force.
 struct RecordingErrors {

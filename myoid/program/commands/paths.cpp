@@ -10,6 +10,7 @@
 #include "myoid/body/kinematics/surrogate_file.h"
 #include "myoid/body/model/path_survey.h"
 #include "myoid/body/osim/osim_document.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/stage_input.h"
 #include "myoid/results/stage_files.h"
 
@@ -57,10 +58,28 @@ std::vector<PathSurrogate> load_surrogates(const PathsOptions& o, const body::Bo
 
 }  // namespace
 
+void visit(PathsOptions& o, study::SettingVisitor& v) {
+  visit_model(o.model, v);
+  visit_motion(o.motion, v, "");
+  v.folder("out", o.out,
+           {.says = "Folder for MuscleAnalysis_*.sto [m, m/s], or sweep_*.csv and .svg.", .required = "a folder"});
+  visit_lowpass(o.cutoff_hz, v);
+  v.path("surrogate", o.surrogates,
+         {.says = "File of fitted polynomials (.json) to use in the place of paths where they are within tolerance; "
+                  "made if it is not there or belongs to another model."});
+  v.number("surrogate-tolerance", o.tolerance_mm,
+           {.says = "Greatest error of a length; five times that for moment arms [mm/rad].",
+            .limits = study::above_zero("mm")});
+  v.flag("check-jumps", o.check_jumps,
+         {.says = "Tell where a length or moment arm jumps over the range of a coordinate."});
+  visit_compat(o.compat, v);
+}
+
 PathsResult paths(const PathsOptions& o) {
+  check_options(o);
   Remarks remarks(o.call);
   const body::BodyModel model = load_model(o.model, o.compat, remarks);
-  if (o.compare_with_opensim) warn_of_path_differences(model, o.model, remarks);
+  if (!o.call.quiet) warn_of_path_differences(model, o.model, remarks);
   const body::JointMotion motion =
       load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, body::HeldValues::of_model);
   if (o.check_jumps) {

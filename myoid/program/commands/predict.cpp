@@ -13,6 +13,16 @@
 #include "myoid/study/study_text.h"
 
 namespace myoid::program {
+void visit(PredictOptions& o, study::SettingVisitor& v) {
+  v.folder("folder", o.folder,
+           {.says = "Folder of a run (with run.json).", .required = "a folder", .option = {.by_place = true}});
+  v.path(
+      "study", o.study,
+      {.says = "Another study of the same person and muscles, with the trials.", .otherwise = "the study of the run"});
+  v.texts("trials", o.trials, {.says = "Names of the trials.", .otherwise = "all that took no part in the fit"});
+  v.folder("out", o.out, {.says = "Folder of the predictions.", .required = "a folder"});
+}
+
 PredictResult predict(const PredictOptions& o) {
   Remarks remarks(o.call);
   const run::PredictionInput input = run::prediction_input(o.folder, {.study = o.study,

@@ -7,6 +7,7 @@
 #include "myoid/fit/intervals/result.h"
 #include "myoid/ground/core/provenance.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -16,7 +17,9 @@ struct PredictOptions {
   std::string folder;               ///< Folder of the run, with run.json and parameters.json.
   std::string study;                ///< Study with the trials; empty: the study of the run.
   std::vector<std::string> trials;  ///< Names; empty: all trials that took no part in the fit.
+  std::string out;                  ///< Folder of `write_predict`.
 };
+void visit(PredictOptions& options, study::SettingVisitor& v);
 
 struct PredictResult {
   std::vector<fit::TrialFit> trials;  ///< One for each trial and joint.

@@ -1,6 +1,7 @@
 #include "myoid/program/commands/report.h"
 
 #include "myoid/page/write_report.h"
+#include "myoid/program/commands/stage_options.h"
 #include "myoid/results/exports/export_files.h"
 #include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"
@@ -11,6 +12,21 @@
 #include "myoid/study/trial_videos.h"
 
 namespace myoid::program {
+
+void visit(ReportOptions& o, study::SettingVisitor& v) {
+  v.folder("folder", o.folder, {.says = "Folder of a run (with run.json).", .option = {.by_place = true}});
+  visit_videos(o.video, v);
+  visit_exports(o.exports, v);
+  v.texts("group", o.persons,
+          {.says = "Folders of runs, or folders that hold them (of a cohort, of a twin-study): one page of all.",
+           .option = {.excludes = "folder,export"}});
+  v.texts("after", o.after,
+          {.says = "The second sessions of the same persons in the same order: what changed.",
+           .option = {.needs = "group"}});
+  v.folder("out", o.out, {.says = "Folder of the group's page.", .option = {.needs = "group"}});
+  visit_mat(o.mat, v);
+}
+
 ReportResult report(const ReportOptions& o) {
   const study::RunRecord run = study::read_run_record(o.folder);
   ReportResult result;

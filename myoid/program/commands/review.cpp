@@ -14,6 +14,13 @@
 
 namespace myoid::program {
 
+void visit(ReviewOptions& o, study::SettingVisitor& v) {
+  v.path("project", o.project,
+         {.says = "Folder, set-up or subject of the project.", .required = "a project", .option = {.by_place = true}});
+  v.texts("joint", o.joints, {.says = "Joints to judge.", .otherwise = "those of the calibration"});
+  v.folder("out", o.folder, {.says = "Folder for report.html, tables, figures and study.toml."});
+}
+
 ReviewResult review(const ReviewOptions& o) {
   Remarks remarks(o.call);
   refuse_inside(o.project, o.folder);

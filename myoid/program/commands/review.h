@@ -6,6 +6,7 @@
 
 #include "myoid/program/commands/call.h"
 #include "myoid/results/review/second_opinion.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -14,8 +15,9 @@ struct ReviewOptions {
   Call call;
   std::string project;              ///< Folder, set-up or subject of CEINMS, CEINMS-RT or NMSM.
   std::vector<std::string> joints;  ///< Empty: those of the calibration.
-  std::string folder;               ///< Of the results.
+  std::string folder = "review";    ///< Of the results.
 };
+void visit(ReviewOptions& options, study::SettingVisitor& v);
 
 struct ReviewResult {
   results::SecondOpinion opinion;

@@ -7,6 +7,7 @@
 
 #include "myoid/ground/files/result_record.h"
 #include "myoid/page/write_report.h"
+#include "myoid/program/commands/stage_options.h"
 #include "myoid/results/exports/export_files.h"
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_days.h"
@@ -56,6 +57,15 @@ bool RunResult::failed(bool strict) const {
       failed = failed || (strict && e.verdict == fit::Verdict::not_identifiable);
   }
   return failed;
+}
+
+void visit(RunOptions& o, study::SettingVisitor& v) {
+  v.path("study", o.study, {.says = "study.toml.", .required = "a study", .option = {.by_place = true}});
+  v.choices("method", o.methods, {.says = "Several are possible.", .otherwise = "the study's"});
+  v.folder("out", o.out, {.says = "Folder of the results.", .required = "a folder"});
+  visit_videos(o.video, v);
+  visit_exports(o.exports, v);
+  visit_mat(o.mat, v);
 }
 
 RunResult run(const RunOptions& o) {

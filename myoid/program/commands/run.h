@@ -13,6 +13,7 @@
 #include "myoid/program/commands/call.h"
 #include "myoid/results/exports/exported_project.h"
 #include "myoid/run/study_result.h"
+#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -32,7 +33,10 @@ struct RunOptions {
   study::VideoChoice video;                    ///< In place of the study's films.
   std::vector<results::ExportFormat> exports;  ///< Forms for other programs, beside the model.
   std::optional<std::filesystem::path> store;  ///< Keeps stages between runs; empty: none.
+  std::string out;                             ///< Folder of `write_run`.
+  std::string mat;                             ///< File of the results for MATLAB; empty: not written.
 };
+void visit(RunOptions& options, study::SettingVisitor& v);
 
 struct RunResult {
   run::StudyResult study;

@@ -5,17 +5,34 @@
 
 #include "myoid/ground/core/counted.h"
 #include "myoid/ground/core/json_text.h"
-#include "myoid/program/commands/stage_input.h"
 
 namespace myoid::program {
 
 bool RunToolResult::good() const { return tool.frames_failed == 0 && !tool.wrong_unit; }
 
+void visit(RunToolOptions& o, study::SettingVisitor& v) {
+  v.path("setup", o.setup, {.says = "Set-up file (.xml).", .required = "a file", .option = {.by_place = true}});
+  visit_setup_run(o, v);
+}
+
+void visit_setup_run(RunToolOptions& o, study::SettingVisitor& v) {
+  v.path("model", o.files.model, {.says = "Model (.osim), instead of the set-up's."});
+  v.path("motion", o.files.motion,
+         {.says = "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers (.trc), instead of "
+                  "the set-up's."});
+  v.path("external-loads", o.files.external_loads, {.says = "External loads (.xml), instead of the set-up's."});
+  v.folder("out", o.files.out,
+           {.says = "Folder of the results, instead of the set-up's; of several set-ups a folder in it for each."});
+  v.flag("anywhere", o.anywhere,
+         {.says = "Write outside the folder of the set-up too, where the set-up says so (default: refused)."});
+  v.choice("compat", o.compat,
+           {.says = "opensim: paths of muscles as OpenSim 4.5.2 computes them; exact: as their geometry is."});
+}
+
 RunToolResult run_tool(const RunToolOptions& o) {
-  check_word("--compat", o.compat, {"opensim", "exact"});
   Remarks remarks(o.call);
   RunToolResult result;
-  result.tool = myoid::opensim::run_tool(o.setup, {.compat = body::parse_compat(o.compat),
+  result.tool = myoid::opensim::run_tool(o.setup, {.compat = body::compat_of(o.compat),
                                                    .files = o.files,
                                                    .anywhere = o.anywhere,
                                                    .progress = o.call.progress,

@@ -7,18 +7,23 @@
 
 #include "myoid/opensim/run_tool.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/program/commands/stage_options.h"
 
 namespace myoid::program {
 
 /// Options for a set-up file of one of OpenSim's tools. The tools take their times from that file.
 struct RunToolOptions {
   Call call;
-  std::string setup;                        ///< .xml
-  opensim::SetupFiles files;                ///< Instead of the set-up's own.
-  bool anywhere = false;                    ///< Writes outside the folder of the set-up too, where the set-up says so.
-  std::string compat = "opensim";           ///< Paths of muscles: as OpenSim 4.5.2 has them, or "exact".
+  std::string setup;          ///< .xml
+  opensim::SetupFiles files;  ///< Instead of the set-up's own.
+  bool anywhere = false;      ///< Writes outside the folder of the set-up too, where the set-up says so.
+  body::Compatibility compat =
+      body::Compatibility::opensim;         ///< Paths of muscles: as OpenSim 4.5.2 has them, or "exact".
   opensim::ToolFolders* folders = nullptr;  ///< As in ToolOptions, for several set-ups (run_tools.h).
 };
+void visit(RunToolOptions& options, study::SettingVisitor& v);
+/// Visits the options that hold for several set-ups as for one.
+void visit_setup_run(RunToolOptions& options, study::SettingVisitor& v);
 
 struct RunToolResult {
   opensim::ToolResult tool;  ///< Names its written files.

@@ -3,17 +3,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "myoid/ground/core/error.h"
-
 namespace myoid::program {
 namespace {
-
-TEST(RunToolFunction, RefusesAWordThatNamesNoPaths) {
-  RunToolOptions options;
-  options.setup = "setup.xml";
-  options.compat = "simm";
-  EXPECT_THROW(run_tool(options), InvalidInput);
-}
 
 TEST(RunToolFunction, IsGoodIfEveryFrameIsSolvedInTheRightUnit) {
   RunToolResult result;

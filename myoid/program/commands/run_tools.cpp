@@ -20,7 +20,6 @@
 #include "myoid/ground/files/result_record.h"
 #include "myoid/opensim/setup_list.h"
 #include "myoid/opensim/tool_folders.h"
-#include "myoid/program/commands/stage_input.h"
 
 namespace myoid::program {
 namespace {
@@ -45,7 +44,8 @@ class SetupRuns {
 
  private:
   [[nodiscard]] opensim::SetupFiles files_of(std::size_t i) const {
-    return {.model = options_.model, .out = options_.out.empty() ? fs::path() : options_.out / setups_[i].name};
+    return {.model = options_.files.model,
+            .out = options_.files.out.empty() ? fs::path() : options_.files.out / setups_[i].name};
   }
 
   /// Empty for a set-up that cannot be read: its outcome says why.
@@ -117,8 +117,10 @@ class SetupRuns {
   }
 
   RunToolOptions call_of(std::size_t i) {
-    RunToolOptions one{options_.call,     setups_[i].file.string(), files_of(i),
-                       options_.anywhere, options_.compat,          &folders_};
+    RunToolOptions one = options_;
+    one.setup = setups_[i].file.string();
+    one.files = files_of(i);
+    one.folders = &folders_;
     one.call.progress.report = nullptr;
     one.call.listener = [this, name = outcomes_[i].setup](const Remark& remark) {
       Remark named = remark;
@@ -156,8 +158,16 @@ std::string_view status_word(SetupStatus status) {
   return kWords[static_cast<std::size_t>(status)];
 }
 
+void visit(RunToolsOptions& o, study::SettingVisitor& v) {
+  v.paths(
+      "setup", o.setups,
+      {.says = "Set-up files (.xml) and folders of set-up files.", .required = "a file", .option = {.by_place = true}});
+  visit_setup_run(o, v);
+}
+
 std::vector<SetupOutcome> run_tools(const RunToolsOptions& options) {
-  check_word("--compat", options.compat, {"opensim", "exact"});
+  if (!options.files.motion.empty() || !options.files.external_loads.empty())
+    throw InvalidInput("--motion and --external-loads name the files of one trial; give one set-up with them");
   return SetupRuns(options).run();
 }
 

@@ -27,19 +27,16 @@ struct SetupOutcome {
 };
 
 /// Options for several set-up files of OpenSim's tools.
-struct RunToolsOptions {
-  Call call;
-  std::vector<std::string> setups;  ///< Files (.xml) and folders of such files.
-  std::string model;                ///< Instead of the model of every set-up.
-  std::string out;  ///< A folder of this folder for each set-up, by its name; empty: as the set-ups say.
-  bool anywhere = false;
-  std::string compat = "opensim";
+struct RunToolsOptions : RunToolOptions {
+  std::vector<std::string> setups;                   ///< In place of `setup`: files (.xml) and folders of such files.
   std::function<void(const SetupOutcome&)> heard{};  ///< Called for each set-up that ended, one at a time.
 };
+void visit(RunToolsOptions& options, study::SettingVisitor& v);
 
 /// Runs the set-ups in parallel: scaling first, then inverse kinematics, then the tools that read motions, then the
 /// analyses that read forces, so that a set-up may read the result of another. A set-up that cannot run stops no other.
-/// Every set-up has the numbers of `run_tool` on it alone. Throws as `list_setups`; Interrupted.
+/// Every set-up has the numbers of `run_tool` on it alone. Throws InvalidInput for
+/// files of one trial, as `list_setups`; Interrupted.
 [[nodiscard]] std::vector<SetupOutcome> run_tools(const RunToolsOptions& options);
 
 /// Returns the outcomes as JSON: a list of set-up, status, message and the fields of `run_tool_json`.

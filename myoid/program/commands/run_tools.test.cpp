@@ -102,7 +102,7 @@ TEST_F(SeveralSetups, TwoSetUpsNeverWriteOneFile) {
 TEST_F(SeveralSetups, EachHasAFolderOfItsOwnInOut) {
   RunToolsOptions options;
   options.setups = {folder_ / "a/2_ik.xml", folder_ / "b/2_ik.xml"};
-  options.out = folder_ / "results";
+  options.files.out = folder_ / "results";
   const std::vector<SetupOutcome> outcomes = run_tools(options);
   for (const SetupOutcome& each : outcomes) EXPECT_EQ(each.status, SetupStatus::done) << each.message;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "results/a/2_ik/ik.mot"));

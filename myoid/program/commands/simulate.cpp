@@ -13,6 +13,7 @@
 #include "myoid/ground/core/json_text.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/page/write_report.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/simulate_setup.h"
 #include "myoid/program/commands/stage_input.h"
 
@@ -22,17 +23,14 @@ namespace {
 /// Fills empty words of the options with the defaults of the kind of model.
 SimulateOptions with_defaults(SimulateOptions o) {
   const bool arm4 = o.model == "arm4";
-  if (o.curves.empty()) o.curves = arm4 ? "paper" : "file";
-  if (o.activation.empty()) o.activation = arm4 ? "two_lags" : "thelen";
+  if (!o.curves) o.curves = arm4 ? body::MuscleCurves::paper : body::MuscleCurves::file;
+  if (!o.activation) o.activation = arm4 ? muscle::ActivationLaw::two_lags : muscle::ActivationLaw::thelen;
   return o;
 }
 
 void refuse_impossible(const SimulateOptions& o) {
   if (!o.excitations.empty() && !o.excite.empty())
     throw InvalidInput("give either --excitations or --excite, not both");
-  if (!(o.rest >= 0.0 && o.rest <= 1.0)) throw InvalidInput(fmt::format("--rest {}: expected 0 to 1", o.rest));
-  if (!(o.tolerance >= 1e-13 && o.tolerance <= 1e-2))
-    throw InvalidInput(fmt::format("--tolerance {}: expected 1e-13 to 0.01", o.tolerance));
   if (o.model == "arm4") return;
   if (o.horizontal) throw InvalidInput("--horizontal belongs to arm4; a model file says its gravity itself");
 }
@@ -46,16 +44,16 @@ Provenance provenance_of(const SimulateOptions& o, const Drive& drive) {
                                        {"excitations", o.excitations},
                                        {"excite", o.excite},
                                        {"rest", o.rest},
-                                       {"tendon", o.tendon},
-                                       {"curves", o.curves},
-                                       {"activation", o.activation},
+                                       {"tendon", choice_name(o.tendon)},
+                                       {"curves", choice_name(*o.curves)},
+                                       {"activation", choice_name(*o.activation)},
                                        {"initial", o.initial},
                                        {"initial_speed", o.initial_speed},
                                        {"lock", o.lock},
                                        {"horizontal", o.horizontal},
-                                       {"held_mass_kg", o.held_mass_kg},
-                                       {"held_body", o.held_body},
-                                       {"held_at_m", o.held_at_m},
+                                       {"held_mass_kg", o.held.mass_kg},
+                                       {"held_body", o.held.body},
+                                       {"held_at_m", o.held.at_m},
                                        {"rate_hz", o.rate_hz},
                                        {"tolerance", o.tolerance},
                                        {"energy", o.energy},
@@ -84,23 +82,23 @@ body::SimulationOptions integration_options(const SimulateOptions& o, double sta
 }
 
 body::ModelSetup setup_of(const SimulateOptions& o) {
-  return {.mode = tendon_mode(o), .curves = muscle_curves(o), .activation = activation_law(o)};
+  return {.mode = o.tendon, .curves = *o.curves, .activation = *o.activation};
 }
 
 /// Loads the arm, whose shoulder stays outside the simulation.
 body::SimulationModel load_arm(const SimulateOptions& o, SimulateResult& result, Remarks& remarks) {
-  result.body = load_model("arm4", "exact", remarks);
+  result.body = load_model("arm4", body::Compatibility::exact, remarks);
   const Vec3 shoulder = body::arm4_shoulder_rad(o.horizontal);
   result.held = {
       {"shoulder_flexion", shoulder.x()}, {"shoulder_adduction", shoulder.y()}, {"shoulder_rotation", shoulder.z()}};
-  return body::make_arm_model({.horizontal = o.horizontal, .held_mass_kg = o.held_mass_kg, .model = setup_of(o)});
+  return body::make_arm_model({.horizontal = o.horizontal, .held_mass_kg = o.held.mass_kg, .model = setup_of(o)});
 }
 
 body::SimulationModel load_file(const SimulateOptions& o, SimulateResult& result, Remarks& remarks) {
-  result.body = load_model(o.model, "exact", remarks);
-  if (o.held_mass_kg != 0.0) {
-    result.body = body::with_held_mass(std::move(result.body), o.held_body,
-                                       Vec3(o.held_at_m[0], o.held_at_m[1], o.held_at_m[2]), o.held_mass_kg);
+  result.body = load_model(o.model, body::Compatibility::exact, remarks);
+  if (o.held.mass_kg != 0.0) {
+    result.body = body::with_held_mass(std::move(result.body), o.held.body,
+                                       Vec3(o.held.at_m[0], o.held.at_m[1], o.held.at_m[2]), o.held.mass_kg);
   }
   body::SimulationModel model = body::make_simulation_model(result.body, setup_of(o));
   if (model.idle_actuators > 0)
@@ -122,6 +120,33 @@ void tell_trouble(const SimulateResult& result, Remarks& remarks) {
   if (s.status != math::OdeStatus::done) remarks.warn(fmt::format("not simulated to the end: {}", s.message));
 }
 
+/// Visits the laws of the muscles and their excitations.
+void visit_muscles(SimulateOptions& o, study::SettingVisitor& v) {
+  v.path("excitations", o.excitations,
+         {.says = "Excitation per muscle over time (.sto), 0 to 1, linear between its samples."});
+  v.texts(
+      "excite", o.excite,
+      {.says = "Instead: MUSCLE=LEVEL, or LEVEL@START (a step), or LEVEL@START+DURATION (a burst); may be repeated; "
+               "'all' is every muscle."});
+  v.number("rest", o.rest, {.says = "Excitation where --excite says nothing.", .limits = study::within(0.0, 1.0)});
+  v.choice("tendon", o.tendon, {.says = "mass: with the source paper's muscle mass."});
+  v.choice("curves", o.curves,
+           {.says = "file: the curves of the muscle's class.", .otherwise = "file for .osim, paper for arm4"});
+  v.choice("activation", o.activation,
+           {.says = "Law of activation.", .otherwise = "thelen for .osim, two_lags for arm4"});
+}
+
+/// Visits the start of the movement, its constraints and loads.
+void visit_movement(SimulateOptions& o, study::SettingVisitor& v) {
+  v.texts(
+      "initial", o.initial,
+      {.says = "COORDINATE=VALUE at the start [deg, m]; may be repeated.", .otherwise = "the model's default posture"});
+  v.texts("initial-speed", o.initial_speed, {.says = "COORDINATE=SPEED at the start [deg/s, m/s]."});
+  v.texts("lock", o.lock, {.says = "Coordinate that does not move; may be repeated."});
+  v.flag("horizontal", o.horizontal, {.says = "arm4 without gravity."});
+  visit(o.held, v);
+}
+
 }  // namespace
 
 bool SimulateResult::finished() const {
@@ -129,7 +154,23 @@ bool SimulateResult::finished() const {
          (!sensitivities || sensitivities->status == math::OdeStatus::done);
 }
 
+void visit(SimulateOptions& o, study::SettingVisitor& v) {
+  v.path("model", o.model, {.says = "OpenSim model (.osim), or arm4."});
+  v.folder("out", o.out, {.says = "Folder for the results.", .required = "a folder"});
+  visit_muscles(o, v);
+  visit_movement(o, v);
+  v.number("rate", o.rate_hz, {.says = "Samples of the results.", .limits = study::above_zero("Hz")});
+  v.number("tolerance", o.tolerance,
+           {.says = "Relative local error of the integration.", .limits = study::within(1e-13, 1e-2)});
+  v.flag("energy", o.energy, {.says = "Also the work of every element, and whether it adds up."});
+  v.texts("sensitivity", o.sensitivity,
+          {.says = "Also the derivatives by this parameter of the model, such as BIC.max_isometric_force, 'BIC.*' or "
+                   "'*'; may be repeated."});
+  v.flag("figures", o.figures, {.says = "Also a figure of the movement (.svg, .csv)."});
+}
+
 SimulateResult simulate(const SimulateOptions& options) {
+  check_options(options);
   const SimulateOptions o = with_defaults(options);
   refuse_impossible(o);
   Remarks remarks(o.call);

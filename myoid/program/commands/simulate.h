@@ -9,40 +9,39 @@
 #include "myoid/body/model/body_model.h"
 #include "myoid/body/simulation/sensitivity.h"
 #include "myoid/body/simulation/simulation.h"
+#include "myoid/body/simulation/simulation_model.h"
 #include "myoid/ground/core/provenance.h"
+#include "myoid/muscle/activation.h"
+#include "myoid/muscle/musculotendon_parameters.h"
 #include "myoid/page/report.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/program/commands/stage_options.h"
 #include "myoid/results/simulation_files.h"
 
 namespace myoid::program {
 
 /// Options of forward dynamics of a model.
 struct SimulateOptions {
-  Call call;                           ///< Its times are begin and end of the simulation.
-  std::string model = "arm4";          ///< A file (.osim), or the built-in arm.
-  std::string excitations;             ///< Excitation of each muscle over time (.sto); or `excite`.
-  std::vector<std::string> excite;     ///< "MUSCLE=LEVEL", "...@START", "...@START+DURATION".
-  double rest = 0.01;                  ///< Excitation of muscles that `excite` does not name.
-  std::string tendon = "equilibrium";  ///< One of tendon_names().
-  std::string curves;                  ///< One of curve_names(); empty: "paper" for arm4, "file" for a file.
-  std::string activation;              ///< One of activation_names(); empty: "two_lags" or "thelen".
+  Call call;                        ///< Its times are begin and end of the simulation.
+  std::string model = "arm4";       ///< A file (.osim), or the built-in arm.
+  std::string excitations;          ///< Excitation of each muscle over time (.sto); or `excite`.
+  std::vector<std::string> excite;  ///< "MUSCLE=LEVEL", "...@START", "...@START+DURATION".
+  double rest = 0.01;               ///< Excitation of muscles that `excite` does not name.
+  muscle::TendonMode tendon = muscle::TendonMode::equilibrium;
+  std::optional<body::MuscleCurves> curves;         ///< Empty: `paper` for arm4, `file` for a file.
+  std::optional<muscle::ActivationLaw> activation;  ///< Empty: `two_lags` for arm4, `thelen` for a file.
   std::vector<std::string> initial, initial_speed;  ///< "COORDINATE=VALUE" [deg, m, deg/s, m/s].
   std::vector<std::string> lock;                    ///< Coordinates that do not move.
   bool horizontal = false;                          ///< arm4 without gravity.
-  double held_mass_kg = 0.0;
-  std::string held_body;                         ///< Body of the model file that holds the mass.
-  std::vector<double> held_at_m{0.0, 0.0, 0.0};  ///< Point on that body.
-  double rate_hz = 200.0;                        ///< Rate of the results.
-  double tolerance = 1e-8;                       ///< Relative local error of the integration.
-  bool energy = false;                           ///< Computes the work of every element, too.
-  std::vector<std::string> sensitivity;          ///< Parameters of the model, or beginnings of names with '*'.
-  bool figures = false;                          ///< Draws a figure of the movement, too.
+  HeldMass held;
+  double rate_hz = 200.0;                ///< Rate of the results.
+  double tolerance = 1e-8;               ///< Relative local error of the integration.
+  bool energy = false;                   ///< Computes the work of every element, too.
+  std::vector<std::string> sensitivity;  ///< Parameters of the model, or beginnings of names with '*'.
+  bool figures = false;                  ///< Draws a figure of the movement, too.
+  std::string out;                       ///< Folder of `write_simulate`.
 };
-
-/// Returns the words for tendons, curves and activation laws.
-[[nodiscard]] std::vector<std::string> tendon_names();
-[[nodiscard]] std::vector<std::string> curve_names();
-[[nodiscard]] std::vector<std::string> activation_names();
+void visit(SimulateOptions& options, study::SettingVisitor& v);
 
 struct SimulateResult {
   body::Simulation simulation;

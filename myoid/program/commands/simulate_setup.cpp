@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -19,33 +18,6 @@
 
 namespace myoid::program {
 namespace {
-
-const std::map<std::string, muscle::TendonMode> kModes = {{"rigid", muscle::TendonMode::rigid},
-                                                          {"equilibrium", muscle::TendonMode::equilibrium},
-                                                          {"mass", muscle::TendonMode::mass}};
-const std::map<std::string, body::MuscleCurves> kCurves = {{"file", body::MuscleCurves::file},
-                                                           {"paper", body::MuscleCurves::paper},
-                                                           {"thelen", body::MuscleCurves::thelen},
-                                                           {"de_groote", body::MuscleCurves::de_groote},
-                                                           {"millard", body::MuscleCurves::millard}};
-const std::map<std::string, muscle::ActivationLaw> kLaws = {{"envelope", muscle::ActivationLaw::envelope},
-                                                            {"two_lags", muscle::ActivationLaw::two_lags},
-                                                            {"thelen", muscle::ActivationLaw::thelen},
-                                                            {"de_groote", muscle::ActivationLaw::de_groote},
-                                                            {"recursive", muscle::ActivationLaw::recursive}};
-
-template <typename Value>
-std::vector<std::string> keys(const std::map<std::string, Value>& map) {
-  std::vector<std::string> result;
-  for (const auto& [key, value] : map) result.push_back(key);
-  return result;
-}
-
-template <typename Value>
-Value value_of(const std::map<std::string, Value>& map, const std::string& word, std::string_view option) {
-  check_word(option, word, keys(map));
-  return map.at(word);
-}
 
 /// Splits "NAME=NUMBER" of an option.
 std::pair<std::string, double> assignment(const std::string& text, std::string_view option) {
@@ -66,14 +38,6 @@ std::size_t index_of(const std::string& name,
 }
 
 }  // namespace
-
-std::vector<std::string> tendon_names() { return keys(kModes); }
-std::vector<std::string> curve_names() { return keys(kCurves); }
-std::vector<std::string> activation_names() { return keys(kLaws); }
-
-muscle::TendonMode tendon_mode(const SimulateOptions& o) { return value_of(kModes, o.tendon, "--tendon"); }
-body::MuscleCurves muscle_curves(const SimulateOptions& o) { return value_of(kCurves, o.curves, "--curves"); }
-muscle::ActivationLaw activation_law(const SimulateOptions& o) { return value_of(kLaws, o.activation, "--activation"); }
 
 Drive read_drive(const SimulateOptions& o, const std::vector<std::string>& muscles, Remarks& remarks) {
   Drive drive;

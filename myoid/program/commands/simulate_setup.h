@@ -4,16 +4,9 @@
 #include <vector>
 
 #include "myoid/body/simulation/simulation_model.h"
-#include "myoid/muscle/activation.h"
-#include "myoid/muscle/musculotendon.h"
 #include "myoid/program/commands/simulate.h"
 
 namespace myoid::program {
-
-/// Returns the law that a word of the options names. Throws InvalidInput for other words.
-[[nodiscard]] muscle::TendonMode tendon_mode(const SimulateOptions& options);
-[[nodiscard]] body::MuscleCurves muscle_curves(const SimulateOptions& options);
-[[nodiscard]] muscle::ActivationLaw activation_law(const SimulateOptions& options);
 
 /// Excitations of the muscles, and the simulated time [s].
 struct Drive {

@@ -50,12 +50,5 @@ TEST(SimulateSetup, TheTimeIsTheFilesUnlessTheCallSaysOtherwise) {
   EXPECT_THROW((void)read_drive(o, {"B"}, remarks), ReadError);
 }
 
-TEST(SimulateSetup, AWordThatIsNoLawIsRefused) {
-  SimulateOptions o;
-  EXPECT_EQ(tendon_mode(o), muscle::TendonMode::equilibrium);
-  o.tendon = "soft";
-  EXPECT_THROW((void)tendon_mode(o), InvalidInput);
-}
-
 }  // namespace
 }  // namespace myoid::program

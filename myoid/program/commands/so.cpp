@@ -7,6 +7,7 @@
 #include "myoid/body/forces/sharing_input.h"
 #include "myoid/body/forces/sharing_plausibility.h"
 #include "myoid/body/simulation/muscle_force_law.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/stage_input.h"
 #include "myoid/recording/signals/resample.h"
 #include "myoid/recording/tables/storage_reader.h"
@@ -19,30 +20,51 @@ body::SharingOptions sharing_options(const SoOptions& o,
                                      const body::BodyModel& model,
                                      const body::SharingInput& input,
                                      Remarks& remarks) {
-  body::SharingOptions options{.objective = *choice_named<body::SharingObjective>(o.objective),
-                               .exponent = o.exponent,
-                               .reserve_nm = o.reserve_nm};
+  body::SharingOptions options{.objective = o.objective, .exponent = o.exponent, .reserve_nm = o.reserve_nm};
   if (!o.emg.empty()) {
     const recording::Storage emg = recording::read_storage(o.emg);
     warn_of_repairs(o.emg, emg.repairs, remarks);
     options.emg = recording::resample(emg.data, input.torques.time_s());
     options.emg_weight = o.emg_weight;
   }
-  const bool elastic = o.tendon == "elastic";
-  if (elastic || o.passive) {
-    options.law = body::muscle_force_law(model, input.muscles, {.elastic_tendon = elastic, .passive_force = o.passive});
-  }
+  if (o.elastic_tendon || o.passive)
+    options.law =
+        body::muscle_force_law(model, input.muscles, {.elastic_tendon = o.elastic_tendon, .passive_force = o.passive});
   return options;
 }
 
 }  // namespace
 
+void visit(SoOptions& o, study::SettingVisitor& v) {
+  static constexpr std::string_view kTendons[] = {"rigid", "elastic"};
+  visit_model(o.model, v);
+  visit_motion(o.motion, v);
+  v.folder("out", o.out, {.says = "Folder for StaticOptimization_*.", .required = "a folder"});
+  v.choice("objective", o.objective, {.says = "What the muscles share sparingly."});
+  v.number("exponent", o.exponent, {.says = "Exponent of the sum.", .limits = {.lower = 1.0, .above_lower = true}});
+  v.path("emg", o.emg, {.says = "Measured activations by muscle name (.sto), to stay near."});
+  v.number("emg-weight", o.emg_weight, {.says = "Weight of that term.", .limits = study::zero_or_more()});
+  v.number("reserve", o.reserve_nm,
+           {.says = "Optimal torque of the reserve on every coordinate.", .limits = study::above_zero("N m")});
+  v.texts("coordinate", o.coordinates,
+          {.says = "Coordinate whose torque the muscles balance, repeated.",
+           .otherwise = "all that take a value of their own"});
+  visit_lowpass(o.cutoff_hz, v);
+  visit_loads(o.loads, v);
+  v.either("tendon", o.elastic_tendon,
+           {.says = "rigid, or elastic: fiber and tendon in balance by the muscle's own curves, in every frame for "
+                    "itself: the tendon's own rate is left out.",
+            .words = kTendons});
+  v.flag("passive", o.passive,
+         {.says = "The fibers' passive springs and dampers pull too, and the muscles share the rest."});
+  visit_compat(o.compat, v);
+}
+
 SoResult so(const SoOptions& o) {
-  check_word("--objective", o.objective, {"activation", "force", "stress"});
-  check_word("--tendon", o.tendon, {"rigid", "elastic"});
+  check_options(o);
   Remarks remarks(o.call);
   const body::BodyModel model = load_model(o.model, o.compat, remarks);
-  if (o.compare_with_opensim) warn_of_path_differences(model, o.model, remarks);
+  if (!o.call.quiet) warn_of_path_differences(model, o.model, remarks);
   const body::JointMotion motion =
       load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, body::HeldValues::of_model);
   std::optional<body::ExternalLoads> loads;

@@ -49,7 +49,7 @@ TEST(SoFunction, MusclesAndReserveMakeTheTorqueOfInverseDynamics) {
         arms.values().row(i).dot(shared.shared.force.values().row(i)) + shared.shared.reserve.values()(i, 0);
     EXPECT_NEAR(made, torque[i], 1e-8) << i;  // the dual's tolerance on torques of some 3 N m
   }
-  so_options.tendon = "soft";
+  so_options.cutoff_hz = -1.0;
   EXPECT_THROW((void)so(so_options), InvalidInput);
 }
 

@@ -31,11 +31,6 @@ TimeSeries in_si(const recording::Storage& file, const body::BodyModel& model) {
 
 }  // namespace
 
-void check_word(std::string_view option, const std::string& word, const std::vector<std::string>& words) {
-  if (std::ranges::find(words, word) != words.end()) return;
-  throw InvalidInput(fmt::format("{} '{}': expected one of {}", option, word, fmt::join(words, ", ")));
-}
-
 void warn_of_repairs(const std::filesystem::path& path, const std::vector<Repair>& repairs, Remarks& remarks) {
   for (const Repair& repair : repairs) remarks.warn(recording::to_string(path, repair));
 }
@@ -56,12 +51,12 @@ void warn_of_path_differences(const body::BodyModel& model, const std::string& n
                   name, count, model.muscles.size(), worst, count > 3 ? ", ..." : "", name));
 }
 
-body::BodyModel load_model(const std::string& name, const std::string& compat, Remarks& remarks) {
+body::BodyModel load_model(const std::string& name, body::Compatibility compat, Remarks& remarks) {
   std::error_code ignored;
   if (!name.ends_with(".osim") && name != "arm4" && !std::filesystem::exists(name, ignored)) {
     throw ReadError(name, 0, "there is no such file, and the only built-in model is arm4");
   }
-  const body::OsimOptions options{.compat = body::parse_compat(compat)};
+  const body::OsimOptions options{.compat = body::compat_of(compat)};
   body::BodyModel model =
       name == "arm4" ? body::parse_osim(body::arm4_osim(), "arm4.osim", options) : body::read_osim(name, options);
   body::require_lengths_in_m(model, name);
@@ -139,7 +134,7 @@ Mat3 onto_model(const body::BodyModel& model, const std::string& markers, const 
 
 body::JointMotion load_motion(const body::BodyModel& model,
                               const std::filesystem::path& path,
-                              double cutoff_hz,
+                              std::optional<double> cutoff_hz,
                               const Call& call,
                               Remarks& remarks,
                               body::HeldValues held) {
@@ -155,12 +150,12 @@ body::JointMotion load_motion(const body::BodyModel& model,
         fmt::format("{}: {}; a spline bridges the gaps, and its derivatives beside a gap are not to be relied on",
                     path.string(), gaps.text()));
   body::MotionOptions options{.held = held};
-  if (cutoff_hz > 0.0) {
-    if (cutoff_hz >= 0.5 * q.mean_rate_hz()) {
+  if (cutoff_hz) {
+    if (*cutoff_hz >= 0.5 * q.mean_rate_hz()) {
       throw InvalidInput(fmt::format("--lowpass {} Hz: {} has {:.4g} Hz; give less than half of that, or leave it out",
-                                     cutoff_hz, path.string(), q.mean_rate_hz()));
+                                     *cutoff_hz, path.string(), q.mean_rate_hz()));
     }
-    options.cutoff_hz = cutoff_hz;
+    options.cutoff_hz = *cutoff_hz;
   }
   body::MotionResult result = body::joint_motion(model, q, options);
   for (std::string& note : sentences(result.notes)) remarks.warn(std::move(note));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,15 +16,12 @@
 
 namespace myoid::program {
 
-/// Throws InvalidInput with the option's name, unless the word is one of `words`.
-void check_word(std::string_view option, const std::string& word, const std::vector<std::string>& words);
-
 /// Warns of the repairs and omissions of a file's reader.
 void warn_of_repairs(const std::filesystem::path& path, const std::vector<Repair>& repairs, Remarks& remarks);
 
-/// Loads a model from a file, or the built-in "arm4", with the paths that `compat` names ("exact"
-/// or "opensim"). Remarks name elements that are not supported.
-[[nodiscard]] body::BodyModel load_model(const std::string& name, const std::string& compat, Remarks& remarks);
+/// Loads a model from a file, or the built-in "arm4", with the paths that `compat` names.
+/// Remarks name elements that are not supported.
+[[nodiscard]] body::BodyModel load_model(const std::string& name, body::Compatibility compat, Remarks& remarks);
 
 /// Warns of the muscles whose exact path differs visibly (1 mm) from OpenSim's at random postures.
 void warn_of_path_differences(const body::BodyModel& model, const std::string& name, Remarks& remarks);
@@ -35,12 +33,12 @@ void warn_of_path_differences(const body::BodyModel& model, const std::string& n
                               const std::string& up,
                               Remarks& remarks);
 
-/// Reads a motion file (.mot, .sto) as coordinates with two derivatives. `cutoff_hz` > 0 smooths.
+/// Reads a motion file (.mot, .sto) as coordinates with two derivatives. `cutoff_hz` smooths.
 /// The whole file is smoothed and differentiated, then cut to the call's time, so that the numbers
 /// do not depend on the cut. Warns of gaps of the clock, and of locked and prescribed coordinates that move otherwise.
 [[nodiscard]] body::JointMotion load_motion(const body::BodyModel& model,
                                             const std::filesystem::path& path,
-                                            double cutoff_hz,
+                                            std::optional<double> cutoff_hz,
                                             const Call& call,
                                             Remarks& remarks,
                                             body::HeldValues held = body::HeldValues::of_motion);

@@ -127,6 +127,17 @@ page::Table table_of(const SweepResult& result) {
 
 }  // namespace
 
+void visit(SweepOptions& o, study::SettingVisitor& v) {
+  visit_model(o.model, v);
+  v.text("sweep", o.coordinate,
+         {.says = "Instead of a motion this coordinate over its range, or COORDINATE=FROM:TO [deg, m]: a table and a "
+                  "picture of moment arms, lengths and forces.",
+          .option = {.keyword = "coordinate", .excludes = "motion,lowpass,surrogate,check-jumps"}});
+  v.texts("muscle", o.muscles, {.says = "With --sweep only this muscle, repeated.", .option = {.needs = "sweep"}});
+  v.folder("out", o.out, {.says = "Folder for sweep_*.csv and .svg.", .required = "a folder"});
+  visit_compat(o.compat, v);
+}
+
 SweepResult sweep(const SweepOptions& o) {
   if (o.call.start_s || o.call.end_s) throw InvalidInput("--sweep has no times: leave out --start and --end");
   Remarks remarks(o.call);

@@ -7,18 +7,22 @@
 
 #include "myoid/body/forces/muscle_sweep.h"
 #include "myoid/program/commands/call.h"
+#include "myoid/program/commands/stage_options.h"
 
 namespace myoid::program {
 
 /// Options of muscles over one coordinate, the others at their defaults (`paths --sweep`).
 struct SweepOptions {
   Call call;
-  std::string model;             ///< A file (.osim), or "arm4".
-  std::string compat = "exact";  ///< Paths: exact, or opensim.
+  std::string model;                                        ///< A file (.osim), or "arm4".
+  body::Compatibility compat = body::Compatibility::exact;  ///< Paths.
   /// "elbow_flexion" for its range, or "elbow_flexion=0:130", in degrees; meters for a translation.
   std::string coordinate;
   std::vector<std::string> muscles;  ///< Names; empty: all whose moment arm is 0.1 mm somewhere.
+  std::string out;                   ///< Folder of `write_sweep`.
 };
+/// Visits the options that `paths --sweep` has beside or in place of those of a motion.
+void visit(SweepOptions& options, study::SettingVisitor& v);
 
 struct SweepResult {
   std::string model, coordinate;

@@ -3,13 +3,27 @@
 #include <fmt/format.h>
 
 #include "myoid/lab/virtual_person/demo_protocol.h"
+#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/twin.h"
 
 namespace myoid::program {
 
+void visit(TwinStudyOptions& o, study::SettingVisitor& v) {
+  visit_protocol(o.protocol, v);
+  v.choice("level", o.level, {.says = "Instead of the protocol's own."});
+  v.number("offset", o.offset,
+           {.says = "Mean of the persons away from the priors', in standard deviations.",
+            .limits = study::within(-3.0, 3.0)});
+  visit_truth(o.truth, v);
+  v.count("subjects", o.study.subjects, {.says = "Virtual persons.", .limits = study::within(1, 1000000)});
+  v.choices("method", o.study.methods, {.says = "Several are possible."});
+  v.folder("out", o.out, {.says = "Folder for persons.csv, summary.csv, predictions.csv.", .required = "a folder"});
+}
+
 TwinStudyResult twin_study(const TwinStudyOptions& o) {
+  check_options(o);
   Remarks remarks(o.call);
-  lab::Protocol protocol = lab::protocol_named(o.protocol, level_named(o.level));
+  lab::Protocol protocol = lab::protocol_named(o.protocol, o.level);
   lab::set_truth(protocol, o.truth);
   if (o.offset) protocol.truth.offset = *o.offset;
   lab::TwinStudyOptions options = o.study;

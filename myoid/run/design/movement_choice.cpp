@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
@@ -111,7 +112,7 @@ class Designer {
     const double spent = duration_s(chosen);
     oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t m) {
       if (!feasible_[m] || std::count(chosen.begin(), chosen.end(), m) >= options_.most_of_each ||
-          spent + problem_.catalogue[m].duration_s > options_.budget_s)
+          (options_.budget_s && spent + problem_.catalogue[m].duration_s > *options_.budget_s))
         return;
       Gathered with = information;
       add(m, with);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,10 +36,10 @@ constexpr ChoiceNames choice_names(DesignCriterion) { return kCriterionNames; }
 
 struct DesignOptions {
   DesignCriterion criterion = DesignCriterion::d_optimal;
-  int movements = 8;                                          ///< Number of movements to choose.
-  int most_of_each = 2;                                       ///< Limit on the repetitions of one movement.
-  double budget_s = std::numeric_limits<double>::infinity();  ///< Limit on the recording time.
-  double least_feasible = 0.8;  ///< Share of the persons who must be able to do a movement.
+  int movements = 8;               ///< Number of movements to choose.
+  int most_of_each = 2;            ///< Limit on the repetitions of one movement.
+  std::optional<double> budget_s;  ///< Limit on the recording time.
+  double least_feasible = 0.8;     ///< Share of the persons who must be able to do a movement.
 };
 
 struct DesignStep {

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "myoid/ground/core/choice.h"
+
 namespace myoid::body {
 
 /// Departures of OpenSim 4.5.2 from the geometry of a model, one switch each. With none set
@@ -62,8 +64,13 @@ inline constexpr Compat kOpenSim452{.opensim_paths = true,
                                     .normalized_pennation = true,
                                     .static_pose_inside_ranges = true};
 
-/// Reads "exact" or "opensim"; throws InvalidInput for other names.
-[[nodiscard]] Compat parse_compat(std::string_view name);
+/// The words for these switches: none or all.
+enum class Compatibility { exact, opensim };
+inline constexpr std::string_view kCompatibilityNames[] = {"exact", "opensim"};
+constexpr ChoiceNames choice_names(Compatibility) { return kCompatibilityNames; }
+[[nodiscard]] constexpr Compat compat_of(Compatibility word) {
+  return word == Compatibility::exact ? Compat{} : kOpenSim452;
+}
 /// "exact" or "opensim".
 [[nodiscard]] std::string_view name_of(const Compat& compat);
 
