@@ -55,7 +55,7 @@ std::string with_facts(const std::string& text, const CLI::Option& option, const
   std::string usual = option.get_default_str();
   std::erase_if(usual, [](char c) { return c == '[' || c == ']'; });
   if (!usual.empty() && !says_default)
-    facts.push_back(fmt::format("default{} {}", parse_number(usual) ? "" : ":", usual));
+    facts.push_back(fmt::format("default{} {}", usual.find(' ') == std::string::npos ? "" : ":", usual));
   if (!option.get_needs().empty()) facts.push_back("with " + names_of(option.get_needs()));
   if (!option.get_excludes().empty()) facts.push_back("not with " + names_of(option.get_excludes()));
   if (facts.empty()) return text;

@@ -70,8 +70,8 @@ bool OptionDeclarer::met(const study::Setting& setting, const study::SettingValu
   if (command_->get_option_no_throw(name) != nullptr) return false;  // of another struct of the command, too
   const study::SettingRow row = study::setting_row(setting, now, study::SettingNotation::command_line);
   const std::string names = fmt::format("{}{}{}", name, about.option.also.empty() ? "" : ",", about.option.also);
-  std::string says = study::without_markdown(row.says);
-  if (says.ends_with('.')) says.pop_back();
+  const std::string text = study::without_markdown(row.says);
+  const std::string says = text.substr(0, text.size() - (text.ends_with('.') ? 1 : 0));
   const bool is_flag = setting.kind == study::SettingKind::flag;
   CLI::Option* const option = is_flag ? command_->add_flag_callback(
                                             names, [] {}, says)
