@@ -11,7 +11,7 @@ set(MYOID_WING_study phases study draft intake checks)
 set(MYOID_WING_run design run identify_files)
 set(MYOID_WING_results results review exports cohort mat realtime)
 set(MYOID_WING_lab virtual_person twin)
-set(MYOID_WING_program contents commands cli)
+set(MYOID_WING_program contents steps commands cli)
 set(MYOID_WINGS ground recording muscle page body fit opensim study run results lab program)
 foreach(wing IN LISTS MYOID_WINGS)
   foreach(room IN LISTS MYOID_WING_${wing})
@@ -28,7 +28,7 @@ endforeach()
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation beliefs measurement intervals posterior methods page phases study intake checks
     design run scene opensim projects exports results draft contents identify_files review virtual_person twin cohort
-    realtime mat commands cli)
+    realtime mat steps commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
 set(MYOID_LAYER_files core)
@@ -78,14 +78,17 @@ set(MYOID_LAYER_twin core math files muscle tables c3d arm intervals study run
 set(MYOID_LAYER_cohort core math files tables recording intervals page study design results)
 set(MYOID_LAYER_realtime core files measurement kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
-set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
-    dynamics forces simulation measurement intervals methods page study checks design run scene
-    exports results draft contents identify_files opensim projects review virtual_person twin cohort)
-set(MYOID_LAYER_cli core math files intervals methods page study exports review results contents cohort mat commands)
+set(MYOID_LAYER_steps core files muscle tables c3d recording signals model osim arm kinematics dynamics
+    forces simulation page study checks results)
+set(MYOID_LAYER_commands core files tables recording osim arm measurement intervals methods page study
+    checks design run scene opensim projects exports results draft contents identify_files review virtual_person
+    twin cohort steps)
+set(MYOID_LAYER_cli core math files intervals methods page study results contents review cohort mat commands
+    steps)
 
 # Rooms that compute little themselves: they read, write, judge and call the rooms below.
 set(MYOID_LIGHT_LAYERS osim arm beliefs page phases study intake checks design run scene exports results draft
-    contents identify_files opensim projects review twin cohort mat commands cli)
+    contents identify_files opensim projects review twin cohort mat steps commands cli)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [TESTS_TOGETHER] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp

@@ -6,8 +6,8 @@
 #include <exception>
 
 #include "myoid/ground/core/units.h"
-#include "myoid/program/commands/id.h"
-#include "myoid/program/commands/ik.h"
+#include "myoid/program/steps/id.h"
+#include "myoid/program/steps/ik.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "myoid/program/commands/muscle.h"
+#include "myoid/program/steps/muscle.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/program/commands/emg.h"
 #include "myoid/program/commands/run.h"
+#include "myoid/program/steps/emg.h"
 
 namespace {
 

@@ -89,16 +89,6 @@ struct Setting {
 [[nodiscard]] std::string refusal(const Setting& setting, const std::string& word);
 [[nodiscard]] bool is_number(const Setting& setting);
 
-/// Calls `action` for each of the names that stand in a text, separated by commas.
-template <typename Action>
-void for_each_name(std::string_view names, Action action) {
-  while (!names.empty()) {
-    const std::size_t end = std::min(names.find(','), names.size());
-    action(std::string(names.substr(0, end)));
-    names.remove_prefix(std::min(end + 1, names.size()));
-  }
-}
-
 /// Stretches of time and, of a setting that allows a word among them, the word.
 struct WordedStretches {
   std::vector<Stretch> stretches;

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::python {
 namespace {
@@ -186,10 +187,9 @@ bool KeywordReader::met(const study::Setting& setting, const study::SettingValue
   if (!keywords_->object(name.c_str())) return false;
   study::SettingValue given = value_of(setting, *keywords_, name.c_str());
   if (given == study::SettingValue(false)) return false;
-  study::for_each_name(setting.about.option.excludes, [&](const std::string& other) {
-    if (keywords_->holds(name.c_str()) && keywords_->holds(other.c_str()))
+  for (const std::string_view other : split(setting.about.option.excludes, ','))
+    if (keywords_->holds(name.c_str()) && keywords_->holds(std::string(other).c_str()))
       throw InvalidInput(fmt::format("{} and {} exclude each other", name, other));
-  });
   const auto check = [&](const auto& value) {
     const std::string reason = study::refusal(setting, value);
     if (!reason.empty()) throw InvalidInput(fmt::format("{}: {}", name, reason));

@@ -11,8 +11,8 @@
 #include "myoid/body/model/body_model.h"
 #include "myoid/body/model/constraints.h"
 #include "myoid/ground/core/error.h"
-#include "myoid/program/commands/stage_input.h"
-#include "myoid/program/commands/stage_options.h"
+#include "myoid/program/steps/stage_input.h"
+#include "myoid/program/steps/stage_options.h"
 
 #include "bindings.h"
 #include "keywords.h"

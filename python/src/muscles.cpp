@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "myoid/ground/files/output_file.h"
-#include "myoid/program/commands/muscle.h"
-#include "myoid/program/commands/simulate.h"
+#include "myoid/program/steps/muscle.h"
+#include "myoid/program/steps/simulate.h"
 
 #include "bindings.h"
 #include "keywords.h"

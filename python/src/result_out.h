@@ -7,7 +7,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/result_folder.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 
 #include "keywords.h"
 

@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "myoid/ground/files/output_file.h"
-#include "myoid/program/commands/emg.h"
-#include "myoid/program/commands/id.h"
-#include "myoid/program/commands/ik.h"
-#include "myoid/program/commands/paths.h"
 #include "myoid/program/commands/run_tool.h"
-#include "myoid/program/commands/so.h"
-#include "myoid/program/commands/sweep.h"
+#include "myoid/program/steps/emg.h"
+#include "myoid/program/steps/id.h"
+#include "myoid/program/steps/ik.h"
+#include "myoid/program/steps/paths.h"
+#include "myoid/program/steps/so.h"
+#include "myoid/program/steps/sweep.h"
 
 #include "bindings.h"
 #include "keywords.h"

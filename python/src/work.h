@@ -13,8 +13,8 @@
 #include <pybind11/pybind11.h>
 
 #include "myoid/ground/files/input_log.h"
-#include "myoid/program/commands/call.h"
-#include "myoid/program/commands/check_options.h"
+#include "myoid/program/steps/call.h"
+#include "myoid/program/steps/check_options.h"
 
 #include "keywords.h"
 

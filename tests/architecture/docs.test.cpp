@@ -198,7 +198,7 @@ TEST(Documentation, EveryMessageOfTheTroubleshootingPageIsOneOfTheProgram) {
 }
 
 std::set<std::string> commands_of_the_program() {
-  const std::regex subcommand(R"re(add_subcommand\(\s*"([\w-]+)")re");
+  const std::regex subcommand(R"re((?:add_subcommand\(|add_command<\w+>\(\s*app, context,)\s*"([\w-]+)")re");
   std::set<std::string> commands;
   for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "program" / "cli")) {
     const std::string text = content(entry.path());
@@ -238,13 +238,13 @@ TEST(Documentation, NoPageAndNoMessageNamesACommandThatIsNone) {
   EXPECT_GT(seen, 50);
 }
 
-/// The option that a command's source adds: in its page, or among the common ones.
+/// The option that a command's source adds beside those of its `visit`: in its page.
 TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
-  const std::regex option(R"re(add_(?:option|flag)\(\s*"(--[\w-]+)")re");
+  const std::regex option(R"re(add_(?:option|flag|flag_callback)\(\s*"(--[\w-]+)")re");
   int seen = 0;
   for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "program" / "cli")) {
     const std::string text = content(entry.path());
-    if (text.find("add_subcommand(") == std::string::npos) continue;
+    if (text.find("void add_") == std::string::npos || entry.path().stem() == "context") continue;
     std::string command = entry.path().stem().string();  // twin_study.cpp is twin-study
     std::replace(command.begin(), command.end(), '_', '-');
     const fs::path page = kRoot / "docs" / "guide" / (command + ".md");
@@ -254,7 +254,7 @@ TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
       ++seen;
     }
   }
-  EXPECT_GT(seen, 30);
+  EXPECT_GT(seen, 5);
 }
 
 }  // namespace

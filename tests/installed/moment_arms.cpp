@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "myoid/ground/core/provenance.h"
-#include "myoid/program/commands/paths.h"
+#include "myoid/program/steps/paths.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

@@ -89,15 +89,15 @@ std::string refused_entity(const std::string& pair) {
   return equals == 0 || equals == std::string::npos ? pair + ": expected NAME=VALUE, as run=1" : "";
 }
 
-void carry_out(Context& context, const CohortOptions& o, const CLI::App& command) {
-  const std::string step = command["analysis_level"]->as<std::string>();
+void carry_out(Context& context, const CohortOptions& o, const CLI::App& /*command*/) {
   if (o.workflow) {
     program::prepare_cohort_folder(o, o.out);
     say("{}\n", program::write_cohort_workflow(o, o.out));
-  } else if (step.empty()) {
+  } else if (!o.level) {
     run_cohort(context, o, {.persons = !o.group, .group = o.group || o.persons.empty()});
   } else {
-    run_cohort(context, o, {.persons = step == "participant", .group = step == "group"});
+    const bool group = o.level == AnalysisLevel::group;
+    run_cohort(context, o, {.persons = !group, .group = group});
   }
 }
 
@@ -111,13 +111,6 @@ void add_cohort(CLI::App& app, Context& context) {
                                  "Example: myoid cohort persons.csv --out cohort --jobs 2\n"
                                  "Example: myoid cohort data out participant --participant-label 01 02",
                                  {.seed = false}, carry_out);
-  command
-      ->add_option("analysis_level",
-                   "As a BIDS App takes it: participant computes the persons, group puts their results side by side "
-                   "(default: first the one, then the other)")
-      ->check(one_of({"participant", "group"}))
-      ->excludes(command->get_option("--group"))
-      ->excludes(command->get_option("--workflow"));
   command->get_option("--entity")->check(CLI::Validator(refused_entity, ""));
   command->add_option("--n-cpus,--n_cpus", context.threads, "Processor cores, as --threads")
       ->check(between(1, 1024))

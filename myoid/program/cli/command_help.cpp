@@ -47,20 +47,17 @@ std::string names_of(const std::set<CLI::Option*>& options) {
 
 /// Returns the text with the range "1 to 50" of "INT:1 to 50", the default and the company that the option needs.
 std::string with_facts(const std::string& text, const CLI::Option& option, const std::string& type) {
-  const std::size_t said = text.rfind("(default");
-  const bool says_default = said != std::string::npos && text.find(')', said) + 1 == text.size();
   std::vector<std::string> facts;
   const std::size_t range = type.find(':');
   if (range != std::string::npos && type.find('{') == std::string::npos) facts.push_back(type.substr(range + 1));
   std::string usual = option.get_default_str();
   std::erase_if(usual, [](char c) { return c == '[' || c == ']'; });
-  if (!usual.empty() && !says_default)
+  if (!usual.empty())
     facts.push_back(fmt::format("default{} {}", usual.find(' ') == std::string::npos ? "" : ":", usual));
   if (!option.get_needs().empty()) facts.push_back("with " + names_of(option.get_needs()));
   if (!option.get_excludes().empty()) facts.push_back("not with " + names_of(option.get_excludes()));
   if (facts.empty()) return text;
   const std::string list = fmt::format("{}", fmt::join(facts, "; "));
-  if (says_default) return fmt::format("{}({}; {}", text.substr(0, said), list, text.substr(said + 1));
   return text.ends_with(')') ? fmt::format("{}; {}", text, list) : fmt::format("{} ({})", text, list);
 }
 

@@ -17,6 +17,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/json_text.h"
+#include "myoid/ground/core/numbers.h"
 #include "myoid/ground/files/folder_lock.h"
 #include "myoid/ground/files/output_file.h"
 #include "myoid/ground/files/text_file.h"
@@ -213,12 +214,12 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
     idle.push_back(option);
   };
   unless(used.threads,
-         command
-             .add_option("--threads", context.threads,
-                         "Number of threads (default: all cores; the result is the same for every number)")
+         command.add_option("--threads", context.threads, "Number of threads; the result is the same for every number")
+             ->default_str("all cores")
              ->check(between(0, 1024)));
-  unless(used.seed,
-         command.add_option("--seed", context.seed, "Seed of everything random (default 1)")->check(zero_or_more()));
+  unless(used.seed, command.add_option("--seed", context.seed, "Seed of everything random")
+                        ->default_str("1")
+                        ->check(between(0, kInfinity)));
   unless(used.json, command.add_flag("--json", context.json, "Result for machines on stdout"));
   command.add_flag("--quiet", context.quiet, "Nothing on stderr but errors");
   command.add_flag("--verbose", context.verbose, "More: all numbers and gates of a run, repairs, timings");

@@ -15,7 +15,7 @@
 
 #include "myoid/ground/core/progress.h"
 #include "myoid/ground/files/result_folder.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 
 namespace myoid::program {
 
@@ -108,29 +108,10 @@ void warn_of_idle_options(const CLI::App& command,
                           const std::vector<std::string_view>& used,
                           std::string_view subject);
 
-// One per command.
-void add_check(CLI::App& app, Context& context);
-void add_cohort(CLI::App& app, Context& context);
-void add_compare(CLI::App& app, Context& context);
-void add_convert(CLI::App& app, Context& context);
-void add_demo(CLI::App& app, Context& context);
-void add_design(CLI::App& app, Context& context);
-void add_emg(CLI::App& app, Context& context);
-void add_id(CLI::App& app, Context& context);
-void add_identify(CLI::App& app, Context& context);
-void add_ik(CLI::App& app, Context& context);
-void add_info(CLI::App& app, Context& context);
-void add_init(CLI::App& app, Context& context);
-void add_muscle(CLI::App& app, Context& context);
-void add_paths(CLI::App& app, Context& context);
-void add_predict(CLI::App& app, Context& context);
-void add_report(CLI::App& app, Context& context);
-void add_review(CLI::App& app, Context& context);
-void add_run(CLI::App& app, Context& context);
-void add_simulate(CLI::App& app, Context& context);
-void add_run_tool(CLI::App& app, Context& context);
-void add_so(CLI::App& app, Context& context);
-void add_twin(CLI::App& app, Context& context);
-void add_twin_study(CLI::App& app, Context& context);
+/// Adds a command to the program.
+using AddCommand = void(CLI::App& app, Context& context);
+AddCommand add_check, add_cohort, add_compare, add_convert, add_demo, add_design, add_emg, add_id, add_identify, add_ik,
+    add_info, add_init, add_muscle, add_paths, add_predict, add_report, add_review, add_run, add_simulate, add_run_tool,
+    add_so, add_twin, add_twin_study;
 
 }  // namespace myoid::program

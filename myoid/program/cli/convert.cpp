@@ -1,4 +1,4 @@
-#include "myoid/program/commands/convert.h"
+#include "myoid/program/steps/convert.h"
 
 #include <filesystem>
 
@@ -9,7 +9,7 @@
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
-#include "myoid/program/commands/stage_input.h"
+#include "myoid/program/steps/stage_input.h"
 #include "myoid/results/mat/results_mat.h"
 
 namespace myoid::program {

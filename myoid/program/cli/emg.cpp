@@ -1,4 +1,4 @@
-#include "myoid/program/commands/emg.h"
+#include "myoid/program/steps/emg.h"
 
 #include <filesystem>
 #include <string>

@@ -1,4 +1,4 @@
-#include "myoid/program/commands/id.h"
+#include "myoid/program/steps/id.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "myoid/program/commands/ik.h"
+#include "myoid/program/steps/ik.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "myoid/program/commands/muscle.h"
+#include "myoid/program/steps/muscle.h"
 
 #include <algorithm>
 

@@ -8,14 +8,10 @@
 /// Checks of options, in the program's own words: what was found and what is expected.
 namespace myoid::program {
 
-[[nodiscard]] const CLI::Validator& zero_or_more();
 [[nodiscard]] CLI::Validator between(double lower, double upper);
 
 /// Returns the reason to refuse a word that is none of these; empty: it is one.
 [[nodiscard]] std::string refused_word(const std::string& word, const std::vector<std::string>& words);
-
-/// Returns the check of an option that takes one of these words.
-[[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
 
 /// Returns the reason to refuse a text for a number of this type of CLI11 ("INT", "UINT", "FLOAT"); empty: it is one,
 /// or the type is another.

@@ -18,11 +18,6 @@ std::string option_name(const study::Setting& setting) {
   return fmt::format("{}{}", setting.about.option.by_place ? "" : "--", setting.key);
 }
 
-CLI::Option* option_named(const CLI::App& command, const std::string& key) {
-  const CLI::Option* const option = command.get_option_no_throw("--" + key);
-  return const_cast<CLI::Option*>(option != nullptr ? option : command.get_option(key));
-}
-
 std::string type_of(const study::Setting& setting) {
   using study::SettingKind;
   if (is_number(setting)) return "NUMBER";
@@ -62,42 +57,78 @@ bool takes_several(const study::Setting& setting) {
          setting.kind == SettingKind::numbers;
 }
 
-}  // namespace
-
-bool OptionDeclarer::met(const study::Setting& setting, const study::SettingValue& now, const Set& /*set*/) {
-  const study::About& about = setting.about;
-  const std::string name = option_name(setting);
-  if (command_->get_option_no_throw(name) != nullptr) return false;  // of another struct of the command, too
-  const study::SettingRow row = study::setting_row(setting, now, study::SettingNotation::command_line);
-  const std::string names = fmt::format("{}{}{}", name, about.option.also.empty() ? "" : ",", about.option.also);
-  const std::string text = study::without_markdown(row.says);
-  const std::string says = text.substr(0, text.size() - (text.ends_with('.') ? 1 : 0));
-  const bool is_flag = setting.kind == study::SettingKind::flag;
-  CLI::Option* const option = is_flag ? command_->add_flag_callback(
-                                            names, [] {}, says)
-                                      : command_->add_option(names, says);
-  if (!about.option.group.empty()) option->group(std::string(about.option.group));
-  study::for_each_name(about.option.needs,
-                       [&](const std::string& key) { option->needs(option_named(*command_, key)); });
-  study::for_each_name(about.option.excludes,
-                       [&](const std::string& key) { option->excludes(option_named(*command_, key)); });
-  if (about.required.empty() && row.usual != "–" && row.usual != "off")
-    option->default_str(study::without_markdown(row.usual));
-  if (is_flag) return false;
-  option->required(!about.required.empty())->type_name(type_of(setting));
-  if (is_number(setting) || !about.words.empty()) option->check(check_of(setting));
-  if (about.count > 0) option->expected(static_cast<int>(about.count));
-  if (about.count == 0 && takes_several(setting))
-    option->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args(!about.option.one_each);
-  if (about.option.by_comma) option->delimiter(',');
-  return false;
+/// The options of a command by the names that stand in a text, separated by commas.
+std::vector<CLI::Option*> options_named(CLI::App& command, std::string_view names) {
+  std::vector<CLI::Option*> options;
+  for (const std::string_view each : names.empty() ? std::vector<std::string_view>() : split(names, ',')) {
+    CLI::Option* const option = command.get_option_no_throw(fmt::format("--{}", each));
+    options.push_back(option != nullptr ? option : command.get_option(std::string(each)));
+  }
+  return options;
 }
 
-bool OptionReader::met(const study::Setting& setting, const study::SettingValue& /*now*/, const Set& set) {
-  const CLI::Option* const option = command_->get_option(option_name(setting));
-  if (option->count() == 0) return false;
-  set(value_of(setting, option->results()));
-  return true;
+class OptionDeclarer : public study::FlatSettingVisitor {
+ public:
+  explicit OptionDeclarer(CLI::App& command) : command_(&command) {}
+
+ protected:
+  bool met(const study::Setting& setting, const study::SettingValue& now, const Set& /*set*/) override {
+    const study::About& about = setting.about;
+    const std::string name = option_name(setting);
+    if (command_->get_option_no_throw(name) != nullptr) return false;  // of another struct of the command, too
+    const study::SettingRow row = study::setting_row(setting, now, study::SettingNotation::command_line);
+    const std::string names = fmt::format("{}{}{}", name, about.option.also.empty() ? "" : ",", about.option.also);
+    const std::string text = study::without_markdown(row.says);
+    const std::string says = text.substr(0, text.size() - (text.ends_with('.') ? 1 : 0));
+    const auto nothing = [] {};
+    const bool is_flag = setting.kind == study::SettingKind::flag;
+    CLI::Option* const option =
+        is_flag ? command_->add_flag_callback(names, nothing, says) : command_->add_option(names, says);
+    if (!about.option.group.empty()) option->group(std::string(about.option.group));
+    for (CLI::Option* needed : options_named(*command_, about.option.needs)) option->needs(needed);
+    for (CLI::Option* other : options_named(*command_, about.option.excludes)) option->excludes(other);
+    if (about.required.empty() && row.usual != "–" && row.usual != "off")
+      option->default_str(study::without_markdown(row.usual));
+    if (is_flag) return false;
+    option->required(!about.required.empty())->type_name(type_of(setting));
+    if (is_number(setting) || !about.words.empty()) option->check(check_of(setting));
+    if (about.count > 0) option->expected(static_cast<int>(about.count));
+    if (about.count == 0 && takes_several(setting))
+      option->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args(!about.option.one_each);
+    if (about.option.by_comma) option->delimiter(',');
+    return false;
+  }
+
+ private:
+  CLI::App* command_;
+};
+
+class OptionReader : public study::FlatSettingVisitor {
+ public:
+  explicit OptionReader(const CLI::App& command) : command_(&command) {}
+
+ protected:
+  bool met(const study::Setting& setting, const study::SettingValue& /*now*/, const Set& set) override {
+    const CLI::Option* const option = command_->get_option(option_name(setting));
+    if (option->count() == 0) return false;
+    set(value_of(setting, option->results()));
+    return true;
+  }
+
+ private:
+  const CLI::App* command_;
+};
+
+}  // namespace
+
+void declare_visited(CLI::App& command, const study::SettingVisitor::Inside& visit_all) {
+  OptionDeclarer declarer(command);
+  visit_all(declarer);
+}
+
+void read_visited(const CLI::App& command, const study::SettingVisitor::Inside& visit_all) {
+  OptionReader reader(command);
+  visit_all(reader);
 }
 
 void prepare_mat(const Context& context, const std::string& file, const std::vector<std::string>& inputs) {

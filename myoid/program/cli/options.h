@@ -11,43 +11,22 @@
 
 namespace myoid::program {
 
-/// Adds an option `--key` for every setting that it meets, with the setting's meaning, default and check.
-class OptionDeclarer : public study::FlatSettingVisitor {
- public:
-  explicit OptionDeclarer(CLI::App& command) : command_(&command) {}
-
- protected:
-  bool met(const study::Setting& setting, const study::SettingValue& now, const Set& set) override;
-
- private:
-  CLI::App* command_;
-};
-
-/// Sets every setting whose option the user gave.
-class OptionReader : public study::FlatSettingVisitor {
- public:
-  explicit OptionReader(const CLI::App& command) : command_(&command) {}
-
- protected:
-  bool met(const study::Setting& setting, const study::SettingValue& now, const Set& set) override;
-
- private:
-  const CLI::App* command_;
-};
+/// Adds an option `--key` for every setting of the visit, with its meaning, default and check.
+void declare_visited(CLI::App& command, const study::SettingVisitor::Inside& visit_all);
+/// Sets every setting of the visit whose option the user gave.
+void read_visited(const CLI::App& command, const study::SettingVisitor::Inside& visit_all);
 
 /// Declares the options of a command, whose struct `visit` describes.
 template <typename Options>
-void declare_options(CLI::App& command, Options usual = {}) {
-  OptionDeclarer declarer(command);
-  visit(usual, declarer);
+void declare_options(CLI::App& command) {
+  declare_visited(command, [usual = Options()](study::SettingVisitor& v) mutable { visit(usual, v); });
 }
 
 /// Returns the options as the user gave them, with the common ones.
 template <typename Options>
 [[nodiscard]] Options given_options(const CLI::App& command, const Context& context) {
   Options options;
-  OptionReader reader(command);
-  visit(options, reader);
+  read_visited(command, [&](study::SettingVisitor& v) { visit(options, v); });
   options.call = context.call();
   return options;
 }

@@ -1,4 +1,4 @@
-#include "myoid/program/commands/paths.h"
+#include "myoid/program/steps/paths.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 #include "myoid/ground/files/output_file.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
-#include "myoid/program/commands/sweep.h"
+#include "myoid/program/steps/sweep.h"
 
 namespace myoid::program {
 namespace {

@@ -1,4 +1,4 @@
-#include "myoid/program/commands/simulate.h"
+#include "myoid/program/steps/simulate.h"
 
 #include <fmt/format.h>
 

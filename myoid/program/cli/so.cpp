@@ -1,4 +1,4 @@
-#include "myoid/program/commands/so.h"
+#include "myoid/program/steps/so.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

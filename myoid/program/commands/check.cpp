@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "myoid/ground/files/file_format.h"
-#include "myoid/program/commands/check_options.h"
-#include "myoid/program/commands/stage_input.h"
-#include "myoid/program/commands/stage_options.h"
+#include "myoid/program/steps/check_options.h"
+#include "myoid/program/steps/stage_input.h"
+#include "myoid/program/steps/stage_options.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/study/checks/check_file.h"
 #include "myoid/study/checks/check_study.h"

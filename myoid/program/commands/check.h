@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "myoid/ground/core/remark.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/study/setting.h"
 
 namespace myoid::program {

@@ -14,8 +14,8 @@
 #include "myoid/ground/files/output_file.h"
 #include "myoid/ground/files/quoted_text.h"
 #include "myoid/ground/files/result_folder.h"
-#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/run.h"
+#include "myoid/program/steps/check_options.h"
 #include "myoid/results/cohort/person_study.h"
 
 namespace myoid::program {
@@ -161,6 +161,10 @@ void visit(CohortOptions& o, study::SettingVisitor& v) {
          {.says = "Only the group: the tables and page of all persons.", .option = {.excludes = "person"}});
   v.choice("workflow", o.workflow,
            {.says = "Writes the files for an engine and computes nothing.", .option = {.excludes = "person,group"}});
+  v.choice("analysis_level", o.level,
+           {.says = "As a BIDS App takes it: participant computes the persons, group puts their results side by side.",
+            .otherwise = "first the one, then the other",
+            .option = {.excludes = "group,workflow", .by_place = true}});
   v.choice("keep", o.kept,
            {.says = "Files of each person: tables; page, also a report without the moving model; all, as run writes "
                     "them."});

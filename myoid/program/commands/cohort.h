@@ -5,11 +5,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/fit/measurement/options.h"
 #include "myoid/page/write_report.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/results/cohort/group.h"
 #include "myoid/results/cohort/outcome.h"
 #include "myoid/results/cohort/person_study.h"
@@ -17,6 +18,11 @@
 #include "myoid/study/setting.h"
 
 namespace myoid::program {
+
+/// The step of a cohort that a BIDS App is asked for.
+enum class AnalysisLevel { participant, group };
+inline constexpr std::string_view kAnalysisLevelNames[] = {"participant", "group"};
+constexpr ChoiceNames choice_names(AnalysisLevel) { return kAnalysisLevelNames; }
 
 /// Many persons, each with a study: `run` for each, then all results side by side.
 struct CohortOptions {
@@ -32,6 +38,7 @@ struct CohortOptions {
   std::optional<std::size_t> jobs;           ///< Persons computed at the same time; empty: as many as threads.
   std::optional<std::size_t> memory_mb;      ///< Permits a person at a time for every 500.
   bool group = false;                        ///< Only the group, whose persons are computed.
+  std::optional<AnalysisLevel> level;        ///< Empty: both.
   std::optional<results::Engine> workflow;   ///< Only the files for this engine.
   std::string out;                           ///< Folder of the results.
   /// Receives the end of each person at once; may be empty. Called by one thread at a time.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/results/compare_runs.h"
 #include "myoid/study/setting.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/program/commands/check_options.h"
+#include "myoid/program/steps/check_options.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/run_identity.h"
 

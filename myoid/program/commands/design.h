@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/run/design/design_study.h"
 #include "myoid/study/setting.h"
 

@@ -7,9 +7,9 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/identify_study.h"
 #include "myoid/program/commands/project_files.h"
+#include "myoid/program/steps/check_options.h"
 #include "myoid/study/study_text.h"
 
 namespace myoid::program {

@@ -7,7 +7,7 @@
 
 #include "myoid/fit/measurement/parameter_fields.h"
 #include "myoid/ground/core/error.h"
-#include "myoid/program/commands/stage_options.h"
+#include "myoid/program/commands/run.h"
 
 namespace myoid::program {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "myoid/fit/measurement/options.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/results/exports/law_differences.h"
 #include "myoid/run/identify_files/identify_sources.h"
 #include "myoid/run/identify_files/muscles_csv.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/program/commands/check_options.h"
+#include "myoid/program/steps/check_options.h"
 #include "myoid/study/setting_rows.h"
 
 #include "tests/support/printed_page.h"

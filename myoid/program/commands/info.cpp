@@ -13,9 +13,9 @@
 #include "myoid/ground/files/named_file.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/opensim/opensim_setup.h"
-#include "myoid/program/commands/check_options.h"
 #include "myoid/program/contents/project_contents.h"
 #include "myoid/program/contents/recording_contents.h"
+#include "myoid/program/steps/check_options.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/read_study.h"
 

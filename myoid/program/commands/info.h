@@ -4,9 +4,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "myoid/program/commands/call.h"
-#include "myoid/program/commands/stage_options.h"
 #include "myoid/program/contents/model_contents.h"
+#include "myoid/program/steps/call.h"
+#include "myoid/program/steps/stage_options.h"
 
 namespace myoid::program {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/results/review/project_study.h"
 #include "myoid/study/draft/study_draft.h"
 #include "myoid/study/setting.h"

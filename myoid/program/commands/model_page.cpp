@@ -10,8 +10,8 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/program/commands/check_options.h"
-#include "myoid/program/commands/stage_input.h"
+#include "myoid/program/steps/check_options.h"
+#include "myoid/program/steps/stage_input.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/storage_reader.h"
 

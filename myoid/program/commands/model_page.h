@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "myoid/page/scene_page.h"
-#include "myoid/program/commands/call.h"
-#include "myoid/program/commands/stage_options.h"
+#include "myoid/program/steps/call.h"
+#include "myoid/program/steps/stage_options.h"
 
 namespace myoid::program {
 

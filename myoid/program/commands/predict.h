@@ -6,7 +6,7 @@
 
 #include "myoid/fit/intervals/result.h"
 #include "myoid/ground/core/provenance.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/study/setting.h"
 
 namespace myoid::program {

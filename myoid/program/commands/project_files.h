@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "myoid/opensim/projects/project.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/results/review/project_study.h"
 
 namespace myoid::program {

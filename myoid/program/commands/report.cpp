@@ -1,7 +1,6 @@
 #include "myoid/program/commands/report.h"
 
 #include "myoid/page/write_report.h"
-#include "myoid/program/commands/stage_options.h"
 #include "myoid/results/exports/export_files.h"
 #include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "myoid/ground/core/provenance.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/commands/run.h"
 #include "myoid/results/cohort/group_report.h"
 #include "myoid/results/exports/exported_project.h"
 #include "myoid/run/study_result.h"

@@ -7,7 +7,6 @@
 
 #include "myoid/ground/files/result_record.h"
 #include "myoid/page/write_report.h"
-#include "myoid/program/commands/stage_options.h"
 #include "myoid/results/exports/export_files.h"
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_days.h"
@@ -57,6 +56,26 @@ bool RunResult::failed(bool strict) const {
       failed = failed || (strict && e.verdict == fit::Verdict::not_identifiable);
   }
   return failed;
+}
+
+void visit_videos(study::VideoChoice& video, study::SettingVisitor& v) {
+  v.texts("video", video.files,
+          {.says = "Film that the report shows beside the model, [TRIAL=]FILE; may be repeated.",
+           .option = {.one_each = true}});
+  v.number("video-offset", video.offset_s,
+           {.says = "When these films begin, in seconds of the motion.", .otherwise = "0"});
+}
+
+void visit_exports(std::vector<results::ExportFormat>& formats, study::SettingVisitor& v) {
+  v.choices(
+      "export", formats,
+      {.says = "Muscles for [other programs](run.md#other-programs), by comma; osim, the identified model, is always "
+               "written.",
+       .option = {.by_comma = true, .one_each = true}});
+}
+
+void visit_mat(std::string& mat, study::SettingVisitor& v) {
+  v.path("mat", mat, {.says = "Also write parameters, series, remarks and draws as one MATLAB file (.mat)."});
 }
 
 void visit(RunOptions& o, study::SettingVisitor& v) {

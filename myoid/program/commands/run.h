@@ -10,7 +10,7 @@
 #include "myoid/ground/core/provenance.h"
 #include "myoid/page/report.h"
 #include "myoid/page/write_report.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/results/exports/exported_project.h"
 #include "myoid/run/study_result.h"
 #include "myoid/study/setting.h"
@@ -37,6 +37,13 @@ struct RunOptions {
   std::string mat;                             ///< File of the results for MATLAB; empty: not written.
 };
 void visit(RunOptions& options, study::SettingVisitor& v);
+
+/// Visits the films that the report shows beside the model.
+void visit_videos(study::VideoChoice& video, study::SettingVisitor& v);
+/// Visits the forms for other programs.
+void visit_exports(std::vector<results::ExportFormat>& formats, study::SettingVisitor& v);
+/// Visits the file of the results for MATLAB.
+void visit_mat(std::string& mat, study::SettingVisitor& v);
 
 struct RunResult {
   run::StudyResult study;

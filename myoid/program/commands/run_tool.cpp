@@ -24,7 +24,7 @@ void visit_setup_run(RunToolOptions& o, study::SettingVisitor& v) {
   v.folder("out", o.files.out,
            {.says = "Folder of the results, instead of the set-up's; of several set-ups a folder in it for each."});
   v.flag("anywhere", o.anywhere,
-         {.says = "Write outside the folder of the set-up too, where the set-up says so (default: refused)."});
+         {.says = "Write outside the folder of the set-up too, where the set-up says so.", .otherwise = "refused"});
   v.choice("compat", o.compat,
            {.says = "opensim: paths of muscles as OpenSim 4.5.2 computes them; exact: as their geometry is."});
 }

@@ -6,8 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "myoid/opensim/run_tool.h"
-#include "myoid/program/commands/call.h"
-#include "myoid/program/commands/stage_options.h"
+#include "myoid/program/steps/call.h"
+#include "myoid/program/steps/stage_options.h"
 
 namespace myoid::program {
 

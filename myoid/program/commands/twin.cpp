@@ -9,7 +9,7 @@
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/lab/virtual_person/demo_protocol.h"
 #include "myoid/lab/virtual_person/truth_settings.h"
-#include "myoid/program/commands/check_options.h"
+#include "myoid/program/steps/check_options.h"
 
 namespace myoid::program {
 namespace {

@@ -10,7 +10,7 @@
 #include "myoid/lab/twin/synthetic_recording.h"
 #include "myoid/lab/twin/write_recording.h"
 #include "myoid/lab/virtual_person/demo_protocol.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/study/setting.h"
 
 namespace myoid::program {

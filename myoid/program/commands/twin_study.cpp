@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "myoid/lab/virtual_person/demo_protocol.h"
-#include "myoid/program/commands/check_options.h"
 #include "myoid/program/commands/twin.h"
+#include "myoid/program/steps/check_options.h"
 
 namespace myoid::program {
 

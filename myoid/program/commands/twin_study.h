@@ -7,7 +7,7 @@
 
 #include "myoid/ground/core/provenance.h"
 #include "myoid/lab/twin/twin_study.h"
-#include "myoid/program/commands/call.h"
+#include "myoid/program/steps/call.h"
 #include "myoid/study/setting.h"
 
 namespace myoid::program {

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "myoid/muscle/muscle_file.h"
+#include "myoid/program/steps/muscle.h"
+
+namespace myoid::program {
+
+/// One column of a table or storage file over time.
+struct Column {
+  Eigen::VectorXd time_s, values;
+  std::string name;
+};
+
+/// The column that an option names; an empty name is the file's only column.
+struct ColumnChoice {
+  std::string option, name;
+};
+
+/// Returns the only column of a file, or the one of this name. Throws ReadError if the column is
+/// missing, is one of several, or has gaps.
+[[nodiscard]] Column read_column(const std::string& path, const ColumnChoice& choice, Remarks& remarks);
+
+/// Returns a number of the command line; empty if the text is not a number.
+[[nodiscard]] std::optional<double> as_number(const std::string& text);
+
+/// Reads the experiment of the length file `index`, over the call's time. Throws InvalidInput for
+/// lengths that are not positive, or below 0.3 or above 3 times fiber and tendon at rest.
+[[nodiscard]] muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& options,
+                                                          std::size_t index,
+                                                          const muscle::MuscleFile& file,
+                                                          Remarks& remarks);
+
+/// Largest error of a guess, as a share of the maximal force: half of this force is at most this
+/// far from any force between 0 and the maximum.
+inline constexpr double kErrorOfAGuess = 0.5;
+
+}  // namespace myoid::program
