@@ -260,7 +260,7 @@ def test_mistakes_are_the_errors_of_the_library(recording, result, tmp_path):
         myoid.run(recording, out=result.path)
     with pytest.raises(myoid.InvalidInput, match="lowpass: found -1"):
         myoid.id(model="arm4", motion="x.mot", lowpass=-1)
-    with pytest.raises(myoid.InvalidInput, match="expected x, y"):
+    with pytest.raises(myoid.InvalidInput, match="expected one of x, y"):
         myoid.check(recording, up="upwards")
     with pytest.raises(TypeError, match="movements: expected a whole number, found str"):
         myoid.design(model="arm4", movements="two")

@@ -134,7 +134,8 @@ bool is_model(const std::string& file) {
 }
 
 void visit(InfoOptions& o, study::SettingVisitor& v) {
-  v.path("file", o.file, {.says = "A recording, table, model or study; or arm4.", .required = "a file"});
+  v.path("file", o.file,
+         {.says = "A recording, table, model or study; or arm4.", .required = "a file", .option = {.by_place = true}});
   visit_questions(o, v);
 }
 

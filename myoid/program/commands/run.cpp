@@ -75,7 +75,7 @@ void visit_exports(std::vector<results::ExportFormat>& formats, study::SettingVi
 }
 
 void visit_mat(std::string& mat, study::SettingVisitor& v) {
-  v.path("mat", mat, {.says = "Also write parameters, series, remarks and draws as one MATLAB file (.mat)."});
+  v.path("mat", mat, {.says = "Also write the results as [one MATLAB file](matlab.md#one-matlab-file) (.mat)."});
 }
 
 void visit(RunOptions& o, study::SettingVisitor& v) {
