@@ -20,7 +20,6 @@
 #include "myoid/study/study_text.h"
 
 #include "bindings.h"
-#include "keywords.h"
 #include "result_out.h"
 #include "to_python.h"
 #include "work.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,7 +9,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include "myoid/ground/core/choice.h"
 #include "myoid/study/setting.h"
 
 namespace myoid::python {

@@ -15,7 +15,6 @@
 #include "myoid/program/steps/stage_options.h"
 
 #include "bindings.h"
-#include "keywords.h"
 #include "to_python.h"
 #include "work.h"
 

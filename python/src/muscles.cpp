@@ -7,7 +7,6 @@
 #include "myoid/program/steps/simulate.h"
 
 #include "bindings.h"
-#include "keywords.h"
 #include "result_out.h"
 #include "to_python.h"
 #include "work.h"

@@ -23,7 +23,6 @@
 #include "myoid/results/mat/results_mat.h"
 
 #include "bindings.h"
-#include "keywords.h"
 #include "to_python.h"
 #include "work.h"
 

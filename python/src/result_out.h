@@ -3,9 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "myoid/ground/core/error.h"
 #include "myoid/ground/files/result_folder.h"
 #include "myoid/program/steps/call.h"
 

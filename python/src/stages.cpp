@@ -12,7 +12,6 @@
 #include "myoid/program/steps/sweep.h"
 
 #include "bindings.h"
-#include "keywords.h"
 #include "result_out.h"
 #include "to_python.h"
 #include "work.h"

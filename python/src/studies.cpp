@@ -1,5 +1,3 @@
-#include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +16,6 @@
 #include "myoid/results/review/review_report.h"
 
 #include "bindings.h"
-#include "keywords.h"
 #include "result_out.h"
 #include "to_python.h"
 #include "work.h"

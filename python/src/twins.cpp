@@ -2,13 +2,10 @@
 #include <utility>
 #include <vector>
 
-#include "myoid/ground/core/choice.h"
-#include "myoid/ground/core/error.h"
 #include "myoid/program/commands/twin.h"
 #include "myoid/program/commands/twin_study.h"
 
 #include "bindings.h"
-#include "keywords.h"
 #include "result_out.h"
 #include "to_python.h"
 #include "work.h"

@@ -13,7 +13,6 @@
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/quoted_text.h"
 #include "myoid/program/cli/context.h"
-#include "myoid/program/cli/option_checks.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/program/cli/wrong_line.h"
@@ -66,7 +65,8 @@ std::string bare_name(const study::SettingTable& table) {
 std::string refused_table(const std::string& name) {
   std::vector<std::string> names;
   for (const study::SettingTable& table : study::setting_tables()) names.push_back(bare_name(table));
-  return refused_word(name, names);
+  const std::vector<std::string_view> words(names.begin(), names.end());
+  return study::refusal({.key = {}, .kind = study::SettingKind::text, .about = {.words = words}}, name);
 }
 
 /// Prints the study with its defaults; without a study the reference of the settings, of one table if it is named.
@@ -93,7 +93,12 @@ void print_next(const program::CheckResult& result, const program::CheckOptions&
     say("next: myoid init STUDY --from {}\n", word);
 }
 
-void print_check(Context& context, const program::CheckOptions& o) {
+void carry_out(Context& context, const CheckOptions& o, const CLI::App& command) {
+  if (command.count("--defaults") > 0 || command.count("--settings") > 0) {
+    warn_of_idle_options(command, context, {"--settings", "--defaults"}, "settings");
+    return print_settings(context, o.input, command["--settings"]->as<std::string>());
+  }
+  if (o.input.empty()) throw WrongCommandLine("check needs STUDY, or --settings; myoid check --help explains them");
   const program::CheckResult result = program::check(o);
   if (context.json) {
     say_whole(json_text(findings_json(result.findings)) + "\n");
@@ -102,15 +107,6 @@ void print_check(Context& context, const program::CheckOptions& o) {
     print_next(result, o);
   }
   if (result.errors > 0) context.exit_code = kBadInput;
-}
-
-void carry_out(Context& context, const CheckOptions& o, const CLI::App& command) {
-  if (command.count("--defaults") > 0 || command.count("--settings") > 0) {
-    warn_of_idle_options(command, context, {"--settings", "--defaults"}, "settings");
-    return print_settings(context, o.input, command["--settings"]->as<std::string>());
-  }
-  if (o.input.empty()) throw WrongCommandLine("check needs STUDY, or --settings; myoid check --help explains them");
-  print_check(context, o);
 }
 
 }  // namespace

@@ -53,13 +53,8 @@ int code_of(const std::vector<PersonOutcome>& outcomes) {
   return any(OutcomeKind::gate_failed) ? kQualityGateFailed : kDone;
 }
 
-/// The steps of a cohort that a command line asks for.
-struct CohortSteps {
-  bool persons = true, group = true;
-};
-
 /// Computes the persons, the group, or both, prints the outcomes and sets the exit code.
-void run_cohort(Context& context, program::CohortOptions options, const CohortSteps& steps) {
+void run_cohort(Context& context, program::CohortOptions options, bool with_persons, bool with_group) {
   const std::filesystem::path folder = options.out;
   options.heard = [&context](const PersonOutcome& each) {
     if (!each.outcome || each.outcome->kind != OutcomeKind::failed) return;
@@ -68,19 +63,19 @@ void run_cohort(Context& context, program::CohortOptions options, const CohortSt
   };
   program::prepare_cohort_folder(options, folder);
   std::vector<PersonOutcome> outcomes;
-  if (steps.persons) outcomes = program::write_cohort_persons(options, folder);
+  if (with_persons) outcomes = program::write_cohort_persons(options, folder);
   context.end_progress();
-  if (steps.group) {
+  if (with_group) {
     const results::Group group = program::write_cohort_group(options, folder);
     for (const PersonOutcome& each : group.outcomes) {
       if (!each.outcome) context.warn(fmt::format("{} is not computed yet", each.person));
     }
-    if (!steps.persons) outcomes = group.outcomes;
+    if (!with_persons) outcomes = group.outcomes;
     if (options.persons.empty()) context.exit_code = code_of(group.outcomes);
   }
   if (context.exit_code == kDone) context.exit_code = code_of(outcomes);
   context.json ? print_json(outcomes) : print_outcomes(outcomes);
-  if (steps.group && !context.json) say("\nreport: {}/report.html\n", folder.string());
+  if (with_group && !context.json) say("\nreport: {}/report.html\n", folder.string());
 }
 
 /// Refuses a pair without an equals sign.
@@ -94,10 +89,9 @@ void carry_out(Context& context, const CohortOptions& o, const CLI::App& /*comma
     program::prepare_cohort_folder(o, o.out);
     say("{}\n", program::write_cohort_workflow(o, o.out));
   } else if (!o.level) {
-    run_cohort(context, o, {.persons = !o.group, .group = o.group || o.persons.empty()});
+    run_cohort(context, o, !o.group, o.group || o.persons.empty());
   } else {
-    const bool group = o.level == AnalysisLevel::group;
-    run_cohort(context, o, {.persons = !group, .group = group});
+    run_cohort(context, o, o.level == AnalysisLevel::participant, o.level == AnalysisLevel::group);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
@@ -15,12 +14,10 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include "myoid/ground/core/error.h"
 #include "myoid/ground/core/json_text.h"
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/files/folder_lock.h"
 #include "myoid/ground/files/output_file.h"
-#include "myoid/ground/files/text_file.h"
 #include "myoid/program/cli/option_checks.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/program/cli/wrong_line.h"

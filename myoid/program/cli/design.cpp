@@ -65,24 +65,19 @@ void print_json(const run::DesignStudyResult& result) {
   say_whole(json_text(json) + "\n");
 }
 
+void carry_out(Context& context, const DesignOptions& o, const CLI::App& /*command*/) {
+  const program::DesignResult result = program::design(o);
+  context.end_progress();
+  context.json ? print_json(result.design) : print_plan(result.design);
+}
+
 }  // namespace
 
 void add_design(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("design",
-                          "Which movements to record so that the target parameters become identifiable.\n"
-                          "Example: myoid design --model arm4 --targets max_isometric_force BIC.force_length_width");
-  declare_options<DesignOptions>(command);
-  add_common_options(command, context, {.range = false, .overwrite = false});
-  command.callback([&context, &command] {
-    const program::DesignResult result = program::design(given_options<DesignOptions>(command, context));
-    context.end_progress();
-    if (context.json) {
-      print_json(result.design);
-    } else {
-      print_plan(result.design);
-    }
-  });
+  add_command<DesignOptions>(app, context, "design",
+                             "Which movements to record so that the target parameters become identifiable.\n"
+                             "Example: myoid design --model arm4 --targets max_isometric_force BIC.force_length_width",
+                             {.range = false, .overwrite = false}, carry_out);
 }
 
 }  // namespace myoid::program

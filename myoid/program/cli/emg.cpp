@@ -68,11 +68,8 @@ void carry_out(Context& context, const EmgOptions& o, const CLI::App& /*command*
     for (const std::string& file : *list) context.remember_new_folder(std::filesystem::path(file).parent_path());
   const program::EmgResult result = program::emg(o);
   program::write_emg(result, files);
-  if (context.json) {
-    say_whole(json_text(emg_json(files.activations, result)) + "\n");
-  } else {
-    print_emg(files.activations, result);
-  }
+  context.json ? say_whole(json_text(emg_json(files.activations, result)) + "\n")
+               : print_emg(files.activations, result);
 }
 
 }  // namespace

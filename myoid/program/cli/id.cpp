@@ -1,6 +1,5 @@
 #include "myoid/program/steps/id.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/program/cli/context.h"

@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/ground/core/json_text.h"

@@ -13,8 +13,6 @@
 namespace myoid::program {
 namespace {
 
-using program::MuscleResult;
-
 bool failed(const MuscleResult& result) {
   if (result.fit) return !result.fit->converged || result.fit->misses;
   return result.simulated->simulated.status != math::OdeStatus::done;

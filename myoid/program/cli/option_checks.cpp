@@ -3,12 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "myoid/ground/files/text_file.h"
-#include "myoid/study/setting.h"
 
 namespace myoid::program {
 
@@ -22,11 +20,6 @@ CLI::Validator between(double lower, double upper) {
         return fmt::format("found '{}', expected a number {} {}", text, ends ? "from" : "of", range);
       },
       range);
-}
-
-std::string refused_word(const std::string& word, const std::vector<std::string>& words) {
-  const std::vector<std::string_view> names(words.begin(), words.end());
-  return study::refusal(study::Setting{.key = {}, .kind = study::SettingKind::text, .about = {.words = names}}, word);
 }
 
 std::string refused_number(const std::string& text, const std::string& type) {

@@ -10,9 +10,6 @@ namespace myoid::program {
 
 [[nodiscard]] CLI::Validator between(double lower, double upper);
 
-/// Returns the reason to refuse a word that is none of these; empty: it is one.
-[[nodiscard]] std::string refused_word(const std::string& word, const std::vector<std::string>& words);
-
 /// Returns the reason to refuse a text for a number of this type of CLI11 ("INT", "UINT", "FLOAT"); empty: it is one,
 /// or the type is another.
 [[nodiscard]] std::string refused_number(const std::string& text, const std::string& type);

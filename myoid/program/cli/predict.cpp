@@ -1,7 +1,5 @@
 #include "myoid/program/commands/predict.h"
 
-#include <fmt/format.h>
-
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"

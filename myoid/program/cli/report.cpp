@@ -1,6 +1,5 @@
 #include "myoid/program/commands/report.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/page/write_report.h"

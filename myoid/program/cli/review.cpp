@@ -1,6 +1,5 @@
 #include "myoid/program/commands/review.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/ground/core/json_text.h"

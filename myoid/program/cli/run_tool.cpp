@@ -16,9 +16,6 @@
 namespace myoid::program {
 namespace {
 
-using program::SetupOutcome;
-using program::SetupStatus;
-
 void run_one(const program::RunToolOptions& options, Context& context) {
   const program::RunToolResult result = program::run_tool(options);
   context.end_progress();

@@ -1,7 +1,5 @@
 #include "myoid/program/steps/simulate.h"
 
-#include <fmt/format.h>
-
 #include "myoid/ground/files/output_file.h"
 #include "myoid/page/write_report.h"
 #include "myoid/program/cli/context.h"
@@ -28,11 +26,7 @@ void carry_out(Context& context, const SimulateOptions& o, const CLI::App& comma
   context.end_progress();
   program::write_simulate(result, o.out);
   if (!result.finished()) context.exit_code = kQualityGateFailed;
-  if (context.json) {
-    say_whole(results::simulation_json(result.simulation, result.provenance));
-  } else {
-    say("{}\n", o.out);
-  }
+  context.json ? say_whole(results::simulation_json(result.simulation, result.provenance)) : say("{}\n", o.out);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "myoid/program/commands/identify.h"
 
-#include <optional>
 #include <string>
 #include <utility>
 

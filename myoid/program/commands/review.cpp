@@ -2,9 +2,6 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/opensim/projects/read_project.h"
 #include "myoid/page/write_report.h"

@@ -1,11 +1,10 @@
 #include "myoid/program/steps/muscle_input.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/program/steps/stage_input.h"
 #include "myoid/recording/tables/series_file.h"
 
@@ -44,7 +43,7 @@ void read_drive(const MuscleOptions& o, std::size_t index, Remarks& remarks, mus
   input.drive_is_excitation = !o.excitation.empty();
   const std::vector<std::string>& drives = input.drive_is_excitation ? o.excitation : o.activation;
   const std::string& drive = drives[drives.size() > 1 ? index : 0];
-  if (const std::optional<double> constant = as_number(drive)) {
+  if (const std::optional<double> constant = parse_number(drive)) {
     input.drive = Eigen::VectorXd::Constant(1, *constant);
     return;
   }
@@ -80,13 +79,6 @@ Column read_column(const std::string& path, const ColumnChoice& choice, Remarks&
   return column;
 }
 
-std::optional<double> as_number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return value;
-  return std::nullopt;
-}
-
 muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& o,
                                             std::size_t index,
                                             const muscle::MuscleFile& file,
@@ -101,7 +93,7 @@ muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& o,
   read_drive(o, index, remarks, input);
   input.dynamics = file.activation;
   if (o.initial_activation == "settled") return input;
-  input.initial_activation = as_number(o.initial_activation);
+  input.initial_activation = parse_number(o.initial_activation);
   if (!input.initial_activation) {
     throw InvalidInput(
         fmt::format("--initial-activation {}: expected a number in 0 to 1, or `settled`", o.initial_activation));

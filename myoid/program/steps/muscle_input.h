@@ -23,9 +23,6 @@ struct ColumnChoice {
 /// missing, is one of several, or has gaps.
 [[nodiscard]] Column read_column(const std::string& path, const ColumnChoice& choice, Remarks& remarks);
 
-/// Returns a number of the command line; empty if the text is not a number.
-[[nodiscard]] std::optional<double> as_number(const std::string& text);
-
 /// Reads the experiment of the length file `index`, over the call's time. Throws InvalidInput for
 /// lengths that are not positive, or below 0.3 or above 3 times fiber and tendon at rest.
 [[nodiscard]] muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& options,
