@@ -71,6 +71,7 @@ class Draft {
     markers_table();
     emg_table();
     muscle_tables();
+    if (!nameless_torques_.empty()) out_.todo(question_of_torques(nameless_torques_, coordinate_));
     draft_trials(found_,
                  {.external_loads = beside.external_loads,
                   .torques = torques_,
@@ -167,21 +168,26 @@ class Draft {
         f.loads.only_torques = only_torques(file.analog.series(), f.loads.channels);
       }
       for (const Channel& c : file.analog.channels()) {
-        if (format == FileFormat::storage && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
+        const bool angle = format == FileFormat::storage || c.unit == Unit::radian;
+        if (angle && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
         torques = torques || std::ranges::any_of(model_.coordinates, [&](const body::Coordinate& q) {
                     return c.name == q.name + "_moment";
                   });
       }
-      if (f.angles.empty() && !file.analog.empty() && format != FileFormat::bids_motion)
+      const bool of_motion = format == FileFormat::storage && !f.angles.empty();
+      if (!of_motion && !file.analog.empty() && format != FileFormat::bids_motion)
         find_emg(path, file.analog.series(), file.plates, f);
     } catch (const InvalidInput& error) {
       note(RemarkCode::refused, path, fmt::format("not read: {}", error.what()));
       return;
     }
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
+    if (torques) torques_.push_back(path);
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
-      if (torques) torques_.push_back(path);
-      note_unused(path, torques);
+      if (f.loads.only_torques && !torques)
+        nameless_torques_.push_back(path.filename().string());
+      else
+        note_unused(path, torques);
       return;
     }
     if (f.markers.frame_count() > 0) {
@@ -471,6 +477,7 @@ class Draft {
   bool guessed_coordinate_ = false;
   std::set<fs::path> loads_data_;
   std::vector<fs::path> torques_;
+  std::vector<std::string> nameless_torques_;  ///< Files with torques in N m alone that no coordinate names.
   std::vector<FoundRecording> found_;
   OnePerson person_;
   bool raw_emg_ = true;
