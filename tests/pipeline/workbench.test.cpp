@@ -543,6 +543,11 @@ TEST_F(WorkbenchPage, FitsTheWindowAtEveryWidth) {
               true)
         << width;
     EXPECT_GT(js("myoid.canvas.getBoundingClientRect().width").get<double>(), 250.0);
+    // A verdict is of two lines at most, not of a letter a line.
+    EXPECT_LT(
+        js("Math.max(0, ...[...document.querySelectorAll('.forest .badge')].map((b) => b.offsetHeight))").get<double>(),
+        40.0)
+        << width;
   }
 }
 
