@@ -631,6 +631,18 @@ TEST_F(WorkbenchPage, PrintsOnA4) {
   EXPECT_NEAR(height, 842.0, 1.5);
 }
 
+TEST_F(WorkbenchPage, OnPaperTheMarkOfANumberStandsOnItsInterval) {
+  browser_->show_on("print");
+  const nlohmann::json apart = js(R"js([...document.querySelectorAll('.forest svg.bar')].flatMap((bar) => {
+    const [mark, line] = [bar.querySelector('svg > *'), bar.querySelector('line[stroke-width]')];
+    const middle = (e) => (e.getBoundingClientRect().top + e.getBoundingClientRect().bottom) / 2;
+    return mark && line ? [Math.abs(middle(mark) - middle(line))] : [];
+  }))js");
+  browser_->show_on("");
+  ASSERT_GT(apart.size(), 4U);
+  for (const double pixels : apart) EXPECT_LT(pixels, 1.0);
+}
+
 TEST_F(WorkbenchPage, WithoutScriptTheStaticFiguresStay) {
   browser_->set_scripts(false);
   const std::string page = "file://" + std::string(*folder_ / "result/report.html");
