@@ -634,7 +634,7 @@ TEST_F(WorkbenchPage, PrintsOnA4) {
 TEST_F(WorkbenchPage, OnPaperTheMarkOfANumberStandsOnItsInterval) {
   browser_->show_on("print");
   const nlohmann::json apart = js(R"js([...document.querySelectorAll('.forest svg.bar')].flatMap((bar) => {
-    const [mark, line] = [bar.querySelector('svg > *'), bar.querySelector('line[stroke-width]')];
+    const [mark, line] = [bar.querySelector('svg svg > *'), bar.querySelector('line[stroke-width]')];
     const middle = (e) => (e.getBoundingClientRect().top + e.getBoundingClientRect().bottom) / 2;
     return mark && line ? [Math.abs(middle(mark) - middle(line))] : [];
   }))js");
