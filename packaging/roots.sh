@@ -127,17 +127,18 @@ END
 
 make_in() { echo "an empty root is there"; }
 
-# Headers are unpacked beside the compiler: the packages that they are in need hundreds of others to be installed. Debian
-# has toml++, which is headers alone, where the suite has none.
+# Headers are unpacked beside the compiler: the packages that they are in need hundreds of others to be installed. Where
+# the suite has no toml++, which is headers alone, those of this system serve.
 syntax_in() {
   rm -rf "$roots/$1/src/syntax" && mkdir -p "$roots/$1/src/syntax" "$roots/$1/tmp/toml"
   git -C "$root" archive HEAD | tar -x -C "$roots/$1/src/syntax"
-  (cd "$roots/$1/tmp/toml" && { [ -n "$(ls)" ] || apt-get download -qq libtomlplusplus-dev; }) || return 1
+  cp -rL /usr/include/toml++ "$roots/$1/tmp/toml" || return 1
   inside "$1" 'cd /src/syntax
     apt-get update -qq
     apt-get install -y -qq --no-install-recommends g++
     mkdir -p /headers/packages && cd /headers/packages
-    apt-get download -qq libtomlplusplus-dev || cp /tmp/toml/*.deb .
+    mkdir -p /headers/usr/include && cp -r /tmp/toml/. /headers/usr/include
+    apt-get download -qq libtomlplusplus-dev || echo "no toml++ in this suite"
     apt-get download -qq libeigen3-dev libfmt-dev libpugixml-dev nlohmann-json3-dev libcli11-dev libtbb-dev \
       libssl-dev libceres-dev libsundials-dev $(apt-cache depends libboost-dev | sed -n "s/.*Depends: //p")
     for package in ./*.deb; do dpkg-deb -x "$package" /headers; done
