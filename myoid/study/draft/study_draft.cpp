@@ -262,7 +262,7 @@ class Draft {
         std::ranges::find_if(found_, [](const FoundRecording& f) { return f.body.mass_kg.has_value(); });
     if (stated == found_.end()) {
       if (model_file_) return;
-      todo("the person's mass, for the segments of the built-in arm");
+      if (!wants_a_leg()) todo("the person's mass, for the segments of the built-in arm");
       line("# mass_kg = 70.0");
       return;
     }
@@ -273,22 +273,24 @@ class Draft {
     line(fmt::format("mass_kg = {:g}", *stated->body.mass_kg));
   }
 
+  /// True where the built-in arm stands for a leg's model: what it lacks is no question.
+  [[nodiscard]] bool wants_a_leg() const { return !model_file_ && most_known_ < 3 && is_of_a_leg(found_); }
+
   void model_table() {
     line("[model]");
     if (model_file_) {
       line("file = " + toml_text(relative(*model_file_)));
     } else {
       line("builtin = \"arm4\"");
-      if (is_of_a_leg(found_) && most_known_ < 3)
+      if (wants_a_leg())
         todo(
             "markers or EMG are those of a leg, and this built-in model is an arm: name a model of the leg with "
-            "--model, "
-            "OpenSim's gait2392 or Rajagopal2016, for example");
+            "--model, OpenSim's gait2392 or Rajagopal2016, for example; joint, markers and muscles follow from it");
     }
     if (!other_models_.empty())
       todo(fmt::format("or one of the {}models that were found: file = {}", model_file_ ? "other " : "",
                        list_of(other_models_)));
-    if (guessed_coordinate_)
+    if (guessed_coordinate_ && !wants_a_leg())
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
     line("coordinate = " + toml_text(coordinate_));
     line("");
@@ -321,6 +323,7 @@ class Draft {
   }
 
   void marker_names() {
+    if (wants_a_leg()) return;
     if (most_known_ < 3 && !model_.markers.empty()) {
       std::vector<std::string> names;
       for (const body::Marker& m : model_.markers) {
@@ -427,7 +430,8 @@ class Draft {
 
   /// Writes a table to fill in, where no channel is named like a muscle.
   void unknown_pairs(const std::vector<std::string>& channels, const std::vector<std::string>& able) {
-    todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", coordinate_));
+    if (!wants_a_leg())
+      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", coordinate_));
     line("[[muscle]]");
     line("name = \"TODO\"");
     line(fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", ")));
