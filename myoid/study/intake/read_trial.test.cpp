@@ -1,7 +1,6 @@
 #include "myoid/study/intake/read_trial.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -115,8 +114,8 @@ TEST(ReadTrialParts, AnAngleMayBeAColumnOfTheTableOfTheTorque) {
   const std::vector<TrialPart> parts = read_trial_parts(arm_study(), trial.spec, arm());
   ASSERT_EQ(parts.size(), 1U);
   const TrialInput& input = parts[0].input;
-  const auto i = static_cast<Eigen::Index>(std::lround(2.5 / 0.01)) - 1;  // the trial begins at 0.01 s
-  EXPECT_NEAR(input.motion->column("elbow_flexion")[i], 0.18 * 250.0 * kDegree, 1e-9);
+  // 18 degrees a second.
+  EXPECT_NEAR(input.motion->column("elbow_flexion")[250], 18.0 * input.motion->time_s()[250] * kDegree, 1e-9);
   EXPECT_NEAR(input.external_torque->column("elbow_flexion_moment")[250], -25.0, 1e-9);
   write_file(trial.folder / "table.csv", name + "\n" + rows);
   EXPECT_NE(message_of([&] { (void)read_trial_parts(arm_study(), trial.spec, arm()); }).find("'elbow_flexion [deg]'"),
