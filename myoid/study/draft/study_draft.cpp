@@ -39,6 +39,12 @@ namespace {
 namespace fs = std::filesystem;
 using ground::toml_text;
 
+/// Tables of torques, by their columns' names.
+struct TorqueTables {
+  std::vector<fs::path> of_joints;
+  std::vector<std::string> of_no_joint;  ///< File names.
+};
+
 class Draft {
  public:
   Draft(fs::path folder, const DraftOptions& options) : folder_(std::move(folder)), options_(options) {}
@@ -71,10 +77,10 @@ class Draft {
     markers_table();
     emg_table();
     muscle_tables();
-    if (!nameless_torques_.empty()) out_.todo(question_of_torques(nameless_torques_, coordinate_));
+    if (!torques_.of_no_joint.empty()) out_.todo(question_of_torques(torques_.of_no_joint, coordinate_));
     draft_trials(found_,
                  {.external_loads = beside.external_loads,
-                  .torques = torques_,
+                  .torques = torques_.of_joints,
                   .own_model = model_file_.has_value(),
                   .raw_emg = raw_emg_,
                   .relative = [&](const fs::path& path) { return relative(path); }},
@@ -142,7 +148,12 @@ class Draft {
     return names;
   }
 
-  void note_unused(const fs::path& path, bool torques) {
+  /// `of_no_joint`: all of the file are torques that no joint's name stands for.
+  void note_unused(const fs::path& path, bool torques, bool of_no_joint) {
+    if (of_no_joint) {
+      torques_.of_no_joint.push_back(path.filename().string());
+      return;
+    }
     constexpr const char* kTorques =
         "joint torques; a study takes measured ones as external_torque of a trial, and computes the others "
         "(`myoid identify --torques` reads them)";
@@ -182,12 +193,9 @@ class Draft {
       return;
     }
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
-    if (torques) torques_.push_back(path);
+    if (torques) torques_.of_joints.push_back(path);
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
-      if (f.loads.only_torques && !torques)
-        nameless_torques_.push_back(path.filename().string());
-      else
-        note_unused(path, torques);
+      note_unused(path, torques, f.loads.only_torques && !torques);
       return;
     }
     if (f.markers.frame_count() > 0) {
@@ -480,8 +488,7 @@ class Draft {
   std::string coordinate_;
   bool guessed_coordinate_ = false;
   std::set<fs::path> loads_data_;
-  std::vector<fs::path> torques_;
-  std::vector<std::string> nameless_torques_;  ///< Files with torques in N m alone that no coordinate names.
+  TorqueTables torques_;
   std::vector<FoundRecording> found_;
   OnePerson person_;
   bool raw_emg_ = true;
