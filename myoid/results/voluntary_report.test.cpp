@@ -65,7 +65,7 @@ TEST(VoluntarySentences, OfAJointNameItsMusclesFirst) {
   method.voluntary[0].direction = -1;
   method.voluntary[0].muscles = {"BIC", "BRA"};
   EXPECT_THAT(voluntary_sentences(method)[0], testing::AllOf(testing::StartsWith("Biceps + Brachialis together ("),
-                                                             HasSubstr("flexion, negative direction): 41.0")));
+                                                             HasSubstr(", negative direction): 41.0")));
 }
 
 TEST(VoluntarySentences, WithoutAMaximalContractionSaySo) {
