@@ -106,6 +106,7 @@ TEST(StudyDraft, ADynamometersTableIsMotionAndTorqueOfATrial) {
   EXPECT_EQ(study.trials[0].emg->filename(), "hold_60_emg.csv");
   EXPECT_THAT(draft.toml, HasSubstr("# external_torque = \"hold_60_dynamometer.csv\""));
   EXPECT_THAT(draft.todo, Contains(HasSubstr("dynamometer measure")));
+  EXPECT_THAT(draft.todo, testing::Not(Contains(HasSubstr("unit"))));
   // With the answer it is a study without an error.
   std::string answered = draft.toml;
   answered.erase(answered.find("# external_torque"), 2);
