@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # usage: packaging/python-headers.sh FOLDER
-# Fetches the headers of the Pythons of Debian 11, 12 and 13 and those of a pybind11 for all of them, Debian 11's C and C++
-# libraries (old/) and the sources of this system's TBB (tbb/), by apt, and unpacks them in FOLDER. Nothing is installed.
-# With them one wheel serves all these Pythons, and its modules run where the libraries are those or newer:
+# Fetches the headers of the Pythons of Debian 11, 12 and 13 and those of a pybind11 for all of them, Debian 11's C and
+# C++ libraries (old/) and the sources of this system's TBB (tbb/), by apt, and unpacks them in FOLDER. Nothing is
+# installed. With them one wheel serves all these Pythons, and its modules run where libraries are as old as those:
 #   pip wheel . --no-build-isolation --no-deps --config-settings python-headers=FOLDER
 # DEBIAN_MIRROR names another archive.
 set -euo pipefail
