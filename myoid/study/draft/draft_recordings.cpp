@@ -107,10 +107,7 @@ void find_emg(const fs::path& path,
       if (all || (says_emg(small(c.name)) && !recording::named_as_no_emg(c.name))) found.channels.push_back(c.name);
     }
   }
-  if (found.channels.empty()) {
-    found.has_unit = true;
-    return;
-  }
+  if (found.channels.empty()) return;
   // Raw EMG goes through its median many times a second, an envelope (below some 10 Hz) does not.
   std::vector<std::string> named;
   for (const std::string& c : found.channels) {

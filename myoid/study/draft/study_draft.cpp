@@ -381,8 +381,8 @@ class Draft {
   }
 
   void emg_table() {
-    const bool unit =
-        std::ranges::all_of(found_, [&](const FoundRecording& f) { return f.has_unit || of_other_kind(f); });
+    const bool unit = std::ranges::all_of(
+        found_, [&](const FoundRecording& f) { return f.has_unit || f.channels.empty() || of_other_kind(f); });
     line("[emg]");
     line(fmt::format("kind = \"{}\"   # {}", raw_emg_ ? "raw" : "envelope",
                      raw_emg_ ? "by how often it goes through its median" : "it changes slowly"));
