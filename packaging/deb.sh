@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # usage: packaging/deb.sh OUT [--twice]
 # Builds the Debian packages of the committed tree into OUT, looks for the compiler's protections in every program and
-# library, and asks lintian. --twice: builds again in another folder and time zone, and compares every byte; with
-# CCACHE_DISABLE=1 the second build compiles everything again. The time of the changelog (SOURCE_DATE_EPOCH) is the time
-# of every file, unless the environment states another.
+# library, and asks lintian. --twice: compiles everything again in another folder and time zone, without the compiler's
+# cache, and compares every byte. The time of the changelog (SOURCE_DATE_EPOCH) is the time of every file, unless the
+# environment states another.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$1"
@@ -50,7 +50,7 @@ build "$out" build
 (cd "$out" && sha256sum ./*.deb)
 check_protections
 if [ "${2:-}" = --twice ]; then
-  TZ=Pacific/Kiritimati build "$work/second" another-folder
+  CCACHE_DISABLE=1 TZ=Pacific/Kiritimati build "$work/second" another-folder
   for file in "$out"/*.deb; do cmp "$file" "$work/second/$(basename "$file")"; done
   echo "built twice: the same bytes"
 fi

@@ -4,19 +4,22 @@
 #                                                   printed in such roots, pipx and the module of Python, too
 #        packaging/roots.sh make SUITE...           makes the roots
 #        packaging/roots.sh deb FOLDER SUITE...     builds Debian's packages there twice (deb.sh), into FOLDER
-# Suites are those of the archive: bookworm (Debian 12), trixie (13), bullseye (11). It must be root and needs
-# debootstrap. The roots stay in MYOID_ROOTS (build/roots), so that a second call is quicker; DEBIAN_MIRROR names another
-# archive. The last line of each suite says what was done there; the exit code is 1 if one failed.
+#        packaging/roots.sh syntax SUITE...         reads all sources by compiler and headers of the suite (syntax.sh)
+# Suites are those of the archive: bookworm (Debian 12), trixie (13), bullseye (11); jammy (Ubuntu 22.04), noble (24.04),
+# plucky (25.04). It must be root and needs debootstrap. The roots stay in MYOID_ROOTS (build/roots), so that a second
+# call is quicker; DEBIAN_MIRROR and UBUNTU_MIRROR name other archives. The last line of each suite says what was done
+# there; the exit code is 1 if one failed.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 roots=${MYOID_ROOTS:-$root/build/roots}
-mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
-usage() { sed -n '2,6s/^# //p' "$0" >&2; exit 2; }
+debian=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
+ubuntu=${UBUNTU_MIRROR:-http://archive.ubuntu.com/ubuntu}
+usage() { sed -n '2,8s/^# //p' "$0" >&2; exit 2; }
 [ "$#" -ge 2 ] || usage
 order=$1
 shift
 case $order in
-  build | make) ;;
+  build | make | syntax) ;;
   run | deb) [ "$#" -ge 2 ] || usage; artefacts=$(realpath "$1"); shift ;;
   *) usage ;;
 esac
@@ -28,7 +31,12 @@ make_root() {  # make_root SUITE
   local place=$roots/$1
   [ -e "$place/made" ] && return 0
   rm -rf "$place"
-  debootstrap --variant=minbase "$1" "$place" "$mirror" >"$roots/$1.log" 2>&1 || return 1
+  case $1 in
+    # An old debootstrap knows no new suite; its script of all Ubuntus has the name of the first.
+    jammy | noble | plucky) set -- "$1" --components=main,universe "$ubuntu" gutsy ;;
+    *) set -- "$1" --components=main "$debian" "" ;;
+  esac
+  debootstrap --variant=minbase "$2" "$1" "$place" "$3" ${4:+"$4"} >"$roots/$1.log" 2>&1 || return 1
   cp /etc/resolv.conf "$place/etc" 2>/dev/null || true
   # What a system with Python has: the wheel's line begins with a virtual environment.
   inside "$1" 'apt-get update -qq
@@ -65,7 +73,7 @@ build_in() {
 }
 
 # The lines of README that install a file of the release, in an empty folder each. An empty root need not reach Python's
-# archive: NumPy is Debian's, packed as a wheel; Debian 11's is too old, and is left out.
+# archive: NumPy is Debian's, packed as a wheel; Debian 11's is older than the wheel asks for, and is used as it is.
 run_in() {
   local place=$roots/$1/tmp/release
   rm -rf "$place" && mkdir -p "$place/tarball" "$place/wheel" "$place/links"
@@ -102,10 +110,10 @@ END
     tail -n 1 ../said >../lines
     cd .. && python3 pack_numpy.py && cd wheel
     export PIP_NO_INDEX=1 PIP_FIND_LINKS="/tmp/release/links /usr/share/python-wheels" USE_EMOJI=0
-    ls ../links/*.whl || export PIP_NO_DEPS=1
+    ls ../links/*.whl || { export PIP_NO_DEPS=1; older=/usr/lib/python3/dist-packages; }
     sh -eux ./line >../said
     tail -n 1 ../said >>../lines
-    env/bin/python ../module.py >>../lines
+    PYTHONPATH=${older:-} env/bin/python ../module.py >>../lines
     if apt-get install -y -qq --no-install-recommends pipx; then
       rm -rf /root/.local myoid-demo
       sh -eux ./pipx-line
@@ -119,8 +127,26 @@ END
 
 make_in() { echo "an empty root is there"; }
 
-readme_line() { sed -n '/^## Get it/,/^## /s/^ *//p' "$root/README.md" | grep -e "$1" | head -n 1; }
+# Headers are unpacked beside the compiler: the packages that they are in need hundreds of others to be installed. Where
+# the suite has no toml++, which is headers alone, those of this system serve.
+syntax_in() {
+  rm -rf "$roots/$1/src/syntax" && mkdir -p "$roots/$1/src/syntax" "$roots/$1/tmp/toml"
+  git -C "$root" archive HEAD | tar -x -C "$roots/$1/src/syntax"
+  cp -rL /usr/include/toml++ "$roots/$1/tmp/toml" || return 1
+  inside "$1" 'cd /src/syntax
+    apt-get update -qq
+    apt-get install -y -qq --no-install-recommends g++
+    mkdir -p /headers/packages && cd /headers/packages
+    mkdir -p /headers/usr/include && cp -r /tmp/toml/. /headers/usr/include
+    apt-get download -qq libtomlplusplus-dev || echo "no toml++ in this suite"
+    apt-get download -qq libeigen3-dev libfmt-dev libpugixml-dev nlohmann-json3-dev libcli11-dev libtbb-dev \
+      libssl-dev libceres-dev libsundials-dev $(apt-cache depends libboost-dev | sed -n "s/.*Depends: //p")
+    for package in ./*.deb; do dpkg-deb -x "$package" /headers; done
+    cd /src/syntax && packaging/syntax.sh /headers >/tmp/said' || { cat "$roots/$1/tmp/said" >&2; return 1; }
+  tail -n 1 "$roots/$1/tmp/said"
+}
 
+readme_line() { sed -n '/^## Get it/,/^## /s/^ *//p' "$root/README.md" | grep -e "$1" | head -n 1; }
 
 deb_in() {
   rm -rf "$roots/$1/src/deb" "$roots/$1/tmp/deb" && mkdir -p "$roots/$1/src"
@@ -131,9 +157,10 @@ deb_in() {
       lintian
     apt-get build-dep -y -qq --no-install-recommends ./
     git config --global --replace-all safe.directory /src/deb
-    packaging/deb.sh /tmp/deb --twice' || return 1
+    packaging/deb.sh /tmp/deb --twice >/tmp/said' || return 1
   cp "$roots/$1"/tmp/deb/*.deb "$artefacts"
-  echo "built twice, the same bytes: $(cd "$roots/$1/tmp/deb" && ls ./*.deb | tr '\n' ' ')"
+  printf '\n'
+  sed 's/^/    /' "$roots/$1/tmp/said"
 }
 
 # (`set -e` does not hold in a function whose result is tested: each step that may fail returns by itself.)

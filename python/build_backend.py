@@ -159,7 +159,8 @@ def contents(binaries: list[Path]) -> dict[str, tuple[bytes, bool]]:
         files[f"myoid/{file.name}"] = (file.read_bytes(), True)
     files["myoid/bin/myoid"] = (program.read_bytes(), True)
     needed = oldest_system([file.read_bytes() for file in binaries])
-    found, sources = {**libraries(modules[0]), **libraries(program)}, []
+    found, sources = libraries(program), []
+    found |= {name: path for name, path in libraries(modules[0]).items() if not SYSTEM.match(name)}
     for name, path in sorted(found.items()):
         place = "myoid.libs/system" if SYSTEM.match(name) else "myoid.libs"
         files[f"{place}/{name}"] = (path.read_bytes(), True)

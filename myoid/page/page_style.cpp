@@ -105,7 +105,7 @@ li { margin: 3px 0; max-width: 74ch; }
   .gates td { display: block; border: 0; padding: 1px 0; } .gates td:nth-child(2) { font-weight: 600; }
   .gates td:nth-child(3)::before { content: "Found: "; } .gates td:nth-child(4)::before { content: "Asked for: "; } }
 @media screen and (max-width: 560px) { .forest .bar { display: none; } }
-@media screen and (max-width: 580px) { .forest td:nth-child(2) { min-width: 0; } .wide:not(.gates, .facts) table { min-width: 800px; }
+@media screen and (max-width: 580px) { .forest td:nth-child(2) { min-width: 0; } .wide:not(.gates, .facts) table { min-width: 1050px; }
   .changes { font-size: 11px; } .changes :is(.number, .badge) { white-space: normal; } .changes td { overflow-wrap: anywhere; }
   :is(.wide:not(.gates, .facts), .grid)::before { content: "Slide the table sideways for its other columns \2192"; display: block; position: sticky; left: 0;
     max-width: calc(100vw - 24px); font-size: 12px; color: var(--accent); }

@@ -81,11 +81,11 @@ std::vector<std::string> assumptions(const run::StudyResult& result) {
 
 /// Returns the answers to the questions of somebody who sees the page first.
 std::vector<page::Answer> answers(const run::StudyResult& result, const std::vector<page::Gate>& gates) {
-  std::vector<page::Answer> list{{"Which numbers", fit_sentences(result, true), "numbers"},
-                                 {"Which trials", trials_sentence(result), "trials"}};
-  if (auto next = next_sentence(result, gates); !next.empty()) list.push_back({"What next", next, "next"});
+  std::vector<page::Answer> list{{"Which numbers may I trust?", fit_sentences(result, true), "numbers"},
+                                 {"Which trial is bad, and why?", trials_sentence(result), "trials"}};
+  if (auto next = next_sentence(result, gates); !next.empty()) list.push_back({"What to record next?", next, "next"});
   list.push_back(
-      {"Since an earlier session", "`myoid compare EARLIER THIS` compares the folders of both results.", ""});
+      {"Stronger than last time?", "`myoid compare EARLIER THIS` compares the folders of both results.", ""});
   return list;
 }
 

@@ -43,8 +43,8 @@ const ParameterEstimate* angle_of(const IdentificationResult& method, const Volu
   return row_of(method, curve, std::string(fit::kVoluntaryAngle));
 }
 
-/// Returns the owner for people, muscles as `spelled_muscle` writes them: "Biceps", "Biceps at the knee angle", "elbow
-/// flexion, Biceps + Brachialis".
+/// Returns the owner for people, muscles as `spelled_muscle` writes them: "Biceps", "Biceps at the knee angle", "Biceps
+/// + Brachialis together (elbow flexion)".
 std::string name_of(const VoluntaryCurve& curve, std::string (*spelled_muscle)(std::string_view)) {
   if (!curve.of_joint) {
     const std::string muscle = spelled_muscle(curve.owner);
@@ -52,8 +52,8 @@ std::string name_of(const VoluntaryCurve& curve, std::string (*spelled_muscle)(s
   }
   std::vector<std::string> muscles;
   for (const std::string& name : curve.muscles) muscles.push_back(spelled_muscle(name));
-  return fmt::format("{}, {}{}", page::spelled(curve.joint), fmt::join(muscles, " + "),
-                     curve.direction > 0 ? "" : " (negative direction)");
+  return fmt::format("{} together ({}{})", fmt::join(muscles, " + "), page::spelled(curve.joint),
+                     curve.direction > 0 ? "" : ", negative direction");
 }
 
 std::string plain_name(const VoluntaryCurve& curve) { return name_of(curve, page::plain_muscle); }

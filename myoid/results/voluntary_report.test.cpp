@@ -59,6 +59,15 @@ TEST(VoluntarySentences, AnOptimumAtTheEndIsAtOrBeyond) {
   EXPECT_THAT(voluntary_sentences(method)[0], HasSubstr("at 85° or beyond,"));
 }
 
+TEST(VoluntarySentences, OfAJointNameItsMusclesFirst) {
+  IdentificationResult method = biceps();
+  method.voluntary[0].of_joint = true;
+  method.voluntary[0].direction = -1;
+  method.voluntary[0].muscles = {"BIC", "BRA"};
+  EXPECT_THAT(voluntary_sentences(method)[0], testing::AllOf(testing::StartsWith("Biceps + Brachialis together ("),
+                                                             HasSubstr(", negative direction): 41.0")));
+}
+
 TEST(VoluntarySentences, WithoutAMaximalContractionSaySo) {
   IdentificationResult method = biceps();
   method.voluntary[0].from_mvc = false;

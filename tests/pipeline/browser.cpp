@@ -163,6 +163,8 @@ void Browser::prefer(const std::string& feature, const std::string& value) {
   call("Emulation.setEmulatedMedia", {{"features", json::array({{{"name", feature}, {"value", value}}})}});
 }
 
+void Browser::show_on(const std::string& medium) { call("Emulation.setEmulatedMedia", {{"media", medium}}); }
+
 void Browser::set_scripts(bool on) { call("Emulation.setScriptExecutionDisabled", {{"value", !on}}); }
 
 void Browser::mouse(const std::string& type, double x, double y, int clicks, int buttons) {

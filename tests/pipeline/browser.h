@@ -34,6 +34,8 @@ class Browser {
   void set_scripts(bool on);
   /// Sets a wish of the reader: "prefers-color-scheme", "dark".
   void prefer(const std::string& feature, const std::string& value);
+  /// Lays the page out for "print"; "": for the screen.
+  void show_on(const std::string& medium);
 
   /// Moves the mouse to a place of the window [px].
   void move(double x, double y);

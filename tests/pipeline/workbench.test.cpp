@@ -543,6 +543,11 @@ TEST_F(WorkbenchPage, FitsTheWindowAtEveryWidth) {
               true)
         << width;
     EXPECT_GT(js("myoid.canvas.getBoundingClientRect().width").get<double>(), 250.0);
+    // A verdict is of two lines at most, not of a letter a line.
+    EXPECT_LT(
+        js("Math.max(0, ...[...document.querySelectorAll('.forest .badge')].map((b) => b.offsetHeight))").get<double>(),
+        40.0)
+        << width;
   }
 }
 
@@ -624,6 +629,18 @@ TEST_F(WorkbenchPage, PrintsOnA4) {
   size >> width >> height;
   EXPECT_NEAR(width, 595.0, 1.5);
   EXPECT_NEAR(height, 842.0, 1.5);
+}
+
+TEST_F(WorkbenchPage, OnPaperTheMarkOfANumberStandsOnItsInterval) {
+  browser_->show_on("print");
+  const nlohmann::json apart = js(R"js([...document.querySelectorAll('.forest svg.bar')].flatMap((bar) => {
+    const [mark, line] = [bar.querySelector('svg svg > *'), bar.querySelector('line[stroke-width]')];
+    const middle = (e) => (e.getBoundingClientRect().top + e.getBoundingClientRect().bottom) / 2;
+    return mark && line ? [Math.abs(middle(mark) - middle(line))] : [];
+  }))js");
+  browser_->show_on("");
+  ASSERT_GT(apart.size(), 4U);
+  for (const double pixels : apart) EXPECT_LT(pixels, 1.0);
 }
 
 TEST_F(WorkbenchPage, WithoutScriptTheStaticFiguresStay) {

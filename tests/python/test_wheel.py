@@ -14,8 +14,10 @@ from conftest import SOURCE, program
 
 import myoid
 
+sys.path.insert(0, str(SOURCE / "python"))  # build_backend
 TREE = Path(myoid.__file__).resolve().parents[2]
-SYSTEM = {"libc.so.6", "libm.so.6", "libstdc++.so.6", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
+SYSTEM = {"libc.so.6", "libm.so.6", "libstdc++.so.6", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1",
+          "libpthread.so.0", "libdl.so.2"}  # fmt: skip
 
 
 def pip(*arguments):
@@ -60,6 +62,20 @@ def test_the_wheel_needs_nothing_but_the_libraries_of_the_system(wheel, tmp_path
         assert f"{name}: package " in packages
 
 
+def test_modules_linked_with_old_libraries_ask_for_nothing_newer(wheel, tmp_path):
+    headers = re.search(r"^MYOID_PYTHON_HEADERS:PATH=(.+)$", (TREE / "CMakeCache.txt").read_text(), re.M)
+    if not headers or not Path(headers[1], "old").is_dir():
+        pytest.skip("needs the old libraries that packaging/python-headers.sh fetches")
+    from build_backend import oldest_system
+
+    (features,) = Path(headers[1], "old").glob("usr/include/features.h")
+    old = int(re.search(r"__GLIBC_MINOR__\s+(\d+)", features.read_text())[1])
+    with zipfile.ZipFile(wheel) as archive:
+        modules = {name: archive.read(name) for name in archive.namelist() if name.startswith("myoid/_native")}
+    assert len(modules) >= 1
+    assert {name for name, data in modules.items() if oldest_system([data]) > old} == set()
+
+
 def test_the_program_runs_with_the_c_library_in_the_wheel(wheel, tmp_path):
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(tmp_path)
@@ -84,7 +100,6 @@ def test_a_module_that_cannot_be_loaded_says_why(tmp_path):
 
 
 def test_the_tag_is_the_oldest_system_that_has_every_symbol():
-    sys.path.insert(0, str(SOURCE / "python"))
     from build_backend import oldest_system
 
     assert oldest_system([b"\0GLIBC_2.2.5\0"]) == 17

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -96,6 +99,22 @@ bool are_alike(const Remark& a, const Remark& b) {
   return a.code == b.code && a.severity == b.severity && a.about == b.about;
 }
 
+std::string quoted_name(const Remark& remark) { return "'" + remark.about + "'"; }
+
+/// Code, severity, place, the words before and after the name, remedy, other places.
+using SentenceWithoutName =
+    std::tuple<RemarkCode, Severity, std::string, std::string, std::string, std::string, std::vector<std::string>>;
+
+/// Returns nothing where the sentence does not quote the name.
+std::optional<SentenceWithoutName> without_name(const Remark& remark) {
+  const std::string name = quoted_name(remark);
+  const std::size_t at = remark.about.empty() ? std::string::npos : remark.says.find(name);
+  if (at == std::string::npos) return {};
+  return SentenceWithoutName{
+      remark.code,   remark.severity, remark.where, remark.says.substr(0, at), remark.says.substr(at + name.size()),
+      remark.remedy, remark.likewise};
+}
+
 }  // namespace
 
 std::string_view name(Severity severity) {
@@ -138,6 +157,27 @@ std::vector<Remark> grouped(const std::vector<Remark>& remarks, Times times) {
                std::find(same->likewise.begin(), same->likewise.end(), remark.where) == same->likewise.end()) {
       same->likewise.push_back(remark.where);
     }
+  }
+  return kept;
+}
+
+std::vector<Remark> named_together(const std::vector<Remark>& remarks) {
+  std::vector<Remark> kept;
+  std::vector<std::vector<std::string>> names;  // of each kept remark, but for the first
+  std::map<SentenceWithoutName, std::size_t> places;
+  for (const Remark& remark : remarks) {
+    if (const std::optional<SentenceWithoutName> words = without_name(remark)) {
+      const auto [place, first] = places.try_emplace(*words, kept.size());
+      if (!first) {
+        names[place->second].push_back(quoted_name(remark));
+        continue;
+      }
+    }
+    kept.push_back(remark);
+    names.emplace_back();
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!names[i].empty()) kept[i].says += fmt::format(" (likewise {})", fmt::join(names[i], ", "));
   }
   return kept;
 }

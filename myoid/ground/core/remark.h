@@ -135,6 +135,10 @@ enum class Times { kept, merged };
 /// Joins remarks of equal code, severity and `about`: the first one names the places of the others. The order stays.
 [[nodiscard]] std::vector<Remark> grouped(const std::vector<Remark>& remarks, Times times = Times::kept);
 
+/// Joins remarks of one place and code whose sentences differ by the quoted name of `about` alone: the first one's
+/// `says` names the others, "channel 'A' shows nothing (likewise 'B', 'C')". The order stays.
+[[nodiscard]] std::vector<Remark> named_together(const std::vector<Remark>& remarks);
+
 /// Sorts the worst first; the order stays otherwise.
 void sort_by_severity(std::vector<Remark>& remarks);
 

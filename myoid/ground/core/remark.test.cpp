@@ -1,5 +1,6 @@
 #include "myoid/ground/core/remark.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace myoid::inline ground {
@@ -40,6 +41,28 @@ TEST(Remark, WithATimeOrAboutNothingInParticularStandsAlone) {
   EXPECT_EQ(grouped(remarks).size(), 2U);
   EXPECT_EQ(grouped(remarks, Times::merged).size(), 1U);
   EXPECT_EQ(grouped({hum("a", ""), hum("b", "")}, Times::merged).size(), 2U);
+}
+
+// Silent channels of an amplifier with sixteen: one line that names them all.
+TEST(Remark, ThatDifferByANameAloneNameAllOfThem) {
+  const auto silent = [](const std::string& channel, const std::string& words, const std::string& remedy = {}) {
+    return Remark{.code = RemarkCode::emg_flat,
+                  .where = "a.c3d",
+                  .about = channel,
+                  .when = Stretch{0.0, 1.0},
+                  .says = "channel '" + channel + "' " + words,
+                  .remedy = remedy};
+  };
+  std::vector<Remark> remarks{silent("A", "is silent", "plug it"), silent("B", "is silent", "plug it"),
+                              silent("C", "is loud"), silent("D", "is silent", "plug it"), silent("E", "is silent")};
+  remarks.push_back(remarks[1]);
+  remarks.back().where = "b.c3d";
+  remarks.push_back({.says = "EMG short"});
+  remarks.push_back({.says = "EMG short"});
+  EXPECT_THAT(
+      sentences(named_together(remarks)),
+      testing::ElementsAre("channel 'A' is silent (likewise 'B', 'D'); plug it", "channel 'C' is loud",
+                           "channel 'E' is silent", "channel 'B' is silent; plug it", "EMG short", "EMG short"));
 }
 
 TEST(Remark, AreSortedWorstFirstAndElseStay) {

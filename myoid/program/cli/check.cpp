@@ -43,7 +43,7 @@ nlohmann::ordered_json findings_json(const std::vector<Remark>& findings) {
 void print_findings(const program::CheckResult& result, const std::string& input) {
   // The first of several faults that ask for the same remedy names the remedy.
   std::set<std::string> said;
-  for (const Remark& f : result.findings) {
+  for (const Remark& f : named_together(result.findings)) {
     const bool again = !f.remedy.empty() && !said.insert(f.remedy).second;
     say("{:<8} {}: {}\n", name(f.severity), f.where, again ? f.says : sentence(f));
   }

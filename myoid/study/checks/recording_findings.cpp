@@ -44,7 +44,7 @@ RecordingFindings recording_findings(const Study& study,
 std::vector<std::string> fault_summary(std::vector<Remark> faults, std::size_t most) {
   std::erase_if(faults, [](const Remark& f) { return f.severity != Severity::warning; });
   std::vector<std::string> lines;
-  for (const Remark& f : grouped(faults, Times::merged))
+  for (const Remark& f : named_together(grouped(faults, Times::merged)))
     lines.push_back((f.where.empty() ? "" : fmt::format("trial {}: ", f.where)) + sentence(f));
   if (lines.size() <= most) return lines;
   const std::size_t more = lines.size() - most;

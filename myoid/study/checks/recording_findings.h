@@ -26,7 +26,7 @@ struct RecordingFindings {
                                                    const std::vector<TrialInput>& inputs,
                                                    const StudyActivation& activation);
 
-/// Returns the warnings among the faults, one line each. Equal faults of several trials share a
+/// Returns the warnings among the faults, one line each. Equal faults of several trials or channels share a
 /// line, and after `most` lines a last one counts the others.
 [[nodiscard]] std::vector<std::string> fault_summary(std::vector<Remark> faults, std::size_t most = 12);
 

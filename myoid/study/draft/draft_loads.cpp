@@ -174,6 +174,17 @@ bool only_torques(const TimeSeries& analog, const std::vector<std::string>& name
   });
 }
 
+std::string question_of_torques(const std::vector<std::string>& files, const std::string& coordinate) {
+  const std::string others = files.size() > 1 ? fmt::format(" and {} more", files.size() - 1) : "";
+  return fmt::format(
+      "{}{}: torque in N m, of no joint by its name. Of a dynamometer? Call its column '{}_moment [Nm]' (the torque on "
+      "the "
+      "body) and that of the angle '{} [deg]' (a held posture is a column of one angle), both positive in the "
+      "direction "
+      "of {}; init then makes trials of such files",
+      files.front(), others, coordinate, coordinate, coordinate);
+}
+
 void ask_for_loads(const std::string& stem, const LoadHints& hints, bool own_model, bool& asked, DraftText& out) {
   std::vector<std::string> objects = hints.object_markers;
   std::vector<std::string> channels = hints.channels;

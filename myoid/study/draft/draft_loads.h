@@ -35,6 +35,10 @@ struct NamedMass {
 /// Returns true if all channels of these names are in N m, as a dynamometer's are; a load cell has forces.
 [[nodiscard]] bool only_torques(const TimeSeries& analog, const std::vector<std::string>& names);
 
+/// Returns the question of tables with torques in N m that name no joint: how their columns must be called for `init`
+/// to make trials of them. `coordinate`: the study's.
+[[nodiscard]] std::string question_of_torques(const std::vector<std::string>& files, const std::string& coordinate);
+
 /// Signs of loads on the person that a recording holds.
 struct LoadHints {
   std::vector<std::string> object_markers = {}, channels = {};

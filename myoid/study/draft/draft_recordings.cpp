@@ -73,10 +73,10 @@ bool holds_results(const fs::path& folder) {
 
 std::string trial_stem(const fs::path& path) {
   static const std::set<std::string, std::less<>> kKinds{
-      "emg",      "raw",    "uv",       "mv",      "v",      "env",          "envelope",  "envelopes", "filt",
-      "filtered", "emgraw", "emgfilt",  "imu",     "ik",     "motion",       "landmarks", "kalman",    "elbow",
-      "angles",   "mocap",  "markers",  "marker",  "analog", "trc",          "c3d",       "mot",       "grf",
-      "forces",   "loads",  "external", "devices", "device", "trajectories", "trajectory"};
+      "emg",      "raw",    "uv",       "mv",      "v",      "env",          "envelope",   "envelopes",  "filt",
+      "filtered", "emgraw", "emgfilt",  "imu",     "ik",     "motion",       "landmarks",  "kalman",     "elbow",
+      "angles",   "mocap",  "markers",  "marker",  "analog", "trc",          "c3d",        "mot",        "grf",
+      "forces",   "loads",  "external", "devices", "device", "trajectories", "trajectory", "dynamometer"};
   std::vector<std::string> words = words_of(path.stem().string());
   const fs::path folder = fs::absolute(path).lexically_normal().parent_path().filename();
   if (!folder.empty() && std::ranges::all_of(words, [](const std::string& w) { return kKinds.contains(w); }))

@@ -39,6 +39,12 @@ namespace {
 namespace fs = std::filesystem;
 using ground::toml_text;
 
+/// Tables of torques, by their columns' names.
+struct TorqueTables {
+  std::vector<fs::path> of_joints;
+  std::vector<std::string> of_no_joint;  ///< File names.
+};
+
 class Draft {
  public:
   Draft(fs::path folder, const DraftOptions& options) : folder_(std::move(folder)), options_(options) {}
@@ -71,9 +77,10 @@ class Draft {
     markers_table();
     emg_table();
     muscle_tables();
+    if (!torques_.of_no_joint.empty()) out_.todo(question_of_torques(torques_.of_no_joint, coordinate_));
     draft_trials(found_,
                  {.external_loads = beside.external_loads,
-                  .torques = torques_,
+                  .torques = torques_.of_joints,
                   .own_model = model_file_.has_value(),
                   .raw_emg = raw_emg_,
                   .relative = [&](const fs::path& path) { return relative(path); }},
@@ -141,7 +148,12 @@ class Draft {
     return names;
   }
 
-  void note_unused(const fs::path& path, bool torques) {
+  /// `of_no_joint`: all of the file are torques that no joint's name stands for.
+  void note_unused(const fs::path& path, bool torques, bool of_no_joint) {
+    if (of_no_joint) {
+      torques_.of_no_joint.push_back(path.filename().string());
+      return;
+    }
     constexpr const char* kTorques =
         "joint torques; a study takes measured ones as external_torque of a trial, and computes the others "
         "(`myoid identify --torques` reads them)";
@@ -167,21 +179,23 @@ class Draft {
         f.loads.only_torques = only_torques(file.analog.series(), f.loads.channels);
       }
       for (const Channel& c : file.analog.channels()) {
-        if (format == FileFormat::storage && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
+        const bool angle = format == FileFormat::storage || c.unit == Unit::radian;
+        if (angle && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
         torques = torques || std::ranges::any_of(model_.coordinates, [&](const body::Coordinate& q) {
                     return c.name == q.name + "_moment";
                   });
       }
-      if (f.angles.empty() && !file.analog.empty() && format != FileFormat::bids_motion)
+      const bool of_motion = format == FileFormat::storage && !f.angles.empty();
+      if (!of_motion && !file.analog.empty() && format != FileFormat::bids_motion)
         find_emg(path, file.analog.series(), file.plates, f);
     } catch (const InvalidInput& error) {
       note(RemarkCode::refused, path, fmt::format("not read: {}", error.what()));
       return;
     }
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
+    if (torques) torques_.of_joints.push_back(path);
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
-      if (torques) torques_.push_back(path);
-      note_unused(path, torques);
+      note_unused(path, torques, f.loads.only_torques && !torques);
       return;
     }
     if (f.markers.frame_count() > 0) {
@@ -256,7 +270,7 @@ class Draft {
         std::ranges::find_if(found_, [](const FoundRecording& f) { return f.body.mass_kg.has_value(); });
     if (stated == found_.end()) {
       if (model_file_) return;
-      todo("the person's mass, for the segments of the built-in arm");
+      if (!wants_a_leg()) todo("the person's mass, for the segments of the built-in arm");
       line("# mass_kg = 70.0");
       return;
     }
@@ -267,22 +281,24 @@ class Draft {
     line(fmt::format("mass_kg = {:g}", *stated->body.mass_kg));
   }
 
+  /// True where the built-in arm stands for a leg's model: what it lacks is no question.
+  [[nodiscard]] bool wants_a_leg() const { return !model_file_ && most_known_ < 3 && is_of_a_leg(found_); }
+
   void model_table() {
     line("[model]");
     if (model_file_) {
       line("file = " + toml_text(relative(*model_file_)));
     } else {
       line("builtin = \"arm4\"");
-      if (is_of_a_leg(found_) && most_known_ < 3)
+      if (wants_a_leg())
         todo(
             "markers or EMG are those of a leg, and this built-in model is an arm: name a model of the leg with "
-            "--model, "
-            "OpenSim's gait2392 or Rajagopal2016, for example");
+            "--model, OpenSim's gait2392 or Rajagopal2016, for example; joint, markers and muscles follow from it");
     }
     if (!other_models_.empty())
       todo(fmt::format("or one of the {}models that were found: file = {}", model_file_ ? "other " : "",
                        list_of(other_models_)));
-    if (guessed_coordinate_)
+    if (guessed_coordinate_ && !wants_a_leg())
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
     line("coordinate = " + toml_text(coordinate_));
     line("");
@@ -315,6 +331,7 @@ class Draft {
   }
 
   void marker_names() {
+    if (wants_a_leg()) return;
     if (most_known_ < 3 && !model_.markers.empty()) {
       std::vector<std::string> names;
       for (const body::Marker& m : model_.markers) {
@@ -364,8 +381,8 @@ class Draft {
   }
 
   void emg_table() {
-    const bool unit =
-        std::ranges::all_of(found_, [&](const FoundRecording& f) { return f.has_unit || of_other_kind(f); });
+    const bool unit = std::ranges::all_of(
+        found_, [&](const FoundRecording& f) { return f.has_unit || f.channels.empty() || of_other_kind(f); });
     line("[emg]");
     line(fmt::format("kind = \"{}\"   # {}", raw_emg_ ? "raw" : "envelope",
                      raw_emg_ ? "by how often it goes through its median" : "it changes slowly"));
@@ -421,7 +438,8 @@ class Draft {
 
   /// Writes a table to fill in, where no channel is named like a muscle.
   void unknown_pairs(const std::vector<std::string>& channels, const std::vector<std::string>& able) {
-    todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", coordinate_));
+    if (!wants_a_leg())
+      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", coordinate_));
     line("[[muscle]]");
     line("name = \"TODO\"");
     line(fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", ")));
@@ -470,7 +488,7 @@ class Draft {
   std::string coordinate_;
   bool guessed_coordinate_ = false;
   std::set<fs::path> loads_data_;
-  std::vector<fs::path> torques_;
+  TorqueTables torques_;
   std::vector<FoundRecording> found_;
   OnePerson person_;
   bool raw_emg_ = true;

@@ -85,6 +85,45 @@ TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {
   EXPECT_EQ(code_of(draft, "broken.trc"), RemarkCode::refused);
 }
 
+/// Torque and angle of a dynamometer in a table whose columns have these names, and the EMG beside it.
+void write_dynamometer(const std::filesystem::path& folder, const std::string& stem, const std::string& columns) {
+  std::string table = "time [s]," + columns + "\n";
+  for (int i = 0; i < 400; ++i)
+    table += fmt::format("{:.2f},{:.3f},60.0\n", 0.01 * i, -20.0 * (1.0 + std::sin(0.06 * i)));
+  write_file(folder / (stem + "_dynamometer.csv"), table);
+  write_trial(folder, stem);
+  std::filesystem::remove(folder / (stem + "_angles.mot"));
+}
+
+TEST(StudyDraft, ADynamometersTableIsMotionAndTorqueOfATrial) {
+  const test::TemporaryFolder folder;
+  write_dynamometer(folder.path(), "hold_60", "elbow_flexion_moment [Nm],elbow_flexion [deg]");
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  ASSERT_EQ(study.trials.size(), 1U);
+  EXPECT_EQ(study.trials[0].name, "hold_60");
+  EXPECT_EQ(study.trials[0].motion->filename(), "hold_60_dynamometer.csv");
+  EXPECT_EQ(study.trials[0].emg->filename(), "hold_60_emg.csv");
+  EXPECT_THAT(draft.toml, HasSubstr("# external_torque = \"hold_60_dynamometer.csv\""));
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("dynamometer measure")));
+  EXPECT_THAT(draft.todo, testing::Not(Contains(HasSubstr("unit"))));
+  // With the answer it is a study without an error.
+  std::string answered = draft.toml;
+  answered.erase(answered.find("# external_torque"), 2);
+  for (const Remark& f : check_study(parse_study(answered, folder / "study.toml")))
+    EXPECT_NE(f.severity, Severity::error) << f.says;
+}
+
+TEST(StudyDraft, ATorqueOfNoJointAsksForTheColumnsNames) {
+  const test::TemporaryFolder folder;
+  write_dynamometer(folder.path(), "hold_60", "torque [Nm],crank_angle [deg]");
+  write_dynamometer(folder.path(), "hold_90", "torque [Nm],crank_angle [deg]");
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  EXPECT_THAT(draft.todo,
+              Contains(testing::AllOf(HasSubstr("hold_60_dynamometer.csv and 1 more"),
+                                      HasSubstr("'elbow_flexion_moment [Nm]'"), HasSubstr("'elbow_flexion [deg]'"))));
+}
+
 // A maximal contraction without EMG says nothing of the largest EMG, and study.toml refuses it.
 TEST(StudyDraft, AMaximalContractionWithoutEmgIsATrialOfMotionAndTorque) {
   const test::TemporaryFolder folder;
@@ -206,6 +245,9 @@ TEST(StudyDraft, SaysThatMarkersOfALegMeetAnArm) {
   write_markers(folder / "walk.trc", {"LASI", "RASI", "LKNE", "RKNE", "LANK", "RANK", "LHEE", "RHEE"});
   const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
   EXPECT_THAT(draft.todo, Contains(HasSubstr("those of a leg")));
+  // What the arm lacks of a leg is no question.
+  for (const char* words : {"which joint", "known to the model", "name the pairs", "segments of the built-in arm"})
+    EXPECT_THAT(draft.todo, testing::Not(Contains(HasSubstr(words)))) << words;
 }
 
 /// Two seconds of raw EMG of these channels.

@@ -1,6 +1,7 @@
 #include "myoid/study/intake/read_trial.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "myoid/ground/core/names.h"
 #include "myoid/ground/core/provenance.h"
 #include "myoid/ground/files/byte_source.h"
+#include "myoid/ground/files/file_format.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
@@ -42,24 +44,53 @@ void require_files(const TrialSpec& trial) {
   for (const std::filesystem::path& path : trial.given.moment_arms) require("moment_arms", path);
 }
 
+/// Angles of a file, and whether its header says that they are in degrees.
+struct AngleFile {
+  TimeSeries angles;
+  bool says_degrees = false;
+};
+
+/// Reads a storage file, whose header has one unit for all angles, or a table, whose columns have units of their own.
+/// `is_angle` takes a column's name and whether it is the only one. Throws ReadError for an angle of a table in another
+/// unit or in none.
+AngleFile read_angles(const std::filesystem::path& path,
+                      const std::function<bool(const std::string&, bool)>& is_angle,
+                      std::vector<Remark>& remarks) {
+  if (format_of(path) != FileFormat::text_table) {
+    const recording::Storage file = recording::read_storage(path);
+    add_repairs(path, file.repairs, remarks);
+    const bool alone = file.data.channel_count() == 1;
+    return {recording::to_si(file, [&](const std::string& name) { return is_angle(name, alone); }), file.in_degrees};
+  }
+  recording::SeriesFile file = recording::read_series(path);
+  add_repairs(path, file.repairs, remarks);
+  for (const Channel& channel : file.data.channels()) {
+    if (is_angle(channel.name, file.data.channel_count() == 1) && channel.unit != Unit::radian)
+      throw ReadError(
+          path, 0,
+          fmt::format("column '{}' is in {}, expected an angle; write its unit in the header, as in '{} [deg]'",
+                      channel.name, symbol(channel.unit), channel.name));
+  }
+  return {std::move(file.data)};
+}
+
 TimeSeries read_motion(const Study& study,
                        const std::filesystem::path& path,
                        const body::BodyModel& model,
                        TrialInput& input) {
-  const recording::Storage file = recording::read_storage(path);
-  add_repairs(path, file.repairs, input.remarks);
   // Without a body the only column is the angle of the only joint, by any name.
-  const bool only = study.model.is_none() && model.coordinates.size() == 1 && file.data.channel_count() == 1;
-  const auto is_angle = [&](const std::string& name) {
+  const bool one_joint = study.model.is_none() && model.coordinates.size() == 1;
+  const auto is_angle = [&](const std::string& name, bool alone) {
     const auto index = model.find_coordinate(name);
-    return only ||
+    return (one_joint && alone) ||
            (index && model.coordinates[static_cast<std::size_t>(*index)].motion == body::MotionType::rotational);
   };
-  TimeSeries motion = recording::to_si(file, is_angle);
+  auto [motion, says_degrees] = read_angles(path, is_angle, input.remarks);
+  const bool only = one_joint && motion.channel_count() == 1;
   if (only) motion = {motion.time_s(), {{model.coordinates[0].name, Unit::radian}}, motion.values()};
   bool any = false;
   for (const Channel& channel : motion.channels()) any |= model.find_coordinate(channel.name).has_value();
-  if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
+  if (const std::string doubt = check_angle_unit(path, says_degrees, motion); !doubt.empty())
     warn(input, RemarkCode::unit_doubtful, fmt::format("{}: {}", path.filename().string(), doubt));
   if (!any)
     throw ReadError(

@@ -103,6 +103,25 @@ TEST(ReadTrialParts, ATorqueMayBeATableInItsOwnUnit) {
             std::string::npos);
 }
 
+// A dynamometer's export: angle and torque are columns of one table, the angle in degrees.
+TEST(ReadTrialParts, AnAngleMayBeAColumnOfTheTableOfTheTorque) {
+  WrittenTrial trial(0.01, 4.99);
+  std::string rows;
+  for (int i = 0; i <= 500; ++i) rows += fmt::format("{:.2f},{:.1f},{:.2f}\n", 0.01 * i, -0.1 * i, 0.18 * i);
+  const std::string name = "time [s],elbow_flexion_moment [Nm],elbow_flexion";
+  write_file(trial.folder / "table.csv", name + " [deg]\n" + rows);
+  trial.spec.motion = trial.spec.external_torque = trial.folder / "table.csv";
+  const std::vector<TrialPart> parts = read_trial_parts(arm_study(), trial.spec, arm());
+  ASSERT_EQ(parts.size(), 1U);
+  const TrialInput& input = parts[0].input;
+  // 18 degrees a second.
+  EXPECT_NEAR(input.motion->column("elbow_flexion")[250], 18.0 * input.motion->time_s()[250] * kDegree, 1e-9);
+  EXPECT_NEAR(input.external_torque->column("elbow_flexion_moment")[250], -25.0, 1e-9);
+  write_file(trial.folder / "table.csv", name + "\n" + rows);
+  EXPECT_NE(message_of([&] { (void)read_trial_parts(arm_study(), trial.spec, arm()); }).find("'elbow_flexion [deg]'"),
+            std::string::npos);
+}
+
 TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheForcesFile) {
   WrittenTrial trial(0.01, 4.99);
   std::string force = "f\nendheader\ntime\tf_vx\tf_vy\tf_vz\tf_px\tf_py\tf_pz\n";
