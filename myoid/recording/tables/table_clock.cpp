@@ -210,7 +210,8 @@ class RowClock {
   std::optional<Eigen::Index> time_, frame_, sub_frame_;
 };
 
-/// Returns the last decimal with which the times are written: the power of ten of which all are multiples.
+}  // namespace
+
 double last_decimal(const Eigen::VectorXd& time_s) {
   constexpr double kFinest = 1e-9;
   double unit = 0.1;
@@ -221,8 +222,6 @@ double last_decimal(const Eigen::VectorXd& time_s) {
   }
   return unit;
 }
-
-}  // namespace
 
 void state_uneven_step(const Eigen::VectorXd& time_s,
                        const std::vector<std::size_t>& lines,
