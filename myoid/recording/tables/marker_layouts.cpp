@@ -285,6 +285,8 @@ std::optional<MarkerLayout> motive_markers(const TableText& text, const std::fil
   if (others > 0)
     layout.table.repairs.push_back(
         {header->frame_line + 1, fmt::format("{} columns of rigid bodies and other quantities are left out", others)});
+  // A marker that Motive lost and found again is a new column of its old name.
+  layout.names = unique_names(layout.names, "marker", header->frame_line + 1, layout.table.repairs);
   layout.table.set_rows_below(text, header->frame_line, ',');
   layout.table.first_frame = 0.0;
   layout.table.read_header(text, 1, {{"export frame rate", "capture frame rate"}, {"total exported frames"}, {}});
@@ -299,8 +301,6 @@ std::optional<MarkerLayout> motive_markers(const TableText& text, const std::fil
 
 }  // namespace
 
-std::optional<MarkerLayout> marker_layout(const TableText& text, const std::filesystem::path& path) {
-  for (const auto& known : {qualisys_markers, bts_points, nexus_trajectories, motive_markers, first_principles}) {
 std::optional<std::string> name_before_axis(const std::string& cell, char axis) {
   if (cell.empty() || static_cast<char>(cell.back() | 0x20) != axis) return std::nullopt;
   if (cell.size() == 1) return "";
@@ -315,6 +315,8 @@ bool is_axis_triple(const Cells& header, std::size_t c) {
   return name && name_before_axis(header[c + 1], 'y') == name && name_before_axis(header[c + 2], 'z') == name;
 }
 
+std::optional<MarkerLayout> marker_layout(const TableText& text, const std::filesystem::path& path) {
+  for (const auto& known : {qualisys_markers, bts_points, nexus_trajectories, motive_markers, first_principles}) {
     if (auto layout = known(text, path)) return layout;
   }
   return std::nullopt;

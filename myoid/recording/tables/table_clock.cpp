@@ -107,6 +107,14 @@ class RowClock {
                : fmt::format("frame {}", numbers_.clock(i, *frame_));
   }
 
+  /// Returns the least step from frame to frame if all steps are multiples of it, else 1.
+  [[nodiscard]] double least_step() const {
+    const auto frame = numbers_.clock.col(*frame_);
+    const Eigen::ArrayXd step = frame.tail(rows() - 1) - frame.head(rows() - 1);
+    const double least = step.minCoeff();
+    return least > 1.0 && (step / least == (step / least).round()).all() ? least : 1.0;
+  }
+
   void check_order() {
     if (sub_frame_ && numbers_.clock.col(*sub_frame_).minCoeff() < 0.0)
       throw ReadError(path_, line(0), "the number of a sub-frame is below 0");
@@ -120,13 +128,15 @@ class RowClock {
     }
     double missing = 0.0;
     Eigen::Index first_hole = -1;
+    // Rows that all step by one whole number of frames are every second or third frame of a take.
+    const double stride = sub_frame_ || rows() < 3 ? 1.0 : least_step();
     for (Eigen::Index i = 1; i < rows(); ++i) {
       const double step = place(i, n) - place(i - 1, n);
       if (!(step > 0.0))
         throw ReadError(path_, line(i),
                         fmt::format("{} stands below {}: the frames do not increase", name_of(i), name_of(i - 1)));
-      if (step == 1.0 || (uneven && step == 2.0)) continue;
-      missing += step - 1.0;
+      if (step == stride || (uneven && step == 2.0)) continue;
+      missing += step / stride - 1.0;
       if (first_hole < 0) first_hole = i;
     }
     if (first_hole >= 0)
