@@ -148,6 +148,17 @@ class RowClock {
   [[nodiscard]] Eigen::VectorXd of_time_column() {
     const TableColumn& column = first_of(layout_, Kind::time);
     Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * numbers_.clock.col(*time_);
+    // Seconds since 1970 have ten digits; a clock with three, six or nine more counts ms, us or ns.
+    struct Fraction {
+      double least, to_s;
+      const char* symbol;
+    };
+    for (const Fraction& of : {Fraction{1e17, 1e-9, "ns"}, {1e14, 1e-6, "us"}, {1e11, 1e-3, "ms"}}) {
+      if (column.unit || !(time[0] >= of.least)) continue;
+      time *= of.to_s;
+      repairs_.push_back({line(0), fmt::format("'{}' is read as {} since 1970", column.name, of.symbol)});
+      break;
+    }
     if (!layout_.blocks.empty())
       for (Eigen::Index i = 0; i < time.size(); ++i) time[i] += layout_.blocks[block_of(i)].begin_s;
     for (Eigen::Index i = 0; i < time.size(); ++i) {
