@@ -1,10 +1,13 @@
 #include "myoid/recording/tables/emg_table.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/recording/tables/text_table.h"
 
 namespace myoid::recording {
 namespace {
