@@ -132,7 +132,8 @@ class NmsmReader {
                    fmt::format("the model lacks the muscle groups {}", name_list(missing)));
   }
 
-  /// Counts what the enabled tasks vary; without tasks, all that the .osimx holds.
+  /// Counts what the enabled tasks vary, which is every number that they do not leave by `false`; without tasks, all
+  /// that the .osimx holds.
   void plan_numbers(const OsimXml& xml, pugi::xml_node tool) {
     if (!project_.is_calibrated) return;
     std::vector<std::string> muscles;
@@ -148,7 +149,7 @@ class NmsmReader {
     }
     for (const pugi::xml_node task : tasks) {
       for (const OsimxNumber& number : osimx_numbers()) {
-        if (*number.flag == '\0' || (task && !xml.flag(task, number.flag, false))) continue;
+        if (*number.flag == '\0' || (task && !xml.flag(task, number.flag, true))) continue;
         const bool is_shared = number.quantity == Quantity::delay && task &&
                                !xml.flag(task, "muscle_specific_electromechanical_delays", true);
         plan(project_,

@@ -51,6 +51,8 @@ void write_nmsm_project(const test::TemporaryFolder& folder) {
       "</optimize_electromechanical_delays><muscle_specific_electromechanical_delays>false"
       "</muscle_specific_electromechanical_delays><optimize_activation_time_constants>true"
       "</optimize_activation_time_constants><optimize_optimal_fiber_lengths>true</optimize_optimal_fiber_lengths>"
+      "<optimize_tendon_slack_lengths>false</optimize_tendon_slack_lengths><optimize_emg_scale_factors>false"
+      "</optimize_emg_scale_factors>"
       "</MTPTask></MTPTaskList></MuscleTendonPersonalizationTool></NMSMPipelineDocument>");
   fs::create_directories(folder / "results");
   write_file(folder / "results/m_mtp.osimx", osimx());
@@ -116,6 +118,39 @@ TEST(NmsmProject, TellsTheMusclesOfAJointByTheirMomentArms) {
   const Project project = read_project(folder.path()).value();
   EXPECT_THAT(project.dofs.at(0).muscles, ElementsAre("vasmed_r"));
   EXPECT_TRUE(knees_without_extensor(project).empty());
+}
+
+// The pipeline takes a number as varied unless the task says false.
+TEST(NmsmProject, ATaskThatSaysNothingVariesEveryNumber) {
+  const test::TemporaryFolder folder;
+  write_nmsm_project(folder);
+  write_file(folder / "settings.xml",
+             "<NMSMPipelineDocument Version=\"1.5.0\"><MuscleTendonPersonalizationTool><input_model_file>m.osim"
+             "</input_model_file><coordinate_list>knee_angle_r</coordinate_list><MTPTaskList><MTPTask><is_enabled>true"
+             "</is_enabled><optimize_emg_scale_factors>false</optimize_emg_scale_factors></MTPTask></MTPTaskList>"
+             "</MuscleTendonPersonalizationTool></NMSMPipelineDocument>");
+  const Project project = read_project(folder.path()).value();
+  EXPECT_EQ(unknowns(project, Quantity::optimal_fiber_length).all, 2U);
+  EXPECT_EQ(unknowns(project, Quantity::tendon_slack_length).all, 1U);  // the .osimx holds one
+  EXPECT_EQ(unknowns(project, Quantity::delay).all, 2U);
+  EXPECT_EQ(unknowns(project, Quantity::emg_scale).all, 0U);
+}
+
+TEST(NmsmProject, MusclesStandInObjectsOrDirectlyInTheirSet) {
+  for (const auto& [set, inside] :
+       {std::pair("RCNLMuscleSet", true), std::pair("RCNLMuscleSet", false), std::pair("MTPMuscleSet", true)}) {
+    std::string text = osimx();
+    for (const std::string tag : {"<objects>\n", "</objects>\n"})
+      if (!inside) text.erase(text.find(tag), tag.size());
+    for (std::size_t at = 0; (at = text.find("RCNLMuscleSet", at)) != std::string::npos; ++at)
+      text.replace(at, 13, set);
+    const test::TemporaryFolder folder;
+    write_file(folder / "a.osimx", text);
+    const Project project = read_project(folder / "a.osimx").value();
+    EXPECT_THAT(project.muscles, SizeIs(2)) << set;
+    EXPECT_TRUE(project.is_calibrated);
+    for (const Remark& remark : project.remarks) EXPECT_NE(remark.about, "RCNLMuscle");
+  }
 }
 
 TEST(NmsmProject, IsReadFromAnOsimxAlone) {

@@ -36,8 +36,9 @@ std::span<const OsimxNumber> osimx_numbers() { return kNumbers; }
 
 const ElementTable& osimx_elements() {
   static const ElementTable kElements{
-      {"OsimxModel", "associated_osim_model RCNLMuscleSet RCNLContactSurfaceSet RCNLSynergySet"},
-      {"RCNLMuscleSet", "objects groups"},
+      {"OsimxModel", "associated_osim_model RCNLMuscleSet MTPMuscleSet RCNLContactSurfaceSet RCNLSynergySet"},
+      {"RCNLMuscleSet", "objects groups RCNLMuscle"},
+      {"MTPMuscleSet", "objects groups RCNLMuscle"},
       {"RCNLMuscle",
        "electromechanical_delay activation_time_constant activation_nonlinearity_constant "
        "emg_scale_factor optimal_fiber_length tendon_slack_length max_isometric_force"}};
@@ -46,10 +47,25 @@ const ElementTable& osimx_elements() {
 
 pugi::xml_node osimx_model(const OsimXml& xml) { return xml.root().child("NMSMPipelineDocument").child("OsimxModel"); }
 
+namespace {
+
+/// Returns the muscles of every form of the set: in <objects>, as the pipeline writes them, or directly in the set; its
+/// first versions call the set MTPMuscleSet.
+std::vector<pugi::xml_node> osimx_muscles(pugi::xml_node model) {
+  std::vector<pugi::xml_node> nodes;
+  for (const char* name : {"RCNLMuscleSet", "MTPMuscleSet"}) {
+    for (const pugi::xml_node node : OsimXml::objects(model.child(name))) nodes.push_back(node);
+    for (const pugi::xml_node node : model.child(name).children("RCNLMuscle")) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+}  // namespace
+
 std::vector<ProjectMuscle> read_osimx(const OsimXml& xml) {
   std::vector<ProjectMuscle> muscles;
   std::set<std::string> names;
-  for (const pugi::xml_node node : OsimXml::objects(osimx_model(xml).child("RCNLMuscleSet"))) {
+  for (const pugi::xml_node node : osimx_muscles(osimx_model(xml))) {
     ProjectMuscle muscle{OsimXml::name_of(node), {}, {}};
     if (muscle.name.empty()) xml.fail(node, "<{}>: an attribute 'name' expected, found none", node.name());
     if (!names.insert(muscle.name).second) xml.fail(node, "two muscles have the name '{}'", muscle.name);

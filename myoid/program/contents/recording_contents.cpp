@@ -240,11 +240,15 @@ ordered_json csv_json(const std::filesystem::path& path) {
   try {
     return recording_json(path, "time series (.csv)");
   } catch (const ReadError& error) {
-    const recording::CsvTable table = recording::read_csv_table(path);
-    return {{"kind", "table (.csv)"},
-            {"rows", table.rows.size()},
-            {"columns", table.names},
-            {"no_recording", error.what()}};
+    try {
+      const recording::CsvTable table = recording::read_csv_table(path);
+      return {{"kind", "table (.csv)"},
+              {"rows", table.rows.size()},
+              {"columns", table.names},
+              {"no_recording", error.what()}};
+    } catch (const ReadError&) {
+      throw ReadError(error);  // a table of a known maker that is damaged, not one with rows of other widths
+    }
   }
 }
 

@@ -447,6 +447,19 @@ TEST(C3d, TheReaderOfFilesAndTheReaderOfMemoryAgree) {
   EXPECT_THROW(static_cast<void>(read_c3d(folder.path())), ReadError);
 }
 
+// 240 frames a second with times in ms step by 4 and 5 ms.
+TEST(MakeC3d, RoundedTimesAreEvenAndALostFrameIsNot) {
+  MarkerSeries markers;
+  markers.names = {"a"};
+  markers.time_s.resize(100);
+  for (Eigen::Index k = 0; k < 100; ++k)
+    markers.time_s[k] = std::round(1000.0 * static_cast<double>(k) / 240.0) / 1000.0;
+  markers.positions_m = Eigen::MatrixXd::Constant(100, 3, 0.1);
+  EXPECT_EQ(make_c3d(markers, TimeSeries()).point_rate_hz, 240.0);
+  for (Eigen::Index k = 50; k < 100; ++k) markers.time_s[k] += 0.004;
+  EXPECT_THROW((void)make_c3d(markers, TimeSeries()), InvalidInput);
+}
+
 TEST(C3d, MarkersAndAnalogMadeIntoAFileComeBackInSi) {
   MarkerSeries markers;
   markers.time_s = Eigen::VectorXd::LinSpaced(5, 1.0, 1.04);

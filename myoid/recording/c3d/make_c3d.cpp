@@ -12,19 +12,33 @@ namespace myoid::recording {
 
 namespace {
 
-/// Returns the rate of an even clock. Throws InvalidInput for an uneven one.
+/// Returns the decimal to which all times are rounded, 0.01 to 0.0001 s; 0 for finer times.
+double rounding_of(const Eigen::VectorXd& time_s) {
+  for (const double unit : {1e-2, 1e-3, 1e-4}) {
+    const Eigen::ArrayXd count = time_s.array() / unit;
+    if ((count - count.round()).abs().maxCoeff() < 1e-4) return unit;
+  }
+  return 0.0;
+}
+
+/// Returns the rate of an even clock, whose times may be rounded. Throws InvalidInput for an uneven one.
 double rate_of(const Eigen::VectorXd& time_s, const char* what) {
   const Eigen::Index n = time_s.size();
   if (n < 2) throw InvalidInput("{}: a C3D file needs at least two samples", what);
   const double dt = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
+  // Two times are rounded by half a decimal each. A lost sample puts others off by half a step.
+  const double rounding = rounding_of(time_s);
+  const double tolerance = std::max(0.05 * dt, std::min(1.01 * rounding, 0.45 * dt));
   for (Eigen::Index i = 1; i < n; ++i) {
-    if (std::abs(time_s[i] - time_s[0] - static_cast<double>(i) * dt) > 0.05 * dt)
+    if (std::abs(time_s[i] - time_s[0] - static_cast<double>(i) * dt) > tolerance)
       throw InvalidInput(
           "{}: the samples are not evenly spaced ({} s to {} s), as a C3D file needs them; resample first", what,
           time_s[i - 1], time_s[i]);
   }
   // Rates are whole or have few decimals; the times are rounded.
   const double rate = 1.0 / dt;
+  const double whole = std::round(rate);
+  if (std::abs(rate - whole) * (time_s[n - 1] - time_s[0]) <= rounding * rate) return whole;
   const double rounded = std::round(rate * 100.0) / 100.0;
   return std::abs(rate - rounded) < 1e-4 * rate ? rounded : rate;
 }

@@ -21,18 +21,6 @@ std::size_t numbers_between_blanks(std::string_view line) {
   return all && words.size() > 1 ? words.size() : 0;
 }
 
-/// Splits a line at runs of two blanks or more.
-Words wide_cells(std::string_view line) {
-  Words cells;
-  line = trim(line);
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find("  "), line.size());
-    cells.push_back(trim(line.substr(0, end)));
-    line = trim(line.substr(end));
-  }
-  return cells;
-}
-
 /// Returns the cells of a header line if they are as many as the columns.
 Words header_cells(std::string_view line, std::size_t columns) {
   Words cells = wide_cells(line);
@@ -96,6 +84,17 @@ std::optional<HeaderRows> header_rows(const TableText& text, std::size_t first, 
 }
 
 }  // namespace
+
+std::vector<std::string_view> wide_cells(std::string_view line) {
+  std::vector<std::string_view> cells;
+  line = trim(line);
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find("  "), line.size());
+    cells.push_back(trim(line.substr(0, end)));
+    line = trim(line.substr(end));
+  }
+  return cells;
+}
 
 std::optional<std::string> tabs_for_blanks(const TableText& text) {
   constexpr std::size_t kMost = 1000;

@@ -28,11 +28,23 @@ bool is_time_of_channel(const TableColumn& column) {
   return in_seconds(column) && (name == "x" || name.ends_with("time series"));
 }
 
+/// Returns true if a word of the name is "timestamp": "Shimmer_68B7_Timestamp_Unix_CAL".
+bool speaks_of_timestamp(const std::string& name) {
+  const std::string_view word = "timestamp";
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  for (std::size_t i = name.find(word); i != std::string::npos; i = name.find(word, i + 1)) {
+    const std::size_t end = i + word.size();
+    if ((i == 0 || !is_letter(name[i - 1])) && (end == name.size() || !is_letter(name[end]))) return true;
+  }
+  return false;
+}
+
 /// Returns true for the name of a clock in seconds or in a stated unit of time.
 bool is_time(const TableColumn& column) {
-  static const std::set<std::string> kWords{"time",       "t",    "times", "time_s", "time_ms",     "timestamp",
-                                            "time stamp", "zeit", "temps", "tiempo", "time series", "abs time"};
-  return kWords.contains(lower(column.name)) && (!column.unit || in_seconds(column));
+  static const std::set<std::string> kWords{"time", "t",     "times",  "time_s",      "time_ms", "time stamp",
+                                            "zeit", "temps", "tiempo", "time series", "abs time"};
+  const std::string name = lower(column.name);
+  return (kWords.contains(name) || speaks_of_timestamp(name)) && (!column.unit || in_seconds(column));
 }
 
 /// Returns the unit of time that a column has for a name: "mSec".
@@ -45,8 +57,8 @@ Kind kind_by_name(const TableColumn& column) {
   if (column.unit) return Kind::channel;  // "marker [mm]", "index [N]"
   static const std::map<Kind, std::set<std::string>> kWords{
       {Kind::frame,
-       {"frame", "frames", "frame#", "sample", "samples", "sample #", "sample number", "index", "#", "no", "no.",
-        "nr"}},
+       {"frame", "frames", "frame#", "sample", "samples", "sample #", "#sample", "sample number", "index", "#", "no",
+        "no.", "nr"}},
       {Kind::sub_frame, {"sub frame", "subframe", "sub frame#"}},
       {Kind::remark, {"marker", "markers", "activity", "event", "events", "comment", "comments", "remark", "note"}}};
   const std::string word = lower(column.name);
@@ -206,8 +218,10 @@ void set_kinds(TableLayout& layout) {
     columns[0].unit = time_unit_as_name(columns[0]);
     columns[0].kind = Kind::time;
   }
-  for (TableColumn& column : columns)
-    if (!column.unit && lower(column.name) == "time_ms") column.unit = parse_unit("ms");
+  for (TableColumn& column : columns) {
+    const std::string name = lower(column.name);
+    if (!column.unit && (name == "time_ms" || name == "timestamp_ms")) column.unit = parse_unit("ms");
+  }
   if (!others.empty())
     layout.repairs.push_back(
         {layout.names_line + 1, fmt::format("a channel here, since the clock is '{}': {}",

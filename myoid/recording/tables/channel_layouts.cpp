@@ -1,6 +1,7 @@
 #include "myoid/recording/tables/channel_layouts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,9 +66,31 @@ std::optional<std::size_t> first_numbers(const TableText& text, std::size_t begi
   return std::nullopt;
 }
 
-/// Finds Qualisys's layout: a line CHANNEL_NAMES, then perhaps a row "SAMPLE, TIME, names".
+/// Returns the columns of rows that hold `names`, and before these a frame, a time or both where a row has more cells.
+std::vector<TableColumn> columns_behind_clock(const std::vector<std::string>& names,
+                                              const TableText& text,
+                                              const TableLayout& layout,
+                                              const std::filesystem::path& path) {
+  const auto first = filled_cells(text.lines[layout.first_row], layout.separator);
+  const std::size_t more = first.size() > names.size() ? first.size() - names.size() : 0;
+  if (more > 2)
+    throw ReadError(path, layout.first_row + 1,
+                    fmt::format("{} cells, where line {} names {} channels: expected these, with a frame and a time "
+                                "before them at most",
+                                first.size(), layout.names_line + 1, names.size()));
+  std::vector<TableColumn> columns;
+  const auto begin = parse_number(first[0]);
+  const bool counts = begin && *begin == std::floor(*begin) && *begin > 0.0;  // a time begins at 0 or within a second
+  if (more == 2 || (more == 1 && counts)) columns.push_back({Kind::frame, "Frame"});
+  if (more == 2 || (more == 1 && !counts)) columns.push_back({Kind::time, "Time"});
+  for (TableColumn& column : take_labels_apart(names)) columns.push_back(std::move(column));
+  return columns;
+}
+
+/// Finds Qualisys's layout of channels and of derived quantities: a line CHANNEL_NAMES or DATA_TYPES, then perhaps a
+/// row "SAMPLE, TIME, names"; or a row of names alone above the numbers, as for force plates.
 std::optional<TableLayout> qualisys_channels(const TableText& text, const std::filesystem::path& path) {
-  if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_SAMPLES")) return std::nullopt;
+  if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_")) return std::nullopt;
   constexpr std::size_t kHeader = 40;
   TableLayout layout;
   layout.separator = '\t';
@@ -76,7 +99,7 @@ std::optional<TableLayout> qualisys_channels(const TableText& text, const std::f
   for (std::size_t n = 0; n < std::min(text.lines.size(), kHeader); ++n) {
     auto cells = filled_cells(text.lines[n], '\t');
     if (cells.empty()) continue;
-    if (cells[0] == "CHANNEL_NAMES") {
+    if (cells[0] == "CHANNEL_NAMES" || cells[0] == "DATA_TYPES") {
       names.assign(cells.begin() + 1, cells.end());
       layout.names_line = n;
       begin = n + 1;
@@ -87,20 +110,33 @@ std::optional<TableLayout> qualisys_channels(const TableText& text, const std::f
       break;
     }
   }
-  if (names.empty() && head.empty())
-    throw ReadError(path, 1, "there is no line CHANNEL_NAMES, so no channel has a name");
+  const bool of_samples = trim(text.lines[0]).starts_with("NO_OF_SAMPLES");
+  if (names.empty() && head.empty() && !of_samples) return std::nullopt;
   const auto first = first_numbers(text, begin, begin + kHeader, '\t');
+  if (names.empty() && head.empty()) {
+    std::size_t above = first.value_or(0);
+    while (above > 0 && trim(text.lines[above - 1]).empty()) --above;
+    if (above > 0) head = filled_cells(text.lines[above - 1], '\t');
+    if (!first || head.size() != filled_cells(text.lines[*first], '\t').size())
+      throw ReadError(path, 1, "there is no line CHANNEL_NAMES, so no channel has a name");
+    layout.names_line = above - 1;
+  }
   if (!first) throw ReadError(path, begin, "there are no rows of numbers below the header");
   layout.first_row = *first;
   layout.end_row = end_of_block(text, *first, '\t');
   const std::size_t header = head.empty() ? *first : layout.names_line;
-  layout.read_header(text, header, {{"frequency"}, {"no_of_samples"}, {"total_no_of_channels", "no_of_channels"}});
-  const bool named = !head.empty();
-  layout.columns = take_labels_apart(named ? head : names);
-  if (named) {
+  layout.read_header(text, header,
+                     {{"frequency"},
+                      {"no_of_samples", "no_of_frames"},
+                      {"total_no_of_channels", "no_of_channels", "no_of_data_types"}});
+  if (!head.empty()) {
+    layout.columns = take_labels_apart(head);
     set_kinds(layout);
   } else {
-    layout.repairs.push_back({layout.names_line + 1, "the names come from CHANNEL_NAMES"});
+    layout.columns = columns_behind_clock(names, text, layout, path);
+    layout.repairs.push_back(
+        {layout.names_line + 1,
+         fmt::format("the names come from {}", filled_cells(text.lines[layout.names_line], '\t').front())});
   }
   return layout;
 }

@@ -37,6 +37,35 @@ TEST(ChannelLayouts, QualisysChannelsWithoutAHeaderRow) {
       "0.001\t0.002\n0.003\t0.004\n0.005\t0.006\n");
 }
 
+// Qualisys writes speeds and angles that it derived with a frame and a time in every row, which the header names
+// nowhere.
+TEST(ChannelLayouts, ARowOfQualisysHasAFrameAndATimeBeforeTheNamedQuantities) {
+  const std::string head = "NO_OF_FRAMES\t3\nNO_OF_DATA_TYPES\t2\nFREQUENCY\t200\nDATA_INCLUDED\tVelocity\n";
+  const std::string names = "DATA_TYPES\tWrist_vel\tElbow_vel\n\n\n";
+  for (const char* rows : {"1\t0.00000\t11.5\t12.5\n2\t0.00500\t21.5\t22.5\n3\t0.01000\t31.5\t32.5\n",
+                           "0.00000\t11.5\t12.5\n0.00500\t21.5\t22.5\n0.01000\t31.5\t32.5\n",
+                           "1\t11.5\t12.5\n2\t21.5\t22.5\n3\t31.5\t32.5\n", "11.5\t12.5\n21.5\t22.5\n31.5\t32.5\n"}) {
+    const CsvSeries file = parse_emg_table(head + names + rows, "velocity.tsv");
+    ASSERT_EQ(file.data.channel_count(), 2) << rows;
+    EXPECT_EQ(file.data.channels()[0].name, "Wrist_vel");
+    EXPECT_EQ(file.data.values()(1, 0), 21.5) << rows;
+    EXPECT_EQ(file.data.values()(2, 1), 32.5) << rows;
+    EXPECT_NEAR(file.data.time_s()[2] - file.data.time_s()[0], 0.01, 1e-15) << rows;
+  }
+  EXPECT_THROW((void)parse_emg_table(head + names + "1\t0\t3\t4\t5\n2\t0.005\t3\t4\t5\n", "v.tsv"), ReadError);
+}
+
+TEST(ChannelLayouts, ForcesOfQualisysWithARowOfNamesAlone) {
+  const std::string text =
+      "NO_OF_SAMPLES\t2\nFREQUENCY\t1200\nTIME_STAMP\t2026-01-01, 10:00:00\nFORCE_PLATE_NAME\tPlate 1\n"
+      "FORCE_PLATE_LENGTH\t600\n\nForce_X\tForce_Z\tCOP_X\n1\t700\t10\n2\t701\t11\n";
+  const CsvSeries file = parse_emg_table(text, "force.tsv");
+  ASSERT_EQ(file.data.channel_count(), 3);
+  EXPECT_EQ(file.data.channels()[1].name, "Force_Z");
+  EXPECT_EQ(file.data.values()(1, 1), 701.0);
+  EXPECT_NEAR(file.data.mean_rate_hz(), 1200.0, 1e-9);
+}
+
 TEST(ChannelLayouts, TracksOfBtsWithOneUnitForAll) {
   expect_the_emg(
       "BTS ASCII format\n\nType:\tEmg tracks\nMeasure unit:\tmV\n\nTracks:\t2\nFrequency:\t2000 "

@@ -43,6 +43,8 @@ Head head_of(const TableText& text, const std::filesystem::path& path) {
   return {line, separator, filled_cells(text.lines[line], separator)};
 }
 
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
 /// Reads a row of units ("s", "mV", ...) for the columns that have none; false if the row holds numbers.
 bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColumn>& columns) {
   bool any = false;
@@ -55,6 +57,30 @@ bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColu
     if (!columns[c].unit && !cells[c].empty()) columns[c].unit = unit_in_cell(cells[c]);
   }
   return any;
+}
+
+/// Leaves out the columns that hold a text in each of the first rows, and a column without a name that counts the rows.
+void leave_out_texts_and_counts(const TableText& text, TableLayout& layout) {
+  constexpr std::size_t kRows = 50;
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t n = layout.first_row; rows.size() < kRows && n < text.lines.size(); n = next_line(text, n + 1))
+    rows.push_back(cells_of(text.lines[n], layout.separator));
+  if (rows.size() < 2) return;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    TableColumn& column = layout.columns[c];
+    const auto number = [&](const std::vector<std::string>& row) {
+      return c < row.size() ? parse_number(row[c]) : std::nullopt;
+    };
+    const bool texts = std::ranges::all_of(rows, [&](const auto& row) {
+      return c < row.size() && std::ranges::any_of(row[c], is_letter) && !number(row) && !is_gap_word(row[c]) &&
+             !written_time_s(row[c]);
+    });
+    const auto first = number(rows[0]), second = number(rows[1]);
+    const bool counts = column.name.empty() && first && second && *second == *first + 1.0;
+    if (!texts && !counts) continue;
+    column.kind = Kind::left_out;
+    if (counts) column.name = "(the count of the rows)";
+  }
 }
 
 /// Returns the layout of a header row with a time column and rows of numbers below.
@@ -83,6 +109,7 @@ TableLayout plain_layout(const TableText& text, const std::filesystem::path& pat
                     fmt::format("column '{}': time is in s or ms", head.names[at(time - layout.columns.begin())]));
   if (!time->unit && equal_ignoring_case(time->name, "time_ms")) time->unit = parse_unit("ms");
   time->kind = Kind::time;
+  leave_out_texts_and_counts(text, layout);
   return layout;
 }
 

@@ -28,6 +28,7 @@ using Cells = std::vector<std::string>;
 
 std::optional<double> cell_number(const std::string& cell, char separator) {
   if (const auto value = parse_number(cell)) return value;
+  if (const auto time = written_time_s(cell)) return time;
   return separator == ',' ? std::nullopt : parse_comma_number(cell);
 }
 
@@ -79,6 +80,9 @@ class TableFinder {
     above_ = layout_.first_row;
     if (!previous()) return std::nullopt;
     Cells names = row(above_);
+    // Names between blanks stand above rows between tabs.
+    if (const auto words = split_words(text_.lines[above_]); filled(names) == 1 && words.size() == width_)
+      names.assign(words.begin(), words.end());
     Cells rates, units, periods;
     const auto is_rate = [](const std::string& cell) { return rate_in_cell(cell).has_value(); };
     const auto is_period = [](const std::string& cell) { return period_in_cell(cell).has_value(); };

@@ -1,8 +1,13 @@
 #include "myoid/recording/tables/emg_table.h"
 
+#include <algorithm>
+#include <string>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/recording/tables/text_table.h"
 
 namespace myoid::recording {
 namespace {
@@ -129,6 +134,69 @@ TEST(EmgTable, ARateInAnotherUnitIsRefusedWhereItIsTheOnlyClock) {
   const CsvSeries timed =
       parse_emg_table("Export of 2024\nSampling rate: 5 ms\ntime,VL [uV],BF [uV]\n0,1,2\n0.005,3,4\n", "a.csv");
   EXPECT_EQ(timed.data.time_s()[1], 0.005);
+}
+
+// Shimmer writes a line for spreadsheets, a row of units, and milliseconds since 1970 under a name of many words.
+TEST(EmgTable, AWordTimestampWithinANameIsTheClock) {
+  for (const std::string sep : {"\"sep=,\"\n", ""}) {
+    const CsvSeries s =
+        parse_emg_table(sep +
+                            "S_68B7_Timestamp_Unix_CAL,S_68B7_EMG_CH1_CAL,S_68B7_Gyro_X_CAL,\n"
+                            "ms,mV,deg/s,\n1606300000000,1,2,\n1606300000002,3,4,\n1606300000004,5,6,\n",
+                        "a.csv");
+    ASSERT_EQ(s.data.channel_count(), 2) << sep;
+    EXPECT_EQ(s.data.channels()[0], (Channel{"S_68B7_EMG_CH1_CAL", Unit::volt}));
+    EXPECT_NEAR(s.data.time_s()[1] - s.data.time_s()[0], 0.002, 1e-6);  // round-off of 1.6e9 s
+    EXPECT_DOUBLE_EQ(s.data.values()(1, 0), 3e-3);
+  }
+}
+
+TEST(EmgTable, AClockOfThirteenDigitsCountsMilliseconds) {
+  for (const auto& [digits, seconds] :
+       {std::pair("1606300000", 1.0), std::pair("1606300000000", 1e-3), std::pair("1606300000000000", 1e-6)}) {
+    const std::string begin = std::string(digits).substr(0, std::string(digits).size() - 1);
+    const CsvSeries s =
+        parse_emg_table("timestamp,EMG [mV]\n" + begin + "1,1\n" + begin + "2,2\n" + begin + "3,3\n", "a.csv");
+    EXPECT_NEAR(s.data.time_s()[2] - s.data.time_s()[0], 2.0 * seconds, 1e-6) << digits;
+    EXPECT_EQ(s.repairs.size(), seconds < 1.0 ? 1U : 0U);
+  }
+}
+
+TEST(EmgTable, TimesOfTheDayAreSeconds) {
+  for (const std::string day : {"", "2026-05-01T", "2026-05-01 "}) {
+    const CsvSeries s = parse_emg_table(
+        "Time,EMG [mV]\n" + day + "10:02:59.500,1\n" + day + "10:03:00.000,2\n" + day + "10:03:00.500,3\n", "a.csv");
+    ASSERT_EQ(s.data.sample_count(), 3) << day;
+    EXPECT_NEAR(s.data.time_s()[2] - s.data.time_s()[1], 0.5, 1e-6);
+    if (day.empty()) {
+      EXPECT_DOUBLE_EQ(s.data.time_s()[1], 36180.0);
+    }
+    EXPECT_EQ(s.repairs.size(), 1U);
+  }
+  EXPECT_DOUBLE_EQ(*written_time_s("1970-01-02 00:00:01.25+01:00"), 86401.25);
+  for (const char* other : {"10:02", "10.02.03", "2026-13-01 10:02:03", "a:b:c", "10:72:03", "10:02:03 pm"})
+    EXPECT_FALSE(written_time_s(other)) << other;
+}
+
+TEST(EmgTable, AColumnOfTextsAndACountWithoutANameAreLeftOutWithANote) {
+  const CsvSeries s =
+      parse_emg_table(",time,phase,EMG [mV],note\n0,0.0,rest,1,\n1,0.1,rest,2,\n2,0.2,effort,3,\n", "a.csv");
+  ASSERT_EQ(s.data.channel_count(), 2);
+  EXPECT_EQ(s.data.channels()[0].name, "EMG");
+  EXPECT_DOUBLE_EQ(s.data.values()(2, 0), 3e-3);
+  EXPECT_EQ(std::ranges::count_if(s.repairs, [](const Repair& r) { return r.message.ends_with("rows), phase"); }), 1);
+  // A text in one row alone is a damaged number.
+  EXPECT_THROW((void)parse_emg_table("time,EMG\n0,1\n0.1,x\n0.2,3\n", "a.csv"), ReadError);
+}
+
+TEST(EmgTable, NamesBetweenBlanksStandAboveRowsBetweenTabs) {
+  const CsvSeries s = parse_emg_table(
+      "[Force Data]\nNumberOfForcePlates=1\nSampleRate=150.0\n#Sample FX1 FY1 FZ1\n1\t3\t-2\t400\n2\t4\t-2\t401\n",
+      "cortex.txt");
+  ASSERT_EQ(s.data.channel_count(), 3);
+  EXPECT_EQ(s.data.channels()[2].name, "FZ1");
+  EXPECT_EQ(s.data.values()(1, 2), 401.0);
+  EXPECT_NEAR(s.data.mean_rate_hz(), 150.0, 1e-9);
 }
 
 TEST(EmgTable, ATriggerCalledTIsNoSecondClock) {

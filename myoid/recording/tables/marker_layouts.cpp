@@ -25,33 +25,17 @@ void add_marker(const std::string& name, MarkerLayout& layout) {
     layout.table.columns.push_back({Kind::channel, name.empty() ? axis : name + " " + axis});
 }
 
-/// Returns the name in "Wrist X", "Wrist.x", "Wrist_x" or "Wrist:X" if the ending is this axis; an
-/// empty name for "X" or ".X".
-std::optional<std::string> name_before_axis(const std::string& cell, char axis) {
-  if (cell.empty() || static_cast<char>(cell.back() | 0x20) != axis) return std::nullopt;
-  if (cell.size() == 1) return "";
-  const char before = cell[cell.size() - 2];
-  if (before != ' ' && before != '.' && before != '_' && before != ':') return std::nullopt;
-  return std::string(trim(std::string_view(cell).substr(0, cell.size() - 2)));
-}
-
-bool is_triple(const Cells& header, std::size_t c) {
-  if (c + 2 >= header.size()) return false;
-  const auto name = name_before_axis(header[c], 'x');
-  return name && name_before_axis(header[c + 1], 'y') == name && name_before_axis(header[c + 2], 'z') == name;
-}
-
 /// Takes columns NAME x, NAME y, NAME z that follow up to two columns of frames and times; false if there are none.
 bool take_triples(const Cells& header, MarkerLayout& layout) {
   std::size_t c = 0;
-  for (; c < header.size() && c < 3 && !is_triple(header, c); ++c) {
+  for (; c < header.size() && c < 3 && !is_axis_triple(header, c); ++c) {
     const std::string name = lower(header[c]);
     const Kind kind = name == "frame" || name == "frame#"    ? Kind::frame
                       : name == "time" || name == "time (s)" ? Kind::time
                                                              : Kind::left_out;
     layout.table.columns.push_back({kind, header[c]});
   }
-  for (; is_triple(header, c); c += 3) add_marker(*name_before_axis(header[c], 'x'), layout);
+  for (; is_axis_triple(header, c); c += 3) add_marker(*name_before_axis(header[c], 'x'), layout);
   for (; c < header.size(); ++c) layout.table.columns.push_back({Kind::left_out, header[c]});
   return !layout.names.empty();
 }
@@ -301,6 +285,8 @@ std::optional<MarkerLayout> motive_markers(const TableText& text, const std::fil
   if (others > 0)
     layout.table.repairs.push_back(
         {header->frame_line + 1, fmt::format("{} columns of rigid bodies and other quantities are left out", others)});
+  // A marker that Motive lost and found again is a new column of its old name.
+  layout.names = unique_names(layout.names, "marker", header->frame_line + 1, layout.table.repairs);
   layout.table.set_rows_below(text, header->frame_line, ',');
   layout.table.first_frame = 0.0;
   layout.table.read_header(text, 1, {{"export frame rate", "capture frame rate"}, {"total exported frames"}, {}});
@@ -314,6 +300,20 @@ std::optional<MarkerLayout> motive_markers(const TableText& text, const std::fil
 }
 
 }  // namespace
+
+std::optional<std::string> name_before_axis(const std::string& cell, char axis) {
+  if (cell.empty() || static_cast<char>(cell.back() | 0x20) != axis) return std::nullopt;
+  if (cell.size() == 1) return "";
+  const char before = cell[cell.size() - 2];
+  if (before != ' ' && before != '.' && before != '_' && before != ':') return std::nullopt;
+  return std::string(trim(std::string_view(cell).substr(0, cell.size() - 2)));
+}
+
+bool is_axis_triple(const Cells& header, std::size_t c) {
+  if (c + 2 >= header.size()) return false;
+  const auto name = name_before_axis(header[c], 'x');
+  return name && name_before_axis(header[c + 1], 'y') == name && name_before_axis(header[c + 2], 'z') == name;
+}
 
 std::optional<MarkerLayout> marker_layout(const TableText& text, const std::filesystem::path& path) {
   for (const auto& known : {qualisys_markers, bts_points, nexus_trajectories, motive_markers, first_principles}) {

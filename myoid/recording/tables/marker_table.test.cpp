@@ -155,6 +155,20 @@ TEST(MarkerTable, AMissingRowOfUnitsMakesNoUnitsOfSamples) {
   EXPECT_THAT(file.repairs[0].message, HasSubstr("units"));
 }
 
+// Motive 1.24 writes a column of time codes, and a lost marker that it found again under its old name.
+TEST(MarkerTable, PartsOfOneMarkerOfMotiveAreMarkers) {
+  const std::string text =
+      "Format Version,1.24,Take Name,t,Capture Frame Rate,120.000000,Length Units,Centimeters\n\n"
+      ",Type,,Marker,Marker,Marker,Marker,Marker,Marker\n,Name,,Unlabeled 7,Unlabeled 7,Unlabeled 7,Unlabeled 7,"
+      "Unlabeled 7,Unlabeled 7\n,ID,,A1,A1,A1,A2,A2,A2\n,,,Position,Position,Position,Position,Position,Position\n"
+      "Frame,Time (Seconds),TimeCode,X,Y,Z,X,Y,Z\n0,0.000000,15:26:46:12.00,1,2,3,,,\n"
+      "1,0.008333,15:26:46:12.01,,,,4,5,6\n";
+  const MarkerFile file = parse_marker_table(text, "take.csv");
+  EXPECT_THAT(file.markers.names, ElementsAre("Unlabeled 7", "Unlabeled 7_2"));
+  EXPECT_TRUE(file.markers.missing(0, 1));
+  EXPECT_DOUBLE_EQ(file.markers.position(1, 1).z(), 0.06);
+}
+
 TEST(MarkerTable, CountsOfTheHeaderAreComparedWithTheTable) {
   const auto said = [](const std::string& from, const std::string& to) {
     std::string text = kQualisys + "1\t2\t3\t4\t5\t6\n1\t2\t3\t4\t5\t6\n1\t2\t3\t4\t5\t6\n";

@@ -28,5 +28,20 @@ TEST(ResultUnits, AreThoseOfThePagesOfTheCommands) {
   EXPECT_EQ(result_unit("weather", "rain", false), "");
 }
 
+// Files of forces say `inDegrees=yes`, and call their columns by the prefixes of an ExternalLoads file.
+TEST(MayHoldAngles, NotInColumnsThatAreVectors) {
+  const auto holds = [](const std::string& names) {
+    std::string row = "0";
+    for (const char c : names) row += c == '\t' ? "\t1" : "";
+    return may_hold_angles(parse_storage(
+        "walk\nversion=1\nnRows=1\ninDegrees=yes\nendheader\ntime\t" + names + "\n" + row + "\t1\n", "a.mot"));
+  };
+  EXPECT_FALSE(holds("rfx\trfy\trfz\trcx\trcy\trcz\trmx\trmy\trmz"));
+  EXPECT_FALSE(holds("FP1_vX\tFP1_vY\tFP1_vZ"));
+  EXPECT_TRUE(holds("RHipAngle_x\tRHipAngle_y\tRHipAngle_z"));
+  EXPECT_TRUE(holds("rfx\trfy\trfz\tknee_flexion"));
+  EXPECT_TRUE(holds("hip_flexion\thip_adduction\thip_rotation"));
+}
+
 }  // namespace
 }  // namespace myoid::recording

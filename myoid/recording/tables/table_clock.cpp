@@ -107,6 +107,14 @@ class RowClock {
                : fmt::format("frame {}", numbers_.clock(i, *frame_));
   }
 
+  /// Returns the least step from frame to frame if all steps are multiples of it, else 1.
+  [[nodiscard]] double least_step() const {
+    const auto frame = numbers_.clock.col(*frame_);
+    const Eigen::ArrayXd step = frame.tail(rows() - 1) - frame.head(rows() - 1);
+    const double least = step.minCoeff();
+    return least > 1.0 && (step / least == (step / least).round()).all() ? least : 1.0;
+  }
+
   void check_order() {
     if (sub_frame_ && numbers_.clock.col(*sub_frame_).minCoeff() < 0.0)
       throw ReadError(path_, line(0), "the number of a sub-frame is below 0");
@@ -120,13 +128,15 @@ class RowClock {
     }
     double missing = 0.0;
     Eigen::Index first_hole = -1;
+    // Rows that all step by one whole number of frames are every second or third frame of a take.
+    const double stride = sub_frame_ || rows() < 3 ? 1.0 : least_step();
     for (Eigen::Index i = 1; i < rows(); ++i) {
       const double step = place(i, n) - place(i - 1, n);
       if (!(step > 0.0))
         throw ReadError(path_, line(i),
                         fmt::format("{} stands below {}: the frames do not increase", name_of(i), name_of(i - 1)));
-      if (step == 1.0 || (uneven && step == 2.0)) continue;
-      missing += step - 1.0;
+      if (step == stride || (uneven && step == 2.0)) continue;
+      missing += step / stride - 1.0;
       if (first_hole < 0) first_hole = i;
     }
     if (first_hole >= 0)
@@ -138,6 +148,17 @@ class RowClock {
   [[nodiscard]] Eigen::VectorXd of_time_column() {
     const TableColumn& column = first_of(layout_, Kind::time);
     Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * numbers_.clock.col(*time_);
+    // Seconds since 1970 have ten digits; a clock with three, six or nine more counts ms, us or ns.
+    struct Fraction {
+      double least, to_s;
+      const char* symbol;
+    };
+    for (const Fraction& of : {Fraction{1e17, 1e-9, "ns"}, {1e14, 1e-6, "us"}, {1e11, 1e-3, "ms"}}) {
+      if (column.unit || !(time[0] >= of.least)) continue;
+      time *= of.to_s;
+      repairs_.push_back({line(0), fmt::format("'{}' is read as {} since 1970", column.name, of.symbol)});
+      break;
+    }
     if (!layout_.blocks.empty())
       for (Eigen::Index i = 0; i < time.size(); ++i) time[i] += layout_.blocks[block_of(i)].begin_s;
     for (Eigen::Index i = 0; i < time.size(); ++i) {
@@ -210,7 +231,8 @@ class RowClock {
   std::optional<Eigen::Index> time_, frame_, sub_frame_;
 };
 
-/// Returns the last decimal with which the times are written: the power of ten of which all are multiples.
+}  // namespace
+
 double last_decimal(const Eigen::VectorXd& time_s) {
   constexpr double kFinest = 1e-9;
   double unit = 0.1;
@@ -221,8 +243,6 @@ double last_decimal(const Eigen::VectorXd& time_s) {
   }
   return unit;
 }
-
-}  // namespace
 
 void state_uneven_step(const Eigen::VectorXd& time_s,
                        const std::vector<std::size_t>& lines,

@@ -26,6 +26,10 @@ namespace myoid::recording {
                                         const std::filesystem::path& path,
                                         std::vector<Repair>& repairs);
 
+/// Returns the last decimal with which times are written [s]: the power of ten of which all are multiples, 1e-9 or
+/// more.
+[[nodiscard]] double last_decimal(const Eigen::VectorXd& time_s);
+
 /// Notes a step that stands out of an otherwise even clock. Its departure from the median step must exceed ten times
 /// the 80th percentile of all departures. Where steps often differ by the last decimal, because times are rounded, it
 /// must exceed that decimal too, and so where that decimal is below a tenth of a step. `lines` are the line numbers of

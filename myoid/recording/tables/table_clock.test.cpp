@@ -66,6 +66,23 @@ TEST(RowTimes, LostSubFramesAreAGapAndDoubledOrReversedOnesAreRefused) {
   EXPECT_THAT(refusal("11,0,1\n11.5,1,2\n", 500.0), HasSubstr("11.5"));
 }
 
+TEST(RowTimes, EverySecondFrameOfATakeIsNoGap) {
+  const auto stated = [](const std::string& text) {
+    TableLayout layout;
+    layout.columns = {
+        {TableColumn::Kind::frame, "Frame"}, {TableColumn::Kind::time, "Time"}, {TableColumn::Kind::channel, "E"}};
+    layout.end_row = 1000;
+    layout.rate_hz = 120.0;
+    std::vector<Repair> repairs;
+    const TableText table(text);
+    const Eigen::VectorXd t = row_times(layout, read_rows(table, rows_of(layout), "f.csv"), "f.csv", repairs);
+    EXPECT_NEAR(t[1] - t[0], 1.0 / 60.0, 1e-6);
+    return test::repair_lines(repairs);
+  };
+  EXPECT_EQ(stated("0,0,7\n2,0.016667,7\n4,0.033333,7\n6,0.05,7\n"), "");
+  EXPECT_THAT(stated("0,0,7\n2,0.016667,7\n6,0.05,7\n8,0.066667,7\n"), HasSubstr("3: 1 row is missing"));
+}
+
 TEST(RowTimes, AStepThatIsNotAsTheOthersIsStatedAndRoundingIsNot) {
   const auto stated = [](Eigen::VectorXd time) {
     std::vector<Repair> repairs;

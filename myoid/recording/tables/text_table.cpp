@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 
@@ -50,8 +51,7 @@ enum class CellKind : std::uint8_t { number, comma_number, gap, wrong };
 CellKind read_cell(std::string_view cell, char separator, double& value) {
   if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
   value = kNan;
-  if (cell.empty() || cell == "-" || equal_ignoring_case(cell, "n/a") || equal_ignoring_case(cell, "nan"))
-    return CellKind::gap;
+  if (cell.empty() || is_gap_word(cell)) return CellKind::gap;
   if (const auto number = parse_number(cell)) {
     value = *number;
     return CellKind::number;
@@ -66,7 +66,7 @@ struct RowScan {
   std::uint32_t cells = 0;   ///< Number of cells.
   std::uint32_t filled = 0;  ///< Cells up to the last filled one.
   bool blank = true;         ///< All cells are empty.
-  bool comma = false, gap = false, wrong = false, remark = false;
+  bool comma = false, gap = false, wrong = false, remark = false, day = false;
 };
 
 struct ColumnUse {
@@ -147,7 +147,14 @@ class RowReader {
         const std::string_view cell = raw_cell(at, end, rows_.separator);
         empty = cell.empty() || cell == "\"\"";
         if (use.is_number()) {
-          const CellKind kind = read_cell(cell, rows_.separator, value);
+          CellKind kind = read_cell(cell, rows_.separator, value);
+          if (kind == CellKind::wrong && use.kind == ColumnUse::Kind::clock) {
+            if (const auto time = written_time_s(cell)) {
+              value = *time;
+              kind = CellKind::number;
+              row.day = true;
+            }
+          }
           row.comma = row.comma || kind == CellKind::comma_number;
           row.wrong = row.wrong || kind == CellKind::wrong;
         } else if (use.kind == ColumnUse::Kind::remark) {
@@ -182,6 +189,7 @@ class RowReader {
       if (!keeps(i, kept)) break;
       if (row.wrong) refuse_cell(i);
       if (row.comma && comma_line_ == 0) comma_line_ = rows_.first + i + 1;
+      if (row.day && day_line_ == 0) day_line_ = rows_.first + i + 1;
       if (row.gap && gap_line_ == 0) gap_line_ = rows_.first + i + 1;
       if (row.remark) take_remarks(i, static_cast<std::size_t>(kept));
       if (kept != static_cast<Eigen::Index>(i)) {
@@ -292,6 +300,7 @@ class RowReader {
       refuse_points();
       note(comma_line_, "comma decimals read as decimal points");
     }
+    if (day_line_ > 0) note(day_line_, "times of the day are read in seconds");
     if (blank_line_ > 0)
       note(first_blank_, fmt::format("{} between rows of numbers passed over",
                                      blank_line_ == 1 ? "a blank line" : fmt::format("{} blank lines", blank_line_)));
@@ -310,11 +319,49 @@ class RowReader {
   std::vector<RowScan> scans_;
   TableNumbers numbers_;
   std::size_t end_ = 0, checked_end_ = 0;
-  std::size_t comma_line_ = 0, gap_line_ = 0, short_line_ = 0, first_blank_ = 0;
+  std::size_t comma_line_ = 0, day_line_ = 0, gap_line_ = 0, short_line_ = 0, first_blank_ = 0;
   std::size_t blank_line_ = 0;
 };
 
 }  // namespace
+
+bool is_gap_word(std::string_view cell) {
+  return cell == "-" || equal_ignoring_case(cell, "n/a") || equal_ignoring_case(cell, "nan");
+}
+
+std::optional<double> written_time_s(std::string_view cell) {
+  cell = trim(cell);
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
+  /// Takes a whole number of at most `most` digits and the mark behind it from the front of the cell.
+  const auto take = [&](std::size_t most, std::string_view marks) -> std::optional<int> {
+    const std::size_t end = cell.find_first_not_of("0123456789");
+    if (end == 0 || end == std::string_view::npos || end > most || marks.find(cell[end]) == std::string_view::npos)
+      return std::nullopt;
+    int value = 0;
+    std::from_chars(cell.data(), cell.data() + end, value);
+    cell.remove_prefix(end + 1);
+    return value;
+  };
+  double days = 0.0;
+  if (cell.size() > 10 && (cell[4] == '-' || cell[4] == '/')) {
+    const auto year = take(4, "-/"), month = take(2, "-/"), day = take(2, " T");
+    if (!year || !month || !day) return std::nullopt;
+    const std::chrono::year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
+                                           std::chrono::day(static_cast<unsigned>(*day))};
+    if (!date.ok()) return std::nullopt;
+    days = static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+  }
+  const auto hours = take(2, ":"), minutes = take(2, ":");
+  if (!hours || !minutes || *hours > 24 || *minutes > 59) return std::nullopt;
+  const std::size_t end = std::min(cell.find_first_not_of("0123456789.,"), cell.size());
+  const std::string_view zone = cell.substr(end);
+  if (!zone.empty() && zone != "Z" && zone.find_first_not_of("+-:0123456789") != std::string_view::npos)
+    return std::nullopt;
+  auto seconds = parse_number(cell.substr(0, end));
+  if (!seconds) seconds = parse_comma_number(cell.substr(0, end));
+  if (!seconds || !(*seconds >= 0.0 && *seconds < 61.0)) return std::nullopt;
+  return 86400.0 * days + 3600.0 * *hours + 60.0 * *minutes + *seconds;
+}
 
 std::vector<std::string> cells_of(std::string_view line, char separator) {
   std::vector<std::string> cells;

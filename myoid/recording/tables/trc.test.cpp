@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -139,6 +140,51 @@ TEST(Trc, MarkersWithoutNamesAreNamedByTheirPlace) {
       EXPECT_THAT(file.repairs, testing::Contains(testing::Field(&Repair::message, HasSubstr("no name"))));
     }
   }
+}
+
+// Pipelines of video name every axis. Read as markers, the second label would take the second marker's columns.
+TEST(Trc, ThreeLabelsForEachMarkerAreOneMarker) {
+  const std::string head = "PathFileType\t4\t(X/Y/Z)\tf.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n";
+  const std::string rows = "1\t0\t1\t2\t3\t4\t5\t6\n2\t0.01\t1\t2\t3\t4\t5\t6\n";
+  for (const char* axes : {"", "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n"}) {
+    const MarkerFile file = parse_trc(
+        head + "100\t100\t2\t2\tmm\nFrame#\tTime\tNose_x\tNose_y\tNose_z\tHip_x\tHip_y\tHip_z\n" + axes + rows,
+        "f.trc");
+    EXPECT_THAT(file.markers.names, testing::ElementsAre("Nose", "Hip"));
+    ASSERT_EQ(file.markers.frame_count(), 2);
+    EXPECT_DOUBLE_EQ(file.markers.position(1, 1).y(), 0.005);
+    EXPECT_THAT(file.repairs, testing::Contains(testing::Field(&Repair::message, HasSubstr("'Nose_y'"))));
+  }
+}
+
+TEST(Trc, LabelsWithBlanksBetweenThemAreTwo) {
+  const MarkerFile file = parse_trc(
+      "PathFileType\t4\t(X/Y/Z)\tf.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n100\t100\t2\t3\tmm\n"
+      "Frame#\tTime\thip left\t\t\tr_ankle         l_ankle\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\n"
+      "1\t0\t1\t2\t3\t4\t5\t6\t7\t8\t9\n2\t0.01\t1\t2\t3\t4\t5\t6\t7\t8\t9\n",
+      "f.trc");
+  EXPECT_THAT(file.markers.names, testing::ElementsAre("hip left", "r_ankle", "l_ankle"));
+}
+
+// 240 frames a second with two decimals: 0, 0, 0.01, 0.01, 0.02, ...
+TEST(Trc, RoundedTimesThatStandTwiceLoseNoFrame) {
+  const auto file_with = [](double time_scale) {
+    std::string text =
+        "PathFileType\t4\t(X/Y/Z)\tf.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n240\t240\t24\t1\tmm\n"
+        "Frame#\tTime\ta\n\t\tX1\tY1\tZ1\n\n";
+    for (int k = 0; k < 24; ++k)
+      text += fmt::format("{}\t{:.2f}\t{}\t1\t1\n", k + 1, 1.0 + time_scale * k / 240.0, k + 1);
+    return parse_trc(text, "f.trc");
+  };
+  const MarkerFile rounded = file_with(1.0);
+  ASSERT_EQ(rounded.markers.frame_count(), 24);
+  EXPECT_DOUBLE_EQ(rounded.markers.time_s[7], 1.0 + 7.0 / 240.0);
+  EXPECT_DOUBLE_EQ(rounded.markers.positions_m(7, 0), 0.008);
+  EXPECT_THAT(rounded.repairs, testing::ElementsAre(testing::Field(&Repair::message, HasSubstr("those of 240 Hz"))));
+  // Times that are not those of the rate say nothing about the frames that share one.
+  const MarkerFile slower = file_with(0.5);
+  EXPECT_LT(slower.markers.frame_count(), 24);
+  EXPECT_DOUBLE_EQ(slower.markers.positions_m(0, 0), 0.001);
 }
 
 TEST(Trc, TellsWhatItRefusesAndWhere) {

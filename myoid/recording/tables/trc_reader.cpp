@@ -8,8 +8,12 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/index.h"
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/core/units.h"
+#include "myoid/recording/tables/blank_columns.h"
+#include "myoid/recording/tables/marker_layouts.h"
+#include "myoid/recording/tables/table_clock.h"
 #include "myoid/recording/tables/table_layout.h"
 #include "myoid/recording/tables/text_table.h"
 
@@ -82,6 +86,24 @@ std::vector<std::string> label_words(std::string_view line,
   return names;
 }
 
+/// Returns the markers of labels that name every axis, "Wrist_x", "Wrist_y", "Wrist_z"; empty for other labels.
+std::vector<std::string> markers_of_axes(const std::vector<std::string>& labels) {
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < labels.size(); c += 3) {
+    if (!is_axis_triple(labels, c)) return {};
+    names.push_back(*name_before_axis(labels[c], 'x'));
+  }
+  return names;
+}
+
+/// Splits labels at two blanks or more.
+std::vector<std::string> labels_between_blanks(const std::vector<std::string>& labels) {
+  std::vector<std::string> apart;
+  for (const std::string& label : labels)
+    for (const std::string_view word : wide_cells(label)) apart.emplace_back(word);
+  return apart;
+}
+
 /// Returns one marker name for each three columns: every word of the label line, wherever the tabs
 /// are, and made-up names for markers that have none.
 std::vector<std::string> read_names(const std::vector<std::string_view>& lines,
@@ -91,6 +113,19 @@ std::vector<std::string> read_names(const std::vector<std::string_view>& lines,
   constexpr std::size_t kNumber = 4;
   auto names = label_words(lines[kNumber - 1], separator, path, kNumber, repairs);
   const std::size_t count = markers_in_columns(lines, separator);
+  if (names.size() == 3 * count) {
+    if (auto markers = markers_of_axes(names); !markers.empty()) {
+      repairs.push_back({kNumber, fmt::format("three labels for each marker: '{}', '{}', '{}' are '{}'", names[0],
+                                              names[1], names[2], markers[0])});
+      names = std::move(markers);
+    }
+  }
+  if (names.size() < count) {
+    if (auto apart = labels_between_blanks(names); apart.size() == count) {
+      repairs.push_back({kNumber, "blanks stand between labels in place of tabs"});
+      names = std::move(apart);
+    }
+  }
   if (names.size() < count) {
     auto placed = names_over_columns(split(lines[kNumber - 1], separator), count);
     if (!placed.empty()) names = std::move(placed);
@@ -215,7 +250,7 @@ class TrcFrames {
       const bool last = n + 1 == lines.size();
       if (last && !text.ends_with_line && !keeps_last(text, cells.size())) break;
       const double time = time_of(cells, lines[n], n + 1);
-      if (repeats(time, n + 1)) continue;
+      require_order(time, n + 1);
       if (cells.size() < width_ + 2) {
         if (last) {
           leave_out_last(cells.size(), n + 1);
@@ -229,6 +264,7 @@ class TrcFrames {
     }
     if (time_.empty())
       throw ReadError(path_, lines.size(), "there are no frames after the header; export the file again");
+    if (repeated_line_ > 0) settle_repeats();
     state_what_was_mended();
   }
 
@@ -275,15 +311,41 @@ class TrcFrames {
     return *time;
   }
 
-  /// Returns true if the time equals that of the row before. Throws ReadError for an earlier one.
-  bool repeats(double time, std::size_t line) {
-    if (time_.empty() || time > time_.back()) return false;
+  /// Marks a time that equals that of the row before. Throws ReadError for an earlier one.
+  void require_order(double time, std::size_t line) {
+    if (time_.empty() || time > time_.back()) return;
     if (time < time_.back())
       throw ReadError(
           path_, line,
           fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file", time, time_.back()));
     mark(repeated_line_, line);
-    return true;
+  }
+
+  /// Gives the frames the times of the stated rate where the file's times are these, rounded: 240 frames a second with
+  /// two decimals. Leaves out the later rows of a time otherwise: a row is doubled where a decimal tells frames apart.
+  void settle_repeats() {
+    const auto count = static_cast<Eigen::Index>(time_.size());
+    const Eigen::Map<Eigen::VectorXd> time(time_.data(), count);
+    const double rate = parse_number(header_.field("DataRate")).value_or(0.0);
+    const double decimal = last_decimal(time);
+    if (decimal * rate > 1.0 + 1e-6 && time[count - 1] > time[0]) {
+      const Eigen::VectorXd even =
+          time[0] + Eigen::ArrayXd::LinSpaced(count, 0.0, static_cast<double>(count - 1)) / rate;
+      if ((time - even).cwiseAbs().maxCoeff() <= 1.01 * decimal) {
+        repairs_.push_back(
+            {repeated_line_, fmt::format("rounded times stand twice; the frames have those of {} Hz", rate)});
+        repeated_line_ = 0;
+        time_.assign(even.begin(), even.end());
+        return;
+      }
+    }
+    Eigen::Index kept = 1;
+    for (Eigen::Index row = 1; row < count; ++row) {
+      if (time[row] == time[kept - 1]) continue;
+      time_[at(kept)] = time[row];
+      values_.row(kept++) = values_.row(row).eval();
+    }
+    time_.resize(at(kept));
   }
 
   /// Fills the next row; an empty or missing cell is a gap.

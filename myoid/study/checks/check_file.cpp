@@ -1,6 +1,7 @@
 #include "myoid/study/checks/check_file.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/label_match.h"
+#include "myoid/ground/files/text_file.h"
 #include "myoid/recording/angle_file.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
@@ -112,6 +114,14 @@ std::vector<Remark> check_channels_of_emg(const std::filesystem::path& path, con
   return faults;
 }
 
+/// Returns true for a name that speaks of an angle. Any file of OpenSim says `inDegrees=no`, whatever it holds.
+bool names_an_angle(const std::string& name) {
+  const std::string word = small_letters(name);
+  return !recording::names_other_quantity(name) &&
+         std::ranges::any_of(std::array{"angle", "flexion", "adduction", "abduction", "rotation", "_tilt"},
+                             [&](const char* part) { return word.find(part) != std::string::npos; });
+}
+
 /// Returns the motion of a file in rad and m: the coordinates of the model or, without one, the columns that are angles
 /// or lengths by header and name. Empty if nothing is known of them.
 TimeSeries angles_of(const recording::Storage& file, const body::BodyModel* model) {
@@ -122,15 +132,25 @@ TimeSeries angles_of(const recording::Storage& file, const body::BodyModel* mode
     };
     return recording::to_si(file, is_angle);
   }
-  if (!recording::states_degrees(file) || !file.in_degrees) return {};
-  return recording::to_si(file, [](const std::string& name) { return !recording::is_translation_by_name(name); });
+  if (!recording::states_degrees(file)) return {};
+  const auto is_angle = [&](const std::string& name) {
+    return file.in_degrees ? recording::is_angle_in_degrees(file, name) : names_an_angle(name);
+  };
+  std::vector<std::string> known;
+  for (const Channel& channel : file.data.channels())
+    if (is_angle(channel.name) || (file.in_degrees && recording::is_translation_by_name(channel.name)))
+      known.push_back(channel.name);
+  return recording::to_si(file, is_angle).select(known);
 }
 
 }  // namespace
 
 std::vector<Remark> check_motion_file(const std::filesystem::path& path, const body::BodyModel* model) {
   const recording::Storage file = recording::read_storage(path);
-  if (!recording::may_hold_angles(file) || recording::stated_voltage(file)) return {};
+  const bool of_model = model != nullptr && std::ranges::any_of(file.data.channels(), [&](const Channel& channel) {
+                          return model->find_coordinate(channel.name).has_value();
+                        });
+  if ((!of_model && !recording::may_hold_angles(file)) || recording::stated_voltage(file)) return {};
   const TimeSeries motion = angles_of(file, model);
   if (motion.empty()) return {};
   std::vector<Remark> found;

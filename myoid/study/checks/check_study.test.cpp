@@ -216,6 +216,46 @@ std::vector<Remark> warnings_of(const std::filesystem::path& file) {
   return findings;
 }
 
+/// Returns the errors of `check` for a file of 200 rows at 100 Hz whose columns all are `value`, a function of the
+/// time.
+template <typename Value>
+std::size_t errors_of_motion(const std::string& head, const std::string& names, const Value& value) {
+  const test::TemporaryFolder folder;
+  std::string text = head + "endheader\ntime\t" + names + "\n";
+  const auto columns = std::ranges::count(names, '\t') + 1;
+  for (int i = 0; i < 200; ++i) {
+    text += fmt::format("{:.2f}", 0.01 * i);
+    for (auto c = columns; c > 0; --c) text += fmt::format("\t{:.6g}", value(0.01 * i));
+    text += "\n";
+  }
+  write_file(folder / "a.sto", text);
+  const std::vector<Remark> found = check_motion_file(folder / "a.sto", nullptr);
+  return static_cast<std::size_t>(
+      std::ranges::count(found, Severity::error, [](const Remark& remark) { return remark.severity; }));
+}
+
+// An impact changes a joint's speed by 4000 deg/s within 0.01 s, and a force by 400 N.
+TEST(CheckMotion, SpeedsAndForcesOfAFileInDegreesAreNoAngles) {
+  const auto fast = [](double t) { return 4000.0 * std::sin(40.0 * t); };
+  const std::string head = "version=1\ninDegrees=yes\n";
+  EXPECT_EQ(errors_of_motion("Coordinates\n" + head, "knee_angle_r\thip_flexion_r", fast), 1U);
+  EXPECT_EQ(errors_of_motion("slow speed\n" + head, "knee_angle_r\thip_flexion_r", fast), 1U);
+  EXPECT_EQ(errors_of_motion("Speeds\n" + head, "knee_angle_r\thip_flexion_r", fast), 0U);
+  EXPECT_EQ(errors_of_motion("Accelerations\n" + head, "calcn_r_X\tcalcn_r_Ox", fast), 0U);
+  EXPECT_EQ(errors_of_motion("walk\n" + head, "rfx\trfy\trfz\trcx\trcy\trcz", fast), 0U);
+  EXPECT_EQ(errors_of_motion("states\n" + head, "/jointset/knee_r/knee_angle_r/speed", fast), 0U);
+}
+
+// OpenSim writes `inDegrees=no` into every file, and its plots into one with angles in degrees.
+TEST(CheckMotion, DegreesUnderTheNameOfAnAngleAreNoRadians) {
+  const auto bends = [](double t) { return 60.0 + 50.0 * std::sin(0.5 * t); };
+  const std::string head = "UNKNOWN\nversion=1\ninDegrees=no\n";
+  EXPECT_EQ(errors_of_motion(head, "knee_angle_r\tvas_int_r", bends), 1U);
+  EXPECT_EQ(errors_of_motion(head, "vas_int_r\tflex_dig_r", bends), 0U);
+  EXPECT_EQ(errors_of_motion(head, "knee_angle_r_moment\thip_flexion_r_moment", bends), 0U);
+  EXPECT_EQ(errors_of_motion(head, "/jointset/knee_r/knee_angle_r/speed", bends), 0U);
+}
+
 TEST(CheckRecording, NoiseAloneIsNoEmg) {
   const test::TemporaryFolder folder;
   std::string text = "time,a [mV]\n";
