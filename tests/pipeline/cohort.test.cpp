@@ -80,6 +80,19 @@ class Cohort : public testing::Test {
   TemporaryFolder folder;
 };
 
+// No study is there, so that every person fails at once.
+TEST(CohortOfMany, HasTwentyLinesForThosePersonsWhoAreNotDone) {
+  const TemporaryFolder folder;
+  std::string table = "name,study\n";
+  for (int i = 10; i < 40; ++i) table += "P" + std::to_string(i) + ",absent.toml\n";
+  write_text(folder / "persons.csv", table);
+  const Finished run = myoid({"cohort", folder / "persons.csv", "--out", folder / "out", "--quiet"});
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("P29 "));
+  EXPECT_THAT(run.out, Not(HasSubstr("P30 ")));
+  EXPECT_THAT(run.out, HasSubstr("0 of 30 persons are done, 10 more are not"));
+}
+
 TEST_F(Cohort, HasTheSameBytesForOneJobAndForThreeAndNamesWhoFailed) {
   const Finished one = cohort("one", {"--jobs", "1", "--threads", "1", "--keep", "all"});
   EXPECT_EQ(one.exit_code, 5) << one.err;

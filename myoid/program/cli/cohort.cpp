@@ -21,12 +21,28 @@ std::string word_of(const PersonOutcome& each) {
   return each.outcome ? std::string(choice_name(each.outcome->kind)) : "not computed";
 }
 
+/// Prints a line for each person; of many persons for those that are not done, as far as the lines go.
 void print_outcomes(const std::vector<PersonOutcome>& outcomes) {
+  constexpr std::size_t kMostLines = 20;
+  const auto is_done = [](const PersonOutcome& each) {
+    return each.outcome && each.outcome->kind == OutcomeKind::done;
+  };
+  std::vector<PersonOutcome> shown = outcomes;
+  if (shown.size() > kMostLines) {
+    std::erase_if(shown, is_done);
+    shown.resize(std::min(shown.size(), kMostLines));
+  }
   std::size_t width = 6;
-  for (const PersonOutcome& each : outcomes) width = std::max(width, in_column(each.person).size());
-  for (const PersonOutcome& each : outcomes) {
+  for (const PersonOutcome& each : shown) width = std::max(width, in_column(each.person).size());
+  for (const PersonOutcome& each : shown) {
     say("{:<{}}  {:<13}  {}{}\n", in_column(each.person), width, word_of(each),
         each.reused ? "(as before: same input) " : "", each.outcome ? each.outcome->message : "");
+  }
+  if (shown.size() < outcomes.size()) {
+    const auto done = static_cast<std::size_t>(std::ranges::count_if(outcomes, is_done));
+    const std::size_t others = outcomes.size() - done - shown.size();
+    say("{} of {} persons are done{}\n", done, outcomes.size(),
+        others > 0 ? fmt::format(", {} more are not", others) : "");
   }
 }
 
