@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -50,7 +51,8 @@ using Key = std::tuple<std::string, std::string, fit::Method, fit::FitCase>;
 using MethodAndTrial = std::pair<std::string, std::string>;
 
 struct Run {
-  bool posterior = false;  ///< By that estimator.
+  bool posterior = false;       ///< By that estimator.
+  std::optional<bool> maximal;  ///< Strengths are at full effort, not at the largest EMG; nothing: not stated.
   std::vector<Key> order;
   std::map<Key, ParameterEstimate> estimates;
   std::map<Key, std::vector<std::string>> sharers;  ///< Further muscles of the same unknown.
@@ -76,6 +78,8 @@ Run read_run(const std::filesystem::path& folder) {
     const json content = parse_json(read_text_file(path));
     for (const json& method : content.at("methods")) {
       run.posterior |= !method.value("noise", json::array()).empty();
+      if (const json maximal = method.value("maximal_contraction", json()); maximal.is_boolean())
+        run.maximal = maximal.get<bool>();
       for (const json& row : method.at("estimates")) {
         std::optional<ParameterEstimate> e = fit::estimate_of_json(row);
         if (!e || fit::is_voluntary_power(e->parameter)) continue;  // a power follows from the torque
@@ -142,6 +146,29 @@ struct OfSession {
 bool is_strength(const std::string& parameter) {
   return parameter == "max_isometric_force" || (fit::is_voluntary(parameter) && !fit::is_voluntary_angle(parameter));
 }
+
+/// Returns true for a number of all muscles of a joint together.
+bool is_of_joint(const std::string& parameter) {
+  return fit::is_voluntary(parameter) && (parameter.ends_with("_positive") || parameter.ends_with("_negative"));
+}
+
+/// Returns the muscles whose strength a run has.
+std::set<std::string> muscles_of(const Run& run) {
+  std::set<std::string> muscles;
+  for (const auto& [key, estimate] : run.estimates)
+    if (std::get<1>(key) == "max_isometric_force") muscles.insert(std::get<0>(key));
+  return muscles;
+}
+
+/// The quantities of two sessions that mean the same.
+struct Alike {
+  bool effort = true;   ///< Strengths belong to one effort.
+  bool muscles = true;  ///< Numbers of a joint are those of the same muscles.
+  [[nodiscard]] bool holds(const std::string& parameter) const {
+    return (effort || !(is_strength(parameter) || fit::is_voluntary(parameter))) &&
+           (muscles || !is_of_joint(parameter));
+  }
+};
 
 /// Returns the number given geometry and sensors; empty without one. Of a number that is searched for by its
 /// logarithm the middle of the interval is that of ln. A maximal contraction reaches another effort in each session.
@@ -266,12 +293,20 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
     comparison.unlike.push_back(
         "one is by the posterior, the other of exact data or by the estimator of an earlier version, whose F_max and "
         "intervals do not mean the same: run both sessions again");
+  const Alike alike{.effort = !a.maximal || !b.maximal || *a.maximal == *b.maximal,
+                    .muscles = muscles_of(a) == muscles_of(b)};
+  if (!alike.effort)
+    comparison.unlike.push_back(fmt::format(
+        "the {} session has no maximal contraction: its strengths are at the largest EMG, those of the other "
+        "at full effort, and are not compared",
+        *a.maximal ? "second" : "first"));
   for (const Key& key : a.order) {
     const auto other = b.estimates.find(key);
     if (other == b.estimates.end())
       comparison.remarks.push_back(in_one_session(text_of(key), "first"));
     else
-      comparison.parameters.push_back(compared(a, key, other->second, comparison.failed.empty()));
+      comparison.parameters.push_back(
+          compared(a, key, other->second, comparison.failed.empty() && alike.holds(std::get<1>(key))));
   }
   for (const Key& key : b.order) {
     if (!a.estimates.contains(key)) comparison.remarks.push_back(in_one_session(text_of(key), "second"));

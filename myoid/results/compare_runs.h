@@ -61,9 +61,10 @@ struct RunComparison {
 /// have a second reading, numbers and standard errors are those of the reading given geometry and sensors, because
 /// errors of moment arms, tendons and the torque's scale are the same in both sessions. A parameter with a verdict
 /// prior_dominated, not_identifiable or non_physical is not compared: both may agree on the prior alone; nor is a
-/// number of method `paper`, whose forces nobody measured, nor any number of a run with a failed gate. The sessions
-/// count as independent; a shared prior makes the test cautious. Throws ReadError if a folder holds no parameters.json
-/// of a run.
+/// number of method `paper`, whose forces nobody measured, nor any number of a run with a failed gate, nor a strength
+/// at full effort with one at the largest EMG, nor a number of all muscles of a joint where the muscles differ. The
+/// sessions count as independent; a shared prior makes the test cautious. Throws ReadError if a folder holds no
+/// parameters.json of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second);
 
 }  // namespace myoid::results

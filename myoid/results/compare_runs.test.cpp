@@ -215,6 +215,26 @@ TEST(CompareRuns, APowerFollowsFromTheTorqueAndIsNoFurtherComparison) {
   EXPECT_TRUE(c.remarks.empty());
 }
 
+TEST(CompareRuns, AStrengthAtTheLargestEmgIsNotThatOfFullEffort) {
+  const test::TemporaryFolder folder;
+  const auto session = [&](const char* name, double force, bool maximal) {
+    const auto path = run(folder.path() / name, {{"BIC", force, 1, "identified"}}, 1.0);
+    std::string json = read_text_file(path / "parameters.json");
+    const std::string_view before = "\"estimates\"";
+    json.insert(json.find(before), fmt::format("\"maximal_contraction\": {}, ", maximal));
+    write_file(path / "parameters.json", json);
+    return path;
+  };
+  const auto first = session("one", 40, true);
+  const RunComparison alike = compare_runs(first, session("two", 50, true));
+  EXPECT_EQ(alike.parameters.at(0).change, Change::differs);
+  EXPECT_TRUE(alike.unlike.empty());
+  const RunComparison other = compare_runs(first, session("three", 50, false));
+  EXPECT_EQ(other.parameters.at(0).change, Change::cannot_tell);
+  ASSERT_EQ(other.unlike.size(), 1U);
+  EXPECT_NE(other.unlike[0].find("second session"), std::string::npos) << other.unlike[0];
+}
+
 TEST(CompareRuns, AJointsTorqueThatOneMuscleMakesIsThatMusclesNumber) {
   const test::TemporaryFolder folder;
   const auto session = [&](const char* name, double torque, double of_joint) {

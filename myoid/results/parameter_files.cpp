@@ -168,6 +168,8 @@ ordered_json method_json(const IdentificationResult& method) {
           {"model_error", unless_paper(method.model_error)},
           {"emg_delay_s", unless_paper(method.delay_s)},
           {"emg_lag", paper ? ordered_json(nullptr) : ordered_json(fit::name(method.lag))},
+          {"maximal_contraction",
+           method.voluntary.empty() ? ordered_json(nullptr) : ordered_json(method.voluntary.front().from_mvc)},
           {"estimates", array_of(method.estimates, estimate_json)},
           {"exact_data", method.exact},
           {"left_open_by_the_data", method.open_sums},

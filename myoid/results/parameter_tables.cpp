@@ -93,9 +93,17 @@ Table meanings_table(const IdentificationResult& method) {
   return table;
 }
 
+/// Returns true for a number of the largest EMG, for want of a maximal contraction: the truth is that of full effort.
+bool is_at_largest_emg(const run::StudyResult& result, const ParameterEstimate& e) {
+  const IdentificationResult* const fit = run::torque_of(result.fit);
+  const bool of_effort = e.parameter == "max_isometric_force" || fit::is_voluntary(e.parameter);
+  return of_effort && fit != nullptr && !fit->voluntary.empty() && !fit->voluntary.front().from_mvc;
+}
+
 }  // namespace
 
 std::optional<double> truth_of(const run::StudyResult& result, const ParameterEstimate& e) {
+  if (is_at_largest_emg(result, e)) return std::nullopt;
   for (const run::TrueValue& t : result.source.truth) {
     if (t.parameter == e.parameter && (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
       return t.value;

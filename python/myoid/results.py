@@ -242,7 +242,8 @@ class Result:
 
     def __repr__(self) -> str:
         verdicts = [v for v, m in zip(self.parameters["verdict"], self.parameters["method"]) if m != "paper"]
-        return f"Result({str(self.path)!r}: {verdicts.count('identified')} of {len(verdicts)} numbers identified)"
+        count = f"{verdicts.count('identified')} of {len(verdicts)} numbers identified, torques and powers among them"
+        return f"Result({str(self.path)!r}: {count})"
 
     def _repr_html_(self) -> str:
         """For notebooks: the parameters with bars for their intervals. `report_html` shows the report."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import warnings
+from collections.abc import Iterator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -130,6 +131,18 @@ class CheckResult:
     trials: int
     muscles: int
     errors: int
+
+    def __iter__(self) -> Iterator[Remark]:
+        return iter(self.findings)
+
+    def __len__(self) -> int:
+        return len(self.findings)
+
+    def __getitem__(self, at: int) -> Remark:
+        return self.findings[at]
+
+    def __repr__(self) -> str:
+        return f"CheckResult({self.errors} errors, {len(self.findings)} findings)"
 
     def __bool__(self) -> bool:
         """True if `run` takes the study."""

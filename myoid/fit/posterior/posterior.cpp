@@ -190,6 +190,15 @@ void judge_row(const Reporting& of,
   if (bounds.upper - facts.person.high < touches) facts.person.high = bounds.upper;
   e.at_bound = facts.person.low - bounds.lower < touches || bounds.upper - facts.person.high < touches;
   facts.at_bound = e.at_bound && !p.is(Scope::channel, kDelay);  // no delay is a delay
+  // The search stays inside of the bounds: a number that is 0 by nature reaches 0 where its interval nearly does.
+  const auto reach_zero = [&](Reading& reading) {
+    constexpr double kNearly = 0.05;  // of the interval's width
+    if (reading.low < kNearly * (reading.high - reading.low)) reading.low = 0.0;
+  };
+  if (zero_by_nature(e.parameter) && bounds.lower == 0.0) {
+    reach_zero(facts.person);
+    reach_zero(facts.given);
+  }
   facts.contraction = e.shrinkage;
   if (e.shrinkage)
     facts.contraction_given =
@@ -286,6 +295,19 @@ void compare_with_priors(const ParameterMap& map,
                                                  std::exp(strength))});
 }
 
+/// R2 below which a point fits nothing: it leaves twice the torque's variance.
+constexpr double kFitsNothing = -1.0;
+
+/// Returns the R2 of the fitted samples at z, of the joint that is explained worst.
+double least_explained(const Likelihood& likelihood, const Eigen::VectorXd& z, const NoiseValues& noise) {
+  const Likelihood::Residuals rows = likelihood.residuals(z, noise);
+  double least = 1.0;
+  for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint)
+    if (!joint.empty())
+      least = std::min(least, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
+  return least;
+}
+
 void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult& result) {
   const Density& density = *best.density;
   const ParameterMap& map = density.parameters();
@@ -299,10 +321,15 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
     result.effective_samples +=
         density.likelihood().row_weight(r) * static_cast<double>(density.likelihood().runs()[r].measured_nm.size());
   result.lag = best.lag;
-  // The mean over several modes may lie between them, where nothing fits.
+  // The mean over several modes may lie between them, where nothing fits, and so may that over a curved ridge.
   const auto z = sample.z.leftCols(sample.of_best);
   const Eigen::VectorXd weight = sample.weight.head(sample.of_best) / sample.weight.head(sample.of_best).sum();
   result.solution = z * weight;
+  const Eigen::VectorXd at_mode = density.z_of(best.mode.x);
+  result.r2 = least_explained(density.likelihood(), at_mode, noise);
+  if (result.r2 > kVerdictRules.least_r2 &&
+      least_explained(density.likelihood(), result.solution, noise) < kFitsNothing)
+    result.solution = at_mode;
   const Eigen::MatrixXd off = z.colwise() - result.solution;
   result.covariance = off * weight.asDiagonal() * off.transpose();
   result.values = map.values(result.solution);
@@ -316,11 +343,6 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
   for (const TrialRun& run : runs) result.envelope_variance += run.envelope_sd.cwiseAbs2();
   result.envelope_variance *= std::exp(2.0 * noise[kEmgFactor]) / static_cast<double>(runs.size());
   result.emg_cv = std::sqrt(result.envelope_variance.mean());
-  const Likelihood::Residuals rows = density.likelihood().residuals(result.solution, noise);
-  for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint) {
-    if (!joint.empty())
-      result.r2 = std::min(result.r2, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
-  }
 }
 
 /// Keeps at most kKeptDraws draws as values, evenly spaced among all draws.

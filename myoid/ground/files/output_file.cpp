@@ -19,12 +19,12 @@ void check_output(const std::filesystem::path& path, const std::vector<std::stri
     if (fs::weakly_canonical(path, ignored) == fs::weakly_canonical(input, ignored) ||
         fs::equivalent(path, input, ignored)) {
       throw InvalidInput(fmt::format(
-          "{} is an input of this command and would be replaced by its result; give another --out", path.string()));
+          "{} is an input of this command and would be replaced by its result; give another place", path.string()));
     }
   }
   if (!overwrite && fs::is_regular_file(path, ignored) && standing_of(path) != Standing::unfinished) {
     throw InvalidInput(
-        fmt::format("{} exists already; give --overwrite to replace it, or another --out", path.string()));
+        fmt::format("{} exists already; give --overwrite to replace it, or another place", path.string()));
   }
 }
 
@@ -38,7 +38,7 @@ void check_companion(const std::filesystem::path& path,
   if (!begins_with(path, begins))
     throw InvalidInput(fmt::format(
         "{} stands in the way of a second file of this command and does not begin with '{}', as its results do; move "
-        "it elsewhere, or give another --out",
+        "it elsewhere, or give another place",
         path.string(), begins.substr(0, begins.find('\n'))));
 }
 
@@ -55,7 +55,7 @@ void protect_files(const std::filesystem::path& folder,
     if (!fs::equivalent(parent.empty() ? fs::path(".") : parent, folder, ignored)) continue;
     if (is_result(fs::path(input).filename().string()))
       throw InvalidInput(
-          fmt::format("{} is an input of this command and would be replaced by a result; give another --out", input));
+          fmt::format("{} is an input of this command and would be replaced by a result; give another place", input));
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
     if (!entry.is_directory(ignored) && is_result(entry.path().filename().string())) require_replaceable(entry.path());

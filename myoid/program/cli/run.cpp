@@ -9,6 +9,7 @@
 
 #include "myoid/fit/intervals/score.h"
 #include "myoid/ground/files/output_file.h"
+#include "myoid/ground/files/quoted_text.h"
 #include "myoid/page/report.h"
 #include "myoid/program/cli/command_help.h"
 #include "myoid/program/cli/context.h"
@@ -201,8 +202,8 @@ void say_run(Context& context, const program::RunResult& result, const std::stri
   } else {
     print_answer(study, result.gates, with_paper);
     if (context.verbose) print_everything(study, result.gates);
-    say("{0}report: {1}/report.html; with an earlier session: myoid compare EARLIER {1}\n", context.verbose ? "\n" : "",
-        out);
+    say("{}report: {}/report.html; with an earlier session: myoid compare EARLIER {}\n", context.verbose ? "\n" : "",
+        out, shell_word(out));
   }
   if (result.failed(context.strict)) context.exit_code = kQualityGateFailed;
   if (run::failed_trials(study.trials) > 0) context.exit_code = kSomeTrialsFailed;

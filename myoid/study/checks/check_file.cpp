@@ -122,6 +122,17 @@ bool names_an_angle(const std::string& name) {
                              [&](const char* part) { return word.find(part) != std::string::npos; });
 }
 
+/// Returns true if a column that is named as a translation holds more than a hundred meters: it is a force, and the
+/// others are torques that are named as coordinates.
+bool has_forces_of_coordinates(const recording::Storage& file) {
+  constexpr double kFarthest_m = 100.0;
+  for (Eigen::Index c = 0; c < file.data.channel_count(); ++c) {
+    const bool translation = recording::is_translation_by_name(file.data.channels()[static_cast<std::size_t>(c)].name);
+    if (translation && (file.data.values().col(c).array().abs() > kFarthest_m).any()) return true;
+  }
+  return false;
+}
+
 /// Returns the motion of a file in rad and m: the coordinates of the model or, without one, the columns that are angles
 /// or lengths by header and name. Empty if nothing is known of them.
 TimeSeries angles_of(const recording::Storage& file, const body::BodyModel* model) {
@@ -132,7 +143,7 @@ TimeSeries angles_of(const recording::Storage& file, const body::BodyModel* mode
     };
     return recording::to_si(file, is_angle);
   }
-  if (!recording::states_degrees(file)) return {};
+  if (!recording::states_degrees(file) || (!file.in_degrees && has_forces_of_coordinates(file))) return {};
   const auto is_angle = [&](const std::string& name) {
     return file.in_degrees ? recording::is_angle_in_degrees(file, name) : names_an_angle(name);
   };
