@@ -12,8 +12,8 @@
 #include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/recording/marker_table.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/tables/marker_table.h"
 #include "myoid/recording/tables/trc_reader.h"
 
 #include "tests/support/data_folder.h"

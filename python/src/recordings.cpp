@@ -19,7 +19,7 @@
 #include "myoid/recording/tables/result_units.h"
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/recording/tables/trc_writer.h"
+#include "myoid/recording/trc_writer.h"
 #include "myoid/results/mat/results_mat.h"
 
 #include "bindings.h"

@@ -73,7 +73,7 @@ const std::vector<FormatEntry>& file_formats() {
        .kind = "markers",
        .holds = "markers",
        .reader = "recording/tables/trc_reader",
-       .writer = "recording/tables/trc_writer",
+       .writer = "recording/trc_writer",
        .markers = true},
       {.format = F::storage,
        .endings = {".sto", ".mot"},

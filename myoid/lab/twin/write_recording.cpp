@@ -9,7 +9,7 @@
 #include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/c3d/make_c3d.h"
 #include "myoid/recording/tables/storage_writer.h"
-#include "myoid/recording/tables/trc_writer.h"
+#include "myoid/recording/trc_writer.h"
 
 namespace myoid::lab {
 namespace {

@@ -32,7 +32,7 @@
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/recording/tables/storage_writer.h"
 #include "myoid/recording/tables/text_rows.h"
-#include "myoid/recording/tables/trc_writer.h"
+#include "myoid/recording/trc_writer.h"
 
 namespace myoid::program {
 namespace {

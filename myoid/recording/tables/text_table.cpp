@@ -332,7 +332,6 @@ bool is_gap_word(std::string_view cell) {
 std::optional<double> written_time_s(std::string_view cell) {
   cell = trim(cell);
   if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
-  /// Takes a whole number of at most `most` digits and the mark behind it from the front of the cell.
   const auto take = [&](std::size_t most, std::string_view marks) -> std::optional<int> {
     const std::size_t end = cell.find_first_not_of("0123456789");
     if (end == 0 || end == std::string_view::npos || end > most || marks.find(cell[end]) == std::string_view::npos)
@@ -354,12 +353,10 @@ std::optional<double> written_time_s(std::string_view cell) {
   const auto hours = take(2, ":"), minutes = take(2, ":");
   if (!hours || !minutes || *hours > 24 || *minutes > 59) return std::nullopt;
   const std::size_t end = std::min(cell.find_first_not_of("0123456789.,"), cell.size());
-  const std::string_view zone = cell.substr(end);
-  if (!zone.empty() && zone != "Z" && zone.find_first_not_of("+-:0123456789") != std::string_view::npos)
-    return std::nullopt;
+  const bool zoned = cell.substr(end).find_first_not_of("Z+-:0123456789") == std::string_view::npos;
   auto seconds = parse_number(cell.substr(0, end));
   if (!seconds) seconds = parse_comma_number(cell.substr(0, end));
-  if (!seconds || !(*seconds >= 0.0 && *seconds < 61.0)) return std::nullopt;
+  if (!zoned || !seconds || !(*seconds >= 0.0 && *seconds < 61.0)) return std::nullopt;
   return 86400.0 * days + 3600.0 * *hours + 60.0 * *minutes + *seconds;
 }
 

@@ -6,7 +6,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/recording/tables/trc_reader.h"
-#include "myoid/recording/tables/trc_writer.h"
+#include "myoid/recording/trc_writer.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/message_of.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/recording/recording.h"
-#include "myoid/recording/tables/trc_writer.h"
+#include "myoid/recording/trc_writer.h"
 
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_trial.h"

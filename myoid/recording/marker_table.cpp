@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/marker_table.h"
+#include "myoid/recording/marker_table.h"
 
 #include <cassert>
 #include <optional>

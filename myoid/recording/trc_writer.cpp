@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/trc_writer.h"
+#include "myoid/recording/trc_writer.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/marker_table.h"
+#include "myoid/recording/marker_table.h"
 
 #include <cmath>
 #include <string>
@@ -20,26 +20,26 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::string kVicon =
+const std::string kViconMarkers =
     "Devices\r\n1000\r\n,,EMG - V,\r\nFrame,Sub Frame,BIC,TRI\r\n,,V,V\r\n1,0,0.1,0.2\r\n"
     "1,1,0.3,0.4\r\n1,2,-0.1,0.5\r\n\r\nTrajectories\r\n100\r\n,,P:A,,,P:B,,\r\n"
     "Frame,Sub Frame,X,Y,Z,X,Y,Z\r\n,,mm,mm,mm,mm,mm,mm\r\n1,0,10,20,30,1,2,3\r\n"
     "2,0,11,21,31,,,\r\n3,0,12,22,32,4,5,6\r\n\r\nModel Outputs\r\n100\r\n";
-const std::string kQualisys =
+const std::string kQualisysMarkers =
     "NO_OF_FRAMES\t3\nNO_OF_CAMERAS\t8\nNO_OF_MARKERS\t2\nFREQUENCY\t200\nNO_OF_ANALOG\t0\n"
     "ANALOG_FREQUENCY\t0\nDESCRIPTION\t--\nTIME_STAMP\t2026-01-01, 00:00:00.000\t12.5\n"
     "DATA_INCLUDED\t3D\nMARKER_NAMES\tA\tB\nTRAJECTORY_TYPES\tMeasured\tMixed\n";
-const std::string kBts =
+const std::string kBtsMarkers =
     "BTS ASCII format\n\nType:\tPoint 3D tracks\nMeasure unit:\tm\n\nTracks:\t1\nFrequency:\t100 "
     "Hz\nFrames:\t2\nStart time:\t0.000\n\nFrame\tTime\tA.X\tA.Y\tA.Z\n1\t0.000\t0.1\t0.2\t0.3\n"
     "2\t0.010\t0.4\t0.5\t0.6\n";
-const std::string kNdi =
+const std::string kNdiMarkers =
     "Number of frames:,3,Collection frequency:,100,Units:,cm\n"
     "Frame,M_1 x,M_1 y,M_1 z,M_2 x,M_2 y,M_2 z\n1,1,2,3,4,5,6\n2,1,2,3,,,\n3,1,2,3,4,5,6\n";
 
 TEST(MarkerTable, TrajectoriesOfNexusAreRead) {
-  ASSERT_TRUE(is_marker_table(kVicon));
-  const MarkerSeries m = parse_marker_table(kVicon, "a.csv").markers;
+  ASSERT_TRUE(is_marker_table(kViconMarkers));
+  const MarkerSeries m = parse_marker_table(kViconMarkers, "a.csv").markers;
   EXPECT_THAT(m.names, ElementsAre("P:A", "P:B"));
   ASSERT_EQ(m.frame_count(), 3);
   EXPECT_DOUBLE_EQ(m.time_s[2], 0.02);
@@ -48,7 +48,7 @@ TEST(MarkerTable, TrajectoriesOfNexusAreRead) {
 }
 
 TEST(MarkerTable, APositionBeyondTheEarthIsMissingAndNamed) {
-  std::string text = kVicon;
+  std::string text = kViconMarkers;
   text.replace(text.find("4,5,6"), 5, "4,1e300,6");
   const MarkerFile file = parse_marker_table(text, "n.csv");
   EXPECT_TRUE(file.markers.missing(2, 1));
@@ -58,7 +58,7 @@ TEST(MarkerTable, APositionBeyondTheEarthIsMissingAndNamed) {
 
 TEST(MarkerTable, QualisysRowsAreReadWithAndWithoutFrameAndTime) {
   for (const bool with_time : {false, true}) {
-    std::string text = kQualisys;
+    std::string text = kQualisysMarkers;
     if (with_time) text += "Frame\tTime\tA X\tA Y\tA Z\tB X\tB Y\tB Z\n";
     for (int k = 0; k < 3; ++k) {
       if (with_time) text += std::to_string(k + 1) + "\t" + std::to_string(0.005 * k) + "\t";
@@ -77,7 +77,7 @@ TEST(MarkerTable, QualisysRowsAreReadWithAndWithoutFrameAndTime) {
 
 TEST(MarkerTable, AFrameInWhichQualisysSawNothingKeepsItsPlace) {
   const MarkerSeries m =
-      parse_marker_table(kQualisys + "\t\t\t4\t5\t6\n\t\t\t\t\t\n1\t2\t3\t4\t5\t6\n", "a.tsv").markers;
+      parse_marker_table(kQualisysMarkers + "\t\t\t4\t5\t6\n\t\t\t\t\t\n1\t2\t3\t4\t5\t6\n", "a.tsv").markers;
   ASSERT_EQ(m.frame_count(), 3);
   EXPECT_TRUE(m.missing(0, 0));
   EXPECT_FALSE(m.missing(0, 1));
@@ -86,8 +86,8 @@ TEST(MarkerTable, AFrameInWhichQualisysSawNothingKeepsItsPlace) {
 }
 
 TEST(MarkerTable, PointsOfBtsAndNdiAreReadInTheirUnits) {
-  EXPECT_DOUBLE_EQ(parse_marker_table(kBts, "a.emt").markers.position(1, 0).z(), 0.6);
-  const MarkerSeries m = parse_marker_table(kNdi, "a.csv").markers;
+  EXPECT_DOUBLE_EQ(parse_marker_table(kBtsMarkers, "a.emt").markers.position(1, 0).z(), 0.6);
+  const MarkerSeries m = parse_marker_table(kNdiMarkers, "a.csv").markers;
   EXPECT_THAT(m.names, ElementsAre("M_1", "M_2"));
   EXPECT_DOUBLE_EQ(m.position(2, 1).z(), 0.06);
   EXPECT_DOUBLE_EQ(m.time_s[2], 0.02);
@@ -95,7 +95,7 @@ TEST(MarkerTable, PointsOfBtsAndNdiAreReadInTheirUnits) {
 }
 
 TEST(MarkerLayout, SaysWhereTheRowsAreAndWhatTheHeaderCounts) {
-  const auto layout = marker_layout(TableText(kBts), "a.emt");
+  const auto layout = marker_layout(TableText(kBtsMarkers), "a.emt");
   ASSERT_TRUE(layout);
   EXPECT_THAT(layout->names, ElementsAre("A"));
   EXPECT_EQ(layout->table.first_row, 11U);
@@ -114,30 +114,32 @@ TEST(MarkerTable, OtherTablesAreNone) {
 }
 
 /// Returns the message of the reader for a table in which `from` became `to`.
-std::string refusal(std::string text, const std::string& from, const std::string& to) {
+std::string marker_refusal(std::string text, const std::string& from, const std::string& to) {
   text.replace(text.find(from), from.size(), to);
   return test::message_of<ReadError>([&] { (void)parse_marker_table(text, "a.csv"); });
 }
 
 TEST(MarkerTable, WhatIsDamagedIsRefusedWithItsLine) {
-  EXPECT_THAT(refusal(kNdi, "2,1,2,3,,,", "2,1,x2,3,,,"), HasSubstr("a.csv:4"));
-  EXPECT_THAT(refusal(kNdi, "2,1,2,3,,,", "2,1,2,3,4"), HasSubstr("a.csv:4: 5 cells, expected 7"));
-  EXPECT_THAT(refusal(kNdi, "2,1,2,3,,,", "1,1,2,3,,,"), HasSubstr("a.csv:4: frame 1 "));
-  EXPECT_THAT(refusal(kNdi, "100", "n/a"), HasSubstr("frame rate"));
-  EXPECT_THAT(refusal(kNdi, "cm", "kg"), HasSubstr("mm, cm"));
-  EXPECT_THAT(refusal(kVicon, "P:B", "P:A"), HasSubstr("twice"));
+  EXPECT_THAT(marker_refusal(kNdiMarkers, "2,1,2,3,,,", "2,1,x2,3,,,"), HasSubstr("a.csv:4"));
+  EXPECT_THAT(marker_refusal(kNdiMarkers, "2,1,2,3,,,", "2,1,2,3,4"), HasSubstr("a.csv:4: 5 cells, expected 7"));
+  EXPECT_THAT(marker_refusal(kNdiMarkers, "2,1,2,3,,,", "1,1,2,3,,,"), HasSubstr("a.csv:4: frame 1 "));
+  EXPECT_THAT(marker_refusal(kNdiMarkers, "100", "n/a"), HasSubstr("frame rate"));
+  EXPECT_THAT(marker_refusal(kNdiMarkers, "cm", "kg"), HasSubstr("mm, cm"));
+  EXPECT_THAT(marker_refusal(kViconMarkers, "P:B", "P:A"), HasSubstr("twice"));
 }
 
 TEST(MarkerTable, NamesAndColumnsThatDoNotGoTogetherAreRefused) {
-  EXPECT_THAT(refusal(kVicon, ",,P:A,,,P:B,,", ",,P:A,,P:B,,"), HasSubstr("'P:B' stands"));
-  EXPECT_THAT(refusal(kVicon, "X,Y,Z,X,Y,Z", "X,Y,Z,X,Y"), HasSubstr("column 8"));
-  EXPECT_THAT(refusal(kVicon, "1,0,10,20,30,1,2,3", "1,0,10,7,20,30,1,2,3"), HasSubstr("9 cells, expected 8"));
-  EXPECT_THAT(refusal(kVicon, "1,0,10,20,30,1,2,3", "1,0,10,0,20,0,30,0,1,0,2,0,3,0"), HasSubstr("decimal commas"));
-  EXPECT_THAT(refusal(kNdi, "M_2 z", "M_2 z,M_3 x"), HasSubstr("no table"));
+  EXPECT_THAT(marker_refusal(kViconMarkers, ",,P:A,,,P:B,,", ",,P:A,,P:B,,"), HasSubstr("'P:B' stands"));
+  EXPECT_THAT(marker_refusal(kViconMarkers, "X,Y,Z,X,Y,Z", "X,Y,Z,X,Y"), HasSubstr("column 8"));
+  EXPECT_THAT(marker_refusal(kViconMarkers, "1,0,10,20,30,1,2,3", "1,0,10,7,20,30,1,2,3"),
+              HasSubstr("9 cells, expected 8"));
+  EXPECT_THAT(marker_refusal(kViconMarkers, "1,0,10,20,30,1,2,3", "1,0,10,0,20,0,30,0,1,0,2,0,3,0"),
+              HasSubstr("decimal commas"));
+  EXPECT_THAT(marker_refusal(kNdiMarkers, "M_2 z", "M_2 z,M_3 x"), HasSubstr("no table"));
 }
 
 TEST(MarkerTable, AMarkerWithoutANameLosesNeitherItselfNorTheOthers) {
-  std::string text = kVicon;
+  std::string text = kViconMarkers;
   text.replace(text.find("P:A"), 3, "");
   const MarkerFile file = parse_marker_table(text, "a.csv");
   EXPECT_THAT(file.markers.names, ElementsAre("marker_1", "P:B"));
@@ -146,7 +148,7 @@ TEST(MarkerTable, AMarkerWithoutANameLosesNeitherItselfNorTheOthers) {
 }
 
 TEST(MarkerTable, AMissingRowOfUnitsMakesNoUnitsOfSamples) {
-  std::string text = kVicon;
+  std::string text = kViconMarkers;
   const std::string units = ",,mm,mm,mm,mm,mm,mm\r\n";
   text.erase(text.find(units), units.size());
   const MarkerFile file = parse_marker_table(text, "a.csv");
@@ -171,7 +173,7 @@ TEST(MarkerTable, PartsOfOneMarkerOfMotiveAreMarkers) {
 
 TEST(MarkerTable, CountsOfTheHeaderAreComparedWithTheTable) {
   const auto said = [](const std::string& from, const std::string& to) {
-    std::string text = kQualisys + "1\t2\t3\t4\t5\t6\n1\t2\t3\t4\t5\t6\n1\t2\t3\t4\t5\t6\n";
+    std::string text = kQualisysMarkers + "1\t2\t3\t4\t5\t6\n1\t2\t3\t4\t5\t6\n1\t2\t3\t4\t5\t6\n";
     text.replace(text.find(from), from.size(), to);
     std::string all;
     for (const Repair& r : parse_marker_table(text, "a.tsv").repairs) all += r.message + "\n";
@@ -184,7 +186,7 @@ TEST(MarkerTable, CountsOfTheHeaderAreComparedWithTheTable) {
 
 TEST(ReadRecording, OfNexusTakesDevicesAndTrajectories) {
   const test::TemporaryFolder folder;
-  write_file(folder / "a.csv", kVicon);
+  write_file(folder / "a.csv", kViconMarkers);
   const Recording file = read_recording(folder / "a.csv");
   EXPECT_EQ(file.markers.marker_count(), 2);
   ASSERT_EQ(file.analog.channel_count(), 2);
