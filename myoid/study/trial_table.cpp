@@ -82,7 +82,8 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
   v.path("markers", trial.markers,
          {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS `_motion.tsv`.",
           .otherwise = "this or `motion`, but for `mvc`"});
-  v.path("motion", trial.motion, {.says = "Joint angles, to start later than at markers; in a table `elbow_flexion [deg]`."});
+  v.path("motion", trial.motion,
+         {.says = "Joint angles, to start later than at markers; in a table `elbow_flexion [deg]`."});
   v.must(!trial.markers || !trial.motion, "motion",
          "give either 'markers' or 'motion', not both: the motion is computed from the markers");
   v.path("emg", trial.emg, {.says = kEmgFiles, .otherwise = "required, but for `static` and `passive`"});
