@@ -232,7 +232,6 @@ TEST(CompareRuns, AStrengthAtTheLargestEmgIsNotThatOfFullEffort) {
   const RunComparison other = compare_runs(first, session("three", 50, false));
   EXPECT_EQ(other.parameters.at(0).change, Change::cannot_tell);
   ASSERT_EQ(other.unlike.size(), 1U);
-  EXPECT_NE(other.unlike[0].find("second session"), std::string::npos) << other.unlike[0];
 }
 
 TEST(CompareRuns, AJointsTorqueThatOneMuscleMakesIsThatMusclesNumber) {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "myoid/fit/posterior/draws.h"
 #include "myoid/fit/posterior/marginals.h"
 #include "myoid/fit/posterior/sampler.h"
+#include "myoid/ground/math/draws.h"
 
 namespace myoid::fit {
 namespace {
@@ -133,7 +133,7 @@ Eigen::MatrixXd draws_about(const Candidate& c, const EstimatorOptions& options,
     sample.approximate = sample.approximate || !sampled.trusted();
     return std::move(sampled.draws);
   }
-  if (!options.marginals) return draw_normal(c.mode.x, c.mode.covariance, count(kApproximateDraws), seed);
+  if (!options.marginals) return math::draw_normal(c.mode.x, c.mode.covariance, count(kApproximateDraws), seed);
   // Each trial has an ln b, which is not reported.
   const Eigen::Index reported = c.density->parameters().size() + kNoiseFieldCount;
   return draw_about(c.mode, marginals(log_density(*c.density), c.mode, reported, options.progress),

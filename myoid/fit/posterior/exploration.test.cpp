@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/ground/math/draws.h"
+
 #include "tests/support/elbow_study.h"
 
 namespace myoid::fit {
@@ -32,7 +34,7 @@ Eigen::VectorXd widths_of(const Sample& sample) {
   Eigen::VectorXd widths(sample.z.rows());
   for (Eigen::Index j = 0; j < widths.size(); ++j) {
     const Eigen::VectorXd z = sample.z.row(j).transpose();
-    widths[j] = weighted_quantile(z, sample.weight, 0.975) - weighted_quantile(z, sample.weight, 0.025);
+    widths[j] = math::weighted_quantile(z, sample.weight, 0.975) - math::weighted_quantile(z, sample.weight, 0.025);
   }
   return widths;
 }

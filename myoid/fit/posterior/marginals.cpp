@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "myoid/fit/posterior/draws.h"
 #include "myoid/ground/core/parallel.h"
+#include "myoid/ground/math/draws.h"
 #include "myoid/ground/math/statistics.h"
 
 namespace myoid::fit {
@@ -136,7 +136,7 @@ Eigen::MatrixXd draw_about(const Mode& mode,
                            const std::vector<Marginal>& marginals,
                            Eigen::Index count,
                            std::uint64_t seed) {
-  Eigen::MatrixXd draws = draw_normal(Eigen::VectorXd::Zero(mode.x.size()), mode.covariance, count, seed);
+  Eigen::MatrixXd draws = math::draw_normal(Eigen::VectorXd::Zero(mode.x.size()), mode.covariance, count, seed);
   const Eigen::VectorXd sd = mode.covariance.diagonal().cwiseSqrt();
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < sd.size(); ++j)

@@ -15,10 +15,10 @@
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/intervals/verdicts.h"
 #include "myoid/fit/measurement/parameter_fields.h"
-#include "myoid/fit/posterior/draws.h"
 #include "myoid/fit/posterior/exploration.h"
 #include "myoid/fit/posterior/learned_sizes.h"
 #include "myoid/fit/posterior/voluntary_torque.h"
+#include "myoid/ground/math/draws.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
 
@@ -110,7 +110,7 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
     for (std::size_t i = 0; i < free.size(); ++i) {
       const auto j = static_cast<Eigen::Index>(i);
       const muscle::Range& bounds = free[i].bounds;
-      const double z = weighted_quantile(sample.z.row(j).transpose(), sample.weight, share);
+      const double z = math::weighted_quantile(sample.z.row(j).transpose(), sample.weight, share);
       const double beyond = std::log((z - bounds.lower) / (bounds.upper - z)) - best.mode.x[j];
       if (std::isfinite(beyond)) x[j] += given.narrower[j] * beyond;
     }
@@ -118,7 +118,7 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   };
   given.low = end(0.025).cwiseMin(given.value);
   given.high = end(0.975).cwiseMax(given.value);
-  const Eigen::MatrixXd draws = draw_normal(mode.x, covariance, kGivenDraws, kGivenSeed);
+  const Eigen::MatrixXd draws = math::draw_normal(mode.x, covariance, kGivenDraws, kGivenSeed);
   given.z.resize(p, kGivenDraws);
   for (Eigen::Index i = 0; i < kGivenDraws; ++i) given.z.col(i) = density.z_of(draws.col(i));
   return given;
@@ -157,7 +157,7 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
   const Eigen::VectorXd share = of.sample.z.row(gain - free.begin()).array().exp().transpose();
   const Eigen::VectorXd force = f_max.cwiseProduct(share);
   const auto reach = [&](const Eigen::VectorXd& values, double p) {
-    return weighted_quantile(values, of.sample.weight, p);
+    return math::weighted_quantile(values, of.sample.weight, p);
   };
   return fmt::format(
       "; no maximal contraction was recorded: the muscle pulls {:.4g} to {:.4g} N at the largest EMG, between {:.0f} "
@@ -169,8 +169,8 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
 Reading reading_of(double value, const Eigen::VectorXd& draws, const Eigen::VectorXd& weight) {
   const double mean = draws.dot(weight);
   return {.value = value,
-          .low = weighted_quantile(draws, weight, 0.025),
-          .high = weighted_quantile(draws, weight, 0.975),
+          .low = math::weighted_quantile(draws, weight, 0.025),
+          .high = math::weighted_quantile(draws, weight, 0.975),
           .sd = std::sqrt((draws.array() - mean).square().matrix().dot(weight))};
 }
 
@@ -259,10 +259,11 @@ ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owne
   };
   const Eigen::VectorXd draws = products(of.sample.z), given = products(of.given.z);
   const Eigen::VectorXd equal = Eigen::VectorXd::Constant(given.size(), 1.0 / static_cast<double>(given.size()));
-  e.estimate = weighted_quantile(draws, of.sample.weight, 0.5);
+  e.estimate = math::weighted_quantile(draws, of.sample.weight, 0.5);
   const Unknown& ratio = of.map.free()[unknown];
   if (ratio.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
-  judge_row(of, unknown, draws, owner, physical, reading_of(weighted_quantile(given, equal, 0.5), given, equal), e);
+  judge_row(of, unknown, draws, owner, physical, reading_of(math::weighted_quantile(given, equal, 0.5), given, equal),
+            e);
   return e;
 }
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/fit/posterior/draws.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/math/draws.h"
 
 #include "tests/support/elbow_study.h"
 #include "tests/support/exact_sensors.h"
@@ -161,8 +161,8 @@ TEST(IdentifyByPosterior, DrawsThatAreKeptHaveTheIntervals) {
     const Eigen::VectorXd drawn = result.draws.row(static_cast<Eigen::Index>(j));
     const double width = *e.ci_high - *e.ci_low;
     // 1000 of 4000 draws: the quantile at 2.5 % is known to 4 % of the interval.
-    EXPECT_NEAR(weighted_quantile(drawn, result.draw_weights, 0.025), *e.ci_low, 0.12 * width) << label;
-    EXPECT_NEAR(weighted_quantile(drawn, result.draw_weights, 0.975), *e.ci_high, 0.12 * width) << label;
+    EXPECT_NEAR(math::weighted_quantile(drawn, result.draw_weights, 0.025), *e.ci_low, 0.12 * width) << label;
+    EXPECT_NEAR(math::weighted_quantile(drawn, result.draw_weights, 0.975), *e.ci_high, 0.12 * width) << label;
     ASSERT_TRUE(e.variance_shares) << label;
     double sum = 0.0;
     for (const double share : *e.variance_shares) sum += share;

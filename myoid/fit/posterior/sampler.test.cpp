@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/ground/math/draws.h"
+
 namespace myoid::fit {
 namespace {
 
@@ -32,8 +34,8 @@ TEST(Sampler, MeanSpreadAndQuantilesOfASkewedDensity) {
   const Eigen::VectorXd weight = Eigen::VectorXd::Constant(x.size(), 1.0 / static_cast<double>(x.size()));
   EXPECT_NEAR(x.mean(), 1.25612, 0.03);
   EXPECT_NEAR((x.array() - x.mean()).square().mean(), 0.28382, 0.03);
-  EXPECT_NEAR(weighted_quantile(x, weight, 0.5), std::log(3.67206), 0.03);
-  EXPECT_NEAR(weighted_quantile(x, weight, 0.025), std::log(1.08987), 0.08);
+  EXPECT_NEAR(math::weighted_quantile(x, weight, 0.5), std::log(3.67206), 0.03);
+  EXPECT_NEAR(math::weighted_quantile(x, weight, 0.025), std::log(1.08987), 0.08);
 }
 
 TEST(Sampler, ACorrelatedNormalInTheWrongCoordinatesIsStillItself) {

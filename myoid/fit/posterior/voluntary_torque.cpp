@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/fit/posterior/draws.h"
 #include "myoid/ground/core/units.h"
+#include "myoid/ground/math/draws.h"
 
 namespace myoid::fit {
 namespace {
@@ -54,8 +54,8 @@ Reading of_draws(double value, const Eigen::VectorXd& draws) {
   const Eigen::VectorXd weight = Eigen::VectorXd::Constant(draws.size(), 1.0 / static_cast<double>(draws.size()));
   const double mean = draws.mean();
   return {.value = value,
-          .low = std::min(value, weighted_quantile(draws, weight, 0.025)),
-          .high = std::max(value, weighted_quantile(draws, weight, 0.975)),
+          .low = std::min(value, math::weighted_quantile(draws, weight, 0.025)),
+          .high = std::max(value, math::weighted_quantile(draws, weight, 0.975)),
           .sd = std::sqrt((draws.array() - mean).square().mean())};
 }
 

@@ -13,9 +13,9 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/provenance.h"
 #include "myoid/results/change_sentences.h"
+#include "myoid/results/cohort/group_changes.h"
 #include "myoid/results/cohort/group_page.h"
 #include "myoid/results/cohort/group_person.h"
-#include "myoid/results/group_changes.h"
 
 namespace myoid::results {
 namespace {

@@ -1,8 +1,8 @@
-#include "myoid/fit/posterior/draws.h"
+#include "myoid/ground/math/draws.h"
 
 #include <gtest/gtest.h>
 
-namespace myoid::fit {
+namespace myoid::inline ground::math {
 namespace {
 
 TEST(Draws, OfTheNormalDistributionHaveItsMeanAndCovariance) {
@@ -27,4 +27,4 @@ TEST(Draws, AQuantileLiesWhereTheWeightLies) {
 }
 
 }  // namespace
-}  // namespace myoid::fit
+}  // namespace myoid::inline ground::math

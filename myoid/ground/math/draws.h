@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace myoid::fit {
+namespace myoid::inline ground::math {
 
 /// Returns draws from the normal distribution with this mean and covariance, one column each.
 [[nodiscard]] Eigen::MatrixXd draw_normal(const Eigen::VectorXd& mean,
@@ -15,4 +15,4 @@ namespace myoid::fit {
 /// Returns the value below which `share` of the weight lies, by linear interpolation.
 [[nodiscard]] double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& weight, double share);
 
-}  // namespace myoid::fit
+}  // namespace myoid::inline ground::math

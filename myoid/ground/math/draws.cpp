@@ -1,4 +1,4 @@
-#include "myoid/fit/posterior/draws.h"
+#include "myoid/ground/math/draws.h"
 
 #include <algorithm>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "myoid/ground/math/random.h"
 #include "myoid/ground/math/statistics.h"
 
-namespace myoid::fit {
+namespace myoid::inline ground::math {
 
 Eigen::MatrixXd draw_normal(const Eigen::VectorXd& mean,
                             const Eigen::MatrixXd& covariance,
@@ -17,14 +17,14 @@ Eigen::MatrixXd draw_normal(const Eigen::VectorXd& mean,
   const Eigen::MatrixXd root = covariance.llt().matrixL();
   Eigen::MatrixXd draws(mean.size(), count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    math::Random random(seed, static_cast<std::uint64_t>(i));
+    Random random(seed, static_cast<std::uint64_t>(i));
     draws.col(i) = mean + root * random.normals(mean.size());
   }
   return draws;
 }
 
 double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& weight, double share) {
-  const std::vector<Eigen::Index> order = math::rising_order(values);
+  const std::vector<Eigen::Index> order = rising_order(values);
   double before = 0.0, last = values[order.front()], place = 0.0;
   for (const Eigen::Index i : order) {
     const double middle = before + 0.5 * weight[i];
@@ -39,4 +39,4 @@ double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& w
   return last;
 }
 
-}  // namespace myoid::fit
+}  // namespace myoid::inline ground::math

@@ -1,4 +1,4 @@
-#include "myoid/results/group_changes.h"
+#include "myoid/results/cohort/group_changes.h"
 
 #include <algorithm>
 #include <cmath>
