@@ -9,4 +9,7 @@ python=$3
 shift 3
 "$python" -c 'import pytest, numpy' 2>/dev/null || { echo "skipped: $python has no pytest or no numpy"; exit 77; }
 cd "$(dirname "$0")"
-exec "$python" -m pytest -q -p no:cacheprovider "$@"
+code=0
+"$python" -m pytest -q -rs -p no:cacheprovider "$@" || code=$?
+[ "$code" -ne 5 ] || exit 77  # pytest's code where every test is skipped
+exit "$code"
