@@ -73,6 +73,8 @@ bool repeats_a_muscle(const Run& run, const ParameterEstimate& e) {
 
 Run read_run(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "parameters.json";
+  if (!std::filesystem::exists(path))
+    throw ReadError(folder, 0, "holds no results (parameters.json); run the study (myoid run) and give its folder");
   Run run;
   try {
     const json content = parse_json(read_text_file(path));

@@ -50,6 +50,8 @@ class Draft {
   Draft(fs::path folder, const DraftOptions& options) : folder_(std::move(folder)), options_(options) {}
 
   StudyDraft write() {
+    for (const fs::path& path : options_.from)
+      if (!fs::exists(path)) throw ReadError(path, 0, "there is no such file or folder; check the path");
     FoundBeside beside;
     const std::vector<fs::path> files = recordings_in(options_.from, beside);
     for (const fs::path& loads : beside.external_loads) loads_data_.insert(loads_data_file(loads).lexically_normal());
@@ -68,9 +70,10 @@ class Draft {
         })) {
       std::vector<std::string> sources;
       for (const fs::path& path : options_.from) sources.push_back(path.string());
+      const auto refused = std::ranges::find(draft_.remarks, RemarkCode::refused, &Remark::code);
       throw InvalidInput(
-          fmt::format("no recording with markers, joint angles or EMG in {}; name files or folders with --from",
-                      fmt::join(sources, ", ")));
+          fmt::format("no recording with markers, joint angles or EMG in {}{}; name files or folders with --from",
+                      fmt::join(sources, ", "), refused == draft_.remarks.end() ? "" : " (" + refused->says + ")"));
     }
     subject_table();
     model_table();
@@ -108,7 +111,8 @@ class Draft {
     return (result.empty() ? absolute : result).generic_string();
   }
 
-  void choose_model(const std::vector<fs::path>& models, const std::vector<fs::path>& files) {
+  void choose_model(std::vector<fs::path> models, const std::vector<fs::path>& files) {
+    if (!options_.model) std::erase_if(models, [&](const fs::path& model) { return !is_readable(model); });
     if (options_.model) {
       model_file_ = *options_.model;
     } else if (models.size() == 1) {
@@ -129,6 +133,17 @@ class Draft {
     model_ = model_file_ ? body::read_osim(*model_file_) : body::parse_osim(body::arm4_osim(), "arm4.osim");
     coordinate_ = options_.coordinate;
     if (!coordinate_.empty()) (void)model_.coordinate_index(coordinate_);
+  }
+
+  /// Returns true if a model can be read, else says why not.
+  [[nodiscard]] bool is_readable(const fs::path& model) {
+    try {
+      (void)body::read_osim(model);
+      return true;
+    } catch (const InvalidInput& error) {
+      note(RemarkCode::refused, model, fmt::format("not read: {}", error.what()));
+      return false;
+    }
   }
 
   void choose_coordinate() {

@@ -19,6 +19,7 @@
 
 #include "tests/support/data_folder.h"
 #include "tests/support/plate_recording.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::study {
@@ -83,6 +84,21 @@ TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {
   EXPECT_THAT(draft.todo, Contains(HasSubstr("2 kg")));
   EXPECT_THAT(draft.toml, HasSubstr("# Channels that no muscle about elbow_flexion takes: Soleus"));
   EXPECT_EQ(code_of(draft, "broken.trc"), RemarkCode::refused);
+}
+
+TEST(StudyDraft, AModelThatCannotBeReadIsLeftOutAndTheReasonOfAnEmptyDraftIsGiven) {
+  const test::TemporaryFolder folder;
+  write_trial(folder.path(), "lift");
+  write_file(folder / "empty.osim", "");
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  EXPECT_EQ(code_of(draft, "empty.osim"), RemarkCode::refused);
+  EXPECT_EQ(parse_study(draft.toml, folder / "study.toml").trials.size(), 1U);
+  EXPECT_THROW((void)draft_study(folder.path(), {.from = {folder.path()}, .model = folder / "empty.osim"}),
+               InvalidInput);
+  EXPECT_THROW((void)draft_study(folder.path(), {.from = {folder / "absent"}}), ReadError);
+  write_file(folder / "empty/empty.trc", "");
+  EXPECT_THAT(test::message_of([&] { (void)draft_study(folder.path(), {.from = {folder / "empty/empty.trc"}}); }),
+              HasSubstr("not read"));
 }
 
 /// Torque and angle of a dynamometer in a table whose columns have these names, and the EMG beside it.
