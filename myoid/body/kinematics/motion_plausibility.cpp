@@ -77,14 +77,16 @@ std::optional<Remark> too_fast(const TimeSeries& motion, const Stretch& within) 
 
 std::optional<Remark> absent_coordinates(const body::BodyModel& model, const TimeSeries& motion) {
   std::vector<std::string> resting;
+  std::string first;
   for (const body::Coordinate& coordinate : model.coordinates) {
     if (coordinate.locked || motion.find(coordinate.name)) continue;
+    if (first.empty()) first = coordinate.name;
     resting.push_back(fmt::format("'{}' at {:.4g} {}", coordinate.name, coordinate.default_value,
                                   symbol(coordinate_unit(coordinate, 0))));
   }
   if (resting.empty()) return std::nullopt;
   return Remark{.code = RemarkCode::coordinate_absent,
-                .about = "coordinates",
+                .about = resting.size() > 1 ? fmt::format("{} and {} more", first, resting.size() - 1) : first,
                 .value = static_cast<double>(resting.size()),
                 .says = fmt::format("{} not in the motion; resting: {}", counted(resting.size(), "coordinate"),
                                     fmt::join(resting, ", "))};
