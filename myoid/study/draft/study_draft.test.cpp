@@ -18,8 +18,8 @@
 #include "myoid/study/read_study.h"
 
 #include "tests/support/data_folder.h"
-#include "tests/support/plate_recording.h"
 #include "tests/support/message_of.h"
+#include "tests/support/plate_recording.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::study {
