@@ -1,4 +1,4 @@
-// What objects compiled with new headers ask of newer libraries than those that a module of the wheel runs with.
+// Functions that objects compiled with new headers call, and that the old libraries of a wheel's module lack.
 #include <cstdlib>
 
 #include <fmt/format-inl.h>

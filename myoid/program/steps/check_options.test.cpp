@@ -11,32 +11,23 @@
 #include "myoid/program/steps/ik.h"
 #include "myoid/program/steps/stage_options.h"
 
+#include "tests/support/message_of.h"
+
 namespace myoid::program {
 namespace {
 
 using testing::HasSubstr;
 
-/// Returns the sentence that refuses the options; empty: they are allowed.
-template <typename Options>
-std::string refusal_of(const Options& options) {
-  try {
-    check_options(options);
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(CheckOptions, RefusesAWordAndATooShortList) {
   IkOptions ik;
   ik.up = "upwards";
-  EXPECT_THAT(refusal_of(ik), HasSubstr("--up: found \"upwards\""));
+  EXPECT_THAT(test::message_of([&] { check_options(ik); }), HasSubstr("--up: found \"upwards\""));
   IdOptions id;
   id.held.at_m = {0.0, 0.1};
-  EXPECT_THAT(refusal_of(id), HasSubstr("--held-at: found 2"));
+  EXPECT_THAT(test::message_of([&] { check_options(id); }), HasSubstr("--held-at: found 2"));
   id = {};
   id.cutoff_hz = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal_of(id), HasSubstr("--lowpass: "));
+  EXPECT_THAT(test::message_of([&] { check_options(id); }), HasSubstr("--lowpass: "));
 }
 
 }  // namespace

@@ -78,10 +78,7 @@ void visit(PathsOptions& o, study::SettingVisitor& v) {
 PathsResult paths(const PathsOptions& o) {
   check_options(o);
   Remarks remarks(o.call);
-  const body::BodyModel model = load_model(o.model, o.compat, remarks);
-  if (!o.call.quiet) warn_of_path_differences(model, o.model, remarks);
-  const body::JointMotion motion =
-      load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, body::HeldValues::of_model);
+  const auto [model, motion] = load_moved_model(o.model, o.compat, o.motion, o.cutoff_hz, o.call, remarks);
   if (o.check_jumps) {
     for (const body::PathJump& jump : body::find_jumps(model)) remarks.warn(body::describe(model, jump));
   }

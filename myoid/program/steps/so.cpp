@@ -63,10 +63,7 @@ void visit(SoOptions& o, study::SettingVisitor& v) {
 SoResult so(const SoOptions& o) {
   check_options(o);
   Remarks remarks(o.call);
-  const body::BodyModel model = load_model(o.model, o.compat, remarks);
-  if (!o.call.quiet) warn_of_path_differences(model, o.model, remarks);
-  const body::JointMotion motion =
-      load_motion(model, o.motion, o.cutoff_hz, o.call, remarks, body::HeldValues::of_model);
+  const auto [model, motion] = load_moved_model(o.model, o.compat, o.motion, o.cutoff_hz, o.call, remarks);
   std::optional<body::ExternalLoads> loads;
   if (!o.loads.empty()) loads = load_external_loads(model, o.loads, motion, remarks);
   if (const auto weight = body::unsupported_weight(model);

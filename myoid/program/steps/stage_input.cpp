@@ -89,6 +89,18 @@ MarkerSeries cut(MarkerSeries markers, const Call& call) {
   return markers;
 }
 
+MovedModel load_moved_model(const std::string& model,
+                            body::Compatibility compat,
+                            const std::filesystem::path& motion,
+                            std::optional<double> cutoff_hz,
+                            const Call& call,
+                            Remarks& remarks) {
+  body::BodyModel loaded = load_model(model, compat, remarks);
+  if (!call.quiet) warn_of_path_differences(loaded, model, remarks);
+  body::JointMotion moved = load_motion(loaded, motion, cutoff_hz, call, remarks, body::HeldValues::of_model);
+  return {std::move(loaded), std::move(moved)};
+}
+
 body::JointMotion with_derivatives(body::JointMotion motion,
                                    const body::BodyModel& model,
                                    const std::filesystem::path& speeds,

@@ -43,6 +43,20 @@ void warn_of_path_differences(const body::BodyModel& model, const std::string& n
                                             Remarks& remarks,
                                             body::HeldValues held = body::HeldValues::of_motion);
 
+/// A model and its motion.
+struct MovedModel {
+  body::BodyModel model;
+  body::JointMotion motion;
+};
+/// Loads a model, warns of its paths that differ from OpenSim's, and reads its motion, with held coordinates as the
+/// model has them.
+[[nodiscard]] MovedModel load_moved_model(const std::string& model,
+                                          body::Compatibility compat,
+                                          const std::filesystem::path& motion,
+                                          std::optional<double> cutoff_hz,
+                                          const Call& call,
+                                          Remarks& remarks);
+
 /// Replaces the spline's derivatives of a motion by the speeds and accelerations in these files, for the coordinates
 /// that they have; an empty path changes nothing. Throws ReadError unless their times equal those of the motion's file.
 [[nodiscard]] body::JointMotion with_derivatives(body::JointMotion motion,

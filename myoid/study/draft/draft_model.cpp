@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "myoid/body/osim/osim_reader.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/label_match.h"
@@ -35,6 +37,21 @@ std::set<std::string> marker_labels(const std::vector<std::filesystem::path>& fi
 
 }  // namespace
 
+void leave_out_unreadable(std::vector<std::filesystem::path>& models, std::vector<Remark>& remarks) {
+  std::erase_if(models, [&](const std::filesystem::path& model) {
+    try {
+      (void)body::read_osim(model);
+      return false;
+    } catch (const InvalidInput& error) {
+      remarks.push_back({.code = RemarkCode::refused,
+                         .severity = Severity::note,
+                         .where = model.filename().string(),
+                         .says = fmt::format("not read: {}", error.what())});
+      return true;
+    }
+  });
+}
+
 ModelByMarkers model_of_markers(const std::vector<std::filesystem::path>& models,
                                 const std::vector<std::filesystem::path>& files) {
   const std::set<std::string> labels = marker_labels(files);
@@ -42,12 +59,8 @@ ModelByMarkers model_of_markers(const std::vector<std::filesystem::path>& models
   bool alone = false;
   for (const std::filesystem::path& path : models) {
     Eigen::Index known = 0;
-    try {
-      for (const body::Marker& marker : body::read_osim(path).markers)
-        known += labels.contains(plain_label(marker.name)) ? 1 : 0;
-    } catch (const InvalidInput&) {
-      continue;
-    }
+    for (const body::Marker& marker : body::read_osim(path).markers)
+      known += labels.contains(plain_label(marker.name)) ? 1 : 0;
     if (known > best.markers) {
       best = {path, known};
       alone = true;

@@ -11,14 +11,17 @@
 
 namespace myoid::study {
 
+/// Leaves out the models that cannot be read, with a remark on each.
+void leave_out_unreadable(std::vector<std::filesystem::path>& models, std::vector<Remark>& remarks);
+
 /// A model and the number of recorded markers that it knows.
 struct ModelByMarkers {
   std::filesystem::path model;
   Eigen::Index markers = 0;  ///< 0: no model knows more than the others.
 };
 
-/// Returns the model that knows the most markers of the first recordings with markers. Models that cannot be read know
-/// none. Of models that know equally many none is chosen.
+/// Returns the model that knows the most markers of the first recordings with markers. Of models that know
+/// equally many none is chosen. Throws as `read_osim`.
 [[nodiscard]] ModelByMarkers model_of_markers(const std::vector<std::filesystem::path>& models,
                                               const std::vector<std::filesystem::path>& files);
 

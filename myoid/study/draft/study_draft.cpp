@@ -112,7 +112,7 @@ class Draft {
   }
 
   void choose_model(std::vector<fs::path> models, const std::vector<fs::path>& files) {
-    if (!options_.model) std::erase_if(models, [&](const fs::path& model) { return !is_readable(model); });
+    if (!options_.model) leave_out_unreadable(models, draft_.remarks);
     if (options_.model) {
       model_file_ = *options_.model;
     } else if (models.size() == 1) {
@@ -133,17 +133,6 @@ class Draft {
     model_ = model_file_ ? body::read_osim(*model_file_) : body::parse_osim(body::arm4_osim(), "arm4.osim");
     coordinate_ = options_.coordinate;
     if (!coordinate_.empty()) (void)model_.coordinate_index(coordinate_);
-  }
-
-  /// Returns true if a model can be read, else says why not.
-  [[nodiscard]] bool is_readable(const fs::path& model) {
-    try {
-      (void)body::read_osim(model);
-      return true;
-    } catch (const InvalidInput& error) {
-      note(RemarkCode::refused, model, fmt::format("not read: {}", error.what()));
-      return false;
-    }
   }
 
   void choose_coordinate() {

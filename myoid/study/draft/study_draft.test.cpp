@@ -261,7 +261,7 @@ TEST(StudyDraft, SaysThatMarkersOfALegMeetAnArm) {
   write_markers(folder / "walk.trc", {"LASI", "RASI", "LKNE", "RKNE", "LANK", "RANK", "LHEE", "RHEE"});
   const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
   EXPECT_THAT(draft.todo, Contains(HasSubstr("those of a leg")));
-  // What the arm lacks of a leg is no question.
+  // The draft asks nothing about joints that a leg has and the arm lacks.
   for (const char* words : {"which joint", "known to the model", "name the pairs", "segments of the built-in arm"})
     EXPECT_THAT(draft.todo, testing::Not(Contains(HasSubstr(words)))) << words;
 }
