@@ -157,8 +157,11 @@ bool is_of_joint(const std::string& parameter) {
 /// Returns the muscles whose strength a run has.
 std::set<std::string> muscles_of(const Run& run) {
   std::set<std::string> muscles;
+  const auto is_strength_of_muscle = [](const Key& key) { return std::get<1>(key) == "max_isometric_force"; };
   for (const auto& [key, estimate] : run.estimates)
-    if (std::get<1>(key) == "max_isometric_force") muscles.insert(std::get<0>(key));
+    if (is_strength_of_muscle(key)) muscles.insert(std::get<0>(key));
+  for (const auto& [key, others] : run.sharers)
+    if (is_strength_of_muscle(key)) muscles.insert(others.begin(), others.end());
   return muscles;
 }
 
@@ -167,8 +170,8 @@ struct Alike {
   bool effort = true;   ///< Strengths belong to one effort.
   bool muscles = true;  ///< Numbers of a joint are those of the same muscles.
   [[nodiscard]] bool holds(const std::string& parameter) const {
-    return (effort || !(is_strength(parameter) || fit::is_voluntary(parameter))) &&
-           (muscles || !is_of_joint(parameter));
+    const bool of_effort = is_strength(parameter) || fit::is_voluntary(parameter);
+    return (effort || !of_effort) && (muscles || !is_of_joint(parameter));
   }
 };
 

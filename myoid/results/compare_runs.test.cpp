@@ -234,6 +234,26 @@ TEST(CompareRuns, AStrengthAtTheLargestEmgIsNotThatOfFullEffort) {
   ASSERT_EQ(other.unlike.size(), 1U);
 }
 
+TEST(CompareRuns, AJointsTorqueIsComparedWhereItsMusclesAreTheSame) {
+  const test::TemporaryFolder folder;
+  // The second number becomes the joint's; the muscles are BIC and, tied to it or not, BRA.
+  const auto session = [&](const char* name, double torque, const char* other, const char* tied_to) {
+    const auto path =
+        run(folder.path() / name,
+            {{"elbow", torque, 1, "identified"}, {"BIC", 100, 1, "weak"}, {other, 90, 1, "weak", tied_to}}, 1.0);
+    std::string json = read_text_file(path / "parameters.json");
+    const std::string_view strength = "max_isometric_force";
+    json.replace(json.find(strength), strength.size(), "voluntary_torque_positive");
+    write_file(path / "parameters.json", json);
+    return path;
+  };
+  const auto change = [](const RunComparison& c) { return c.parameters.at(0).change; };
+  const auto first = session("one", 40, "BRA", "");
+  EXPECT_EQ(change(compare_runs(first, session("two", 50, "BRA", ""))), Change::differs);
+  EXPECT_EQ(change(compare_runs(first, session("three", 50, "BRA", "BIC"))), Change::differs);
+  EXPECT_EQ(change(compare_runs(first, session("four", 50, "BRD", ""))), Change::cannot_tell);
+}
+
 TEST(CompareRuns, AJointsTorqueThatOneMuscleMakesIsThatMusclesNumber) {
   const test::TemporaryFolder folder;
   const auto session = [&](const char* name, double torque, double of_joint) {

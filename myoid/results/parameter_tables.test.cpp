@@ -74,6 +74,18 @@ TEST(EstimateTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
   EXPECT_EQ(tables[1].rows[0][1].text, "EMG gain");
 }
 
+TEST(TruthOf, AStrengthIsThatOfFullEffort) {
+  run::StudyResult result;
+  result.source.truth = {{"BIC", "max_isometric_force", 900.0}, {"BIC", "optimal_fiber_length", 0.14}};
+  result.fit.methods.push_back(two_muscles());
+  result.fit.methods[0].voluntary.emplace_back();
+  const auto strength = [&] { return truth_of(result, estimate("BIC", "max_isometric_force", 500.0)); };
+  EXPECT_EQ(strength(), 900.0);
+  result.fit.methods[0].voluntary[0].from_mvc = false;  // the estimate is of the largest EMG
+  EXPECT_EQ(strength(), std::nullopt);
+  EXPECT_EQ(truth_of(result, estimate("BIC", "optimal_fiber_length", 0.13)), 0.14);
+}
+
 TEST(EstimateTables, AnIntervalBeyondAllMeaningIsNone) {
   ParameterEstimate e = estimate("BIC", "optimal_fiber_length", 0.1338);
   e.initial = 0.14;

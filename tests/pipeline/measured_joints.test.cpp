@@ -185,6 +185,35 @@ TEST(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSees
   EXPECT_NEAR(near_high - near_low, sure_high - sure_low, 0.3 * (sure_high - sure_low));
 }
 
+// The draws of two lifts lie along a curved ridge of strength and gain. Their mean beside it explains nothing; each
+// lift is predicted from the other.
+TEST(MeasuredElbow, AFitThatPredictsExplainsItsOwnTorque) {
+  const fs::path data = myoid::test::data_folder() / "elbow-emg";
+  MYOID_REQUIRE_DATA(data);
+  const TemporaryFolder folder;
+  std::string study =
+      "[subject]\nmass_kg = 70.0\n[model]\nbuiltin = \"arm4\"\ncoordinate = \"elbow_flexion\"\n"
+      "[emg]\nkind = \"raw\"\n[identify]\nmethod = [\"torque\"]\n";
+  for (const auto& [muscle, emg] : {std::pair("BIC", "\"biceps_brachii\""),
+                                    {"BRD", "\"brachioradialis\""},
+                                    {"TRI", "\"triceps_lateral\""},
+                                    {"BRA", "{ same_as = \"BIC\" }"}})
+    study += fmt::format("[[muscle]]\nname = \"{0}\"\nosim = [\"{0}\"]\nemg = {1}\n", muscle, emg);
+  for (const std::string trial : {"load5p5_T1", "load5p5_T2"})
+    study += fmt::format(
+        "[[trial]]\nname = \"{0}\"\nmotion = \"{1}/{0}_elbow.mot\"\nemg = \"{1}/{0}_emg_raw_uV.sto\"\n"
+        "use = \"calibration\"\nheld_mass_kg = 2.5\n",
+        trial, data.string());
+  write_text(folder / "study.toml", study);
+  const Finished done = myoid({"run", folder / "study.toml", "--out", folder / "out"});
+  ASSERT_NE(done.exit_code, 3) << done.err;
+  std::ifstream stream(folder / "out/parameters.json");
+  const nlohmann::json parameters = nlohmann::json::parse(stream);
+  for (const auto& fold : parameters.at("leave_one_trial_out")) EXPECT_GT(fold.at("identified").at("r2"), 0.8);
+  EXPECT_GT(parameters.at("methods").at(0).at("r2"), 0.8);
+  for (const auto& trial : parameters.at("methods").at(0).at("trials")) EXPECT_GT(trial.at("r2"), 0.8);
+}
+
 /// Leaves out each speed of a walking leg, of the whole minute or of a part of it.
 struct Walks {
   std::vector<double> r2;  ///< By the left-out speed.

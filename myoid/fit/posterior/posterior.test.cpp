@@ -196,6 +196,18 @@ TEST(IdentifyByPosterior, ASearchThatBeginsAtTheAnswerStaysThere) {
   EXPECT_LT(again.iterations, whole.iterations);
 }
 
+// The fibers' optimum does not shift with activation: the truth is the bound, inside of which the search stays.
+TEST(IdentifyByPosterior, AnIntervalOfANumberThatIsZeroByNatureHoldsZero) {
+  ElbowStudy study = person(5);
+  study.data.rules = {test::freed("length_activation")};
+  study.data.rules[0].tie = true;
+  const IdentificationResult result = identify_by_posterior(study.data, {});
+  const ParameterEstimate& shift = find(result, "BIC", "length_activation");
+  EXPECT_GT(shift.estimate, 0.0);
+  EXPECT_EQ(shift.ci_low, 0.0);
+  EXPECT_EQ(shift.given_ci_low, 0.0);
+}
+
 TEST(IdentifyByPosterior, NeedsPriors) {
   EstimatorOptions options;
   options.priors = false;

@@ -256,6 +256,14 @@ TEST(CheckMotion, DegreesUnderTheNameOfAnAngleAreNoRadians) {
   EXPECT_EQ(errors_of_motion(head, "/jointset/knee_r/knee_angle_r/speed", bends), 0U);
 }
 
+// Inverse dynamics of some programs names a torque as its coordinate; the weight stands under the pelvis' height.
+TEST(CheckMotion, TorquesNamedAsCoordinatesAreNoAngles) {
+  const auto torque = [](double t) { return 120.0 + 50.0 * std::sin(0.5 * t); };
+  const std::string head = "UNKNOWN\nversion=1\ninDegrees=no\n";
+  EXPECT_EQ(errors_of_motion(head, "pelvis_tilt", torque), 1U);
+  EXPECT_EQ(errors_of_motion(head, "pelvis_tilt\tpelvis_ty", torque), 0U);
+}
+
 TEST(CheckRecording, NoiseAloneIsNoEmg) {
   const test::TemporaryFolder folder;
   std::string text = "time,a [mV]\n";
