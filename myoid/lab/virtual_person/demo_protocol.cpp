@@ -5,7 +5,7 @@
 namespace myoid::lab {
 
 std::string protocol_text(const std::filesystem::path& name) {
-  if (name == kDemoProtocol && !std::filesystem::exists(name)) return std::string(demo_protocol_text());
+  if (name == kDemoProtocol) return std::string(demo_protocol_text());
   return read_text_file(name);
 }
 

@@ -15,7 +15,7 @@ inline constexpr std::string_view kDemoProtocol = "demo";
 /// Returns the text of examples/demo/protocol.toml.
 [[nodiscard]] std::string_view demo_protocol_text();
 
-/// Returns the text of the file, or of the program's own protocol if the name is `demo` and no such file exists. Throws
+/// Returns the text of the file, or of the program's own protocol if the name is `demo`; `./demo` is a file. Throws
 /// InvalidInput.
 [[nodiscard]] std::string protocol_text(const std::filesystem::path& name);
 

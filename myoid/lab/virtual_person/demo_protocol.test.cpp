@@ -6,6 +6,7 @@
 #include "myoid/ground/files/text_file.h"
 
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 namespace myoid::lab {
 namespace {
@@ -19,6 +20,16 @@ TEST(DemoProtocol, IsNoOtherFile) {
   const auto level0 = test::source_dir() / "examples/protocols/noise_free.toml";
   EXPECT_EQ(protocol_named(level0).trials.size(), read_protocol(level0).trials.size());
   EXPECT_THROW((void)protocol_named("no_such_protocol.toml"), InvalidInput);
+}
+
+TEST(DemoProtocol, IsNotHiddenByAFolderOfItsName) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  std::filesystem::create_directory("demo");
+  EXPECT_EQ(protocol_text("demo"), demo_protocol_text());
+  EXPECT_THROW((void)protocol_text("./demo"), InvalidInput);
+  std::filesystem::current_path(before);
 }
 
 }  // namespace
