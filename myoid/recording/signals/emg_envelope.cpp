@@ -297,13 +297,18 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
       return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * window_s);
     };
     const double spread = spread_over(options.window_s);
-    const double second = extreme_level(std::move(means.of_a_second), 2.0 * spread_over(kRest_s), 1.0).level;
-    const double of_pauses = spread_over(kPause_s);
-    const double pause = extreme_level(std::move(means.of_a_pause), 2.0 * of_pauses, 1.0).level;
-    const double quiet = pause < (1.0 - kQuieter * of_pauses) * second ? pause : second;
+    const auto quiet_level = [&] {
+      const double second = extreme_level(std::move(means.of_a_second), 2.0 * spread_over(kRest_s), 1.0).level;
+      const double of_pauses = spread_over(kPause_s);
+      const double pause = extreme_level(std::move(means.of_a_pause), 2.0 * of_pauses, 1.0).level;
+      return pause < (1.0 - kQuieter * of_pauses) * second ? pause : second;
+    };
+    const auto known = std::ranges::find(options.electrodes, channel.name, &ChannelNormalisation::channel);
+    const bool is_known = known != options.electrodes.end();
+    const double quiet = is_known ? known->resting_level_v : quiet_level();
     const Extreme greatest = extreme_level(std::move(means.of_a_window), 1.5 * spread, -1.0);
     n.relative_sd = spread / std::sqrt(std::max(1.0, static_cast<double>(greatest.count) / means.samples_per_window));
-    n.rests = greatest.level > kRises * quiet;
+    n.rests = (!is_known || known->rests) && greatest.level > kRises * quiet;
     n.resting_level_v = n.rests ? quiet : 0.0;
     n.reference_v = std::sqrt(greatest.level * greatest.level - n.resting_level_v * n.resting_level_v);
     result.push_back(std::move(n));

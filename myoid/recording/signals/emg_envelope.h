@@ -115,6 +115,8 @@ struct ChannelNormalisation {
 struct NormalisationOptions {
   double window_s = 0.5;   ///< Window of the moving mean; shorter trials do not count.
   bool held_back = false;  ///< For `add_normalisation`: trials for validation took no part.
+  /// Channels whose resting level is known, as of a recording of which the trials are a part: noise is the electrode's.
+  std::span<const ChannelNormalisation> electrodes;
 };
 
 /// Returns one entry for each channel of the first trial. Half seconds that no other effort confirms (`lone_peaks`) are

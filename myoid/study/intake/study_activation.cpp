@@ -52,16 +52,21 @@ ComparedEnvelopes compared_envelopes(const Study& study,
   return found;
 }
 
-/// Fills the activations and the normalisation of `found`.
-void add_activations(const Study& study, const EmgOfTrials& emg, const StagesOfTrials& stages, StudyActivation& found) {
+/// Fills the activations and the normalisation of `found`. The resting levels of `electrodes` hold.
+void add_activations(const Study& study,
+                     const EmgOfTrials& emg,
+                     const StagesOfTrials& stages,
+                     std::span<const recording::ChannelNormalisation> electrodes,
+                     StudyActivation& found) {
   if (study.emg.kind == EmgKind::activation) {
     for (std::size_t i = 0; i < emg.size(); ++i) {
       if (emg[i] != nullptr) found.trials[i].activation = *emg[i];
     }
     return;
   }
-  found.scale.normalisation = recording::find_normalisation(compared_envelopes(study, emg, stages, true).trials,
-                                                            {.window_s = study.emg.normalise_window_s});
+  found.scale.normalisation =
+      recording::find_normalisation(compared_envelopes(study, emg, stages, true).trials,
+                                    {.window_s = study.emg.normalise_window_s, .electrodes = electrodes});
   for_each_trial(emg.size(), [&](std::size_t i) {
     if (emg[i] == nullptr) return;
     found.trials[i].activation =
@@ -131,7 +136,7 @@ ComparedEnvelopes envelopes_of(const Study& study,
 }
 
 void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& envelopes) {
-  add_activations(study, emg, stages_of(envelopes.trials), envelopes);
+  add_activations(study, emg, stages_of(envelopes.trials), {}, envelopes);
 }
 
 StudyActivation study_activation(const Study& study, const EmgOfTrials& emg) {
@@ -149,7 +154,7 @@ StudyActivation activation_with_uses(const Study& study,
   found.scale.whitening = scale.whitening;
   StagesOfTrials stages;
   for (const TrialActivation* trial : known) stages.push_back(trial->stages ? &*trial->stages : nullptr);
-  add_activations(study, emg, stages, found);
+  add_activations(study, emg, stages, scale.normalisation, found);
   return found;
 }
 

@@ -63,7 +63,7 @@ struct ComparedEnvelopes {
 void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& envelopes);
 
 /// Returns the activations of the same trials with the uses of `study`, from the envelopes of `known` behind the filter
-/// of `scale`. The stages are empty.
+/// and above the resting levels of `scale`, which are those of the electrodes. The stages are empty.
 [[nodiscard]] StudyActivation activation_with_uses(const Study& study,
                                                    const EmgOfTrials& emg,
                                                    const std::vector<const TrialActivation*>& known,

@@ -78,5 +78,20 @@ TEST(StudyActivation, ATrialThatIsHeldBackHasNoPartInTheGreatestEffort) {
   EXPECT_NEAR(other.scale.normalisation.at(0).reference_v, 4e-4, 1e-3 * 4e-4);
 }
 
+TEST(StudyActivation, TheRestingLevelOfATrialThatIsHeldBackIsTheElectrodes) {
+  Study study = arm_study();
+  study.trials.resize(2);
+  const TimeSeries quiet_v = step_of(4e-4);
+  Eigen::MatrixXd noisy = step_of(2e-4).values().array() + 5e-5;  // never as quiet as the other
+  const TimeSeries noisy_v(quiet_v.time_s(), quiet_v.channels(), noisy);
+  const EmgOfTrials both{&quiet_v, &noisy_v};
+  const StudyActivation whole = study_activation(study, both);
+  study.trials[0].use = Use::validation;
+  EXPECT_GT(study_activation(study, both).scale.normalisation.at(0).resting_level_v, 4e-5);
+  const auto of_fold = activation_with_uses(study, both, {&whole.trials[0], &whole.trials[1]}, whole.scale);
+  EXPECT_EQ(of_fold.scale.normalisation.at(0).resting_level_v, whole.scale.normalisation.at(0).resting_level_v);
+  EXPECT_NEAR(of_fold.scale.normalisation.at(0).reference_v, 2.5e-4, 2e-3 * 2.5e-4);
+}
+
 }  // namespace
 }  // namespace myoid::study
