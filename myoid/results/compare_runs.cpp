@@ -33,9 +33,9 @@ using nlohmann::json;
 
 constexpr double kLevel = 0.05;
 /// Share of the errors of the first kind that the greatest voluntary torques may make.
-constexpr double kOfTorques = 0.6;
+constexpr double kOfTorques = 0.9;
 /// The effort that a person's maximal contraction reaches differs by this share from session to session (judgment).
-constexpr double kEffortSd = 0.02;
+constexpr double kEffortSd = 0.03;
 
 using fit::ParameterEstimate;
 using fit::Verdict;

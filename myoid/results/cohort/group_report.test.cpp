@@ -114,12 +114,12 @@ TEST(GroupReport, TwoSessionsAreComparedGivenGeometryAndSensors) {
     return place;
   };
   const page::Report page =
-      group_report({.persons = {session("before", 600)}, .after = {session("after", 640)}, .folder = folder / "group"});
+      group_report({.persons = {session("before", 600)}, .after = {session("after", 660)}, .folder = folder / "group"});
   const page::StripCell& cell = page.sections[0].grids.at(0).rows[0].cells[0];
-  EXPECT_NEAR(*cell.value, 40.0, 0.1);
-  // With another effort of 2 % in each session.
+  EXPECT_NEAR(*cell.value, 60.0, 0.1);
+  // With another effort of 3 % in each session.
   EXPECT_NEAR(*cell.value - *cell.lower,
-              std::sqrt(2.0 * 100.0 + std::pow(1.96 * 0.02, 2) * (600.0 * 600.0 + 640.0 * 640.0)), 0.02);
+              std::sqrt(2.0 * 100.0 + std::pow(1.96 * 0.03, 2) * (600.0 * 600.0 + 660.0 * 660.0)), 0.02);
   EXPECT_EQ(cell.verdict, "differs");
 }
 
