@@ -39,10 +39,15 @@ bool is_bids_description(const fs::path& path) {
          ends("_sessions.tsv") || name == "participants.tsv";
 }
 
+/// Returns the words of a name. A minus between a separator and a digit is a number's sign: "pas_-10" is not "pas_10".
 std::vector<std::string> words_of(const std::string& stem) {
   std::vector<std::string> words(1);
-  for (const char c : small(stem)) {
-    if (c == '_' || c == '-' || c == ' ' || c == '.') {
+  const std::string text = small(stem);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool is_sign =
+        c == '-' && words.back().empty() && i + 1 < text.size() && text[i + 1] >= '0' && text[i + 1] <= '9';
+    if (!is_sign && (c == '_' || c == '-' || c == ' ' || c == '.')) {
       if (!words.back().empty()) words.emplace_back();
     } else {
       words.back() += c;
@@ -181,7 +186,7 @@ Use guessed_use(const std::string& stem) {
   for (const std::string& word : words_of(stem)) {
     if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return Use::mvc;
     if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical") return Use::static_pose;
-    if (word == "passive" || word == "relaxed") return Use::passive;
+    if (word == "passive" || word == "pas" || word == "relaxed") return Use::passive;
   }
   return Use::calibration;
 }

@@ -21,6 +21,8 @@ TEST(TrialStem, IsTheNameWithoutWhatAFileSaysOfItsOwnKind) {
   EXPECT_EQ(trial_stem("in/walk36/emgFilt.sto"), "walk36");
   EXPECT_EQ(trial_stem("emg_walk_raw.anc"), "walk");
   EXPECT_EQ(trial_stem("grf_walk.xml"), "walk");
+  EXPECT_EQ(trial_stem("Pas_-10_dynamometer.csv"), "pas_-10");  // the sign of an angle
+  EXPECT_EQ(trial_stem("Walk-10_ik.csv"), "walk_10");
   EXPECT_EQ(trial_stem("Walk 01_trajectories.csv"), trial_stem("Walk 01_devices.csv"));
 }
 
@@ -28,6 +30,7 @@ TEST(GuessedUse, IsWhatAWordOfTheNameSays) {
   EXPECT_EQ(guessed_use("mvc_biceps"), Use::mvc);
   EXPECT_EQ(guessed_use("static_1"), Use::static_pose);
   EXPECT_EQ(guessed_use("relaxed_elbow"), Use::passive);
+  EXPECT_EQ(guessed_use("pas_-10"), Use::passive);
   EXPECT_EQ(guessed_use("subject_1_mvt_random"), Use::calibration);
 }
 

@@ -108,7 +108,7 @@ class TrialWriter {
     two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
     out_.line("use = " + toml_text(std::string(choice_name(use))));
     any_calibration_ = any_calibration_ || use == Use::calibration;
-    if (without_emg) without(emg_of(f, found_, !around_.raw_emg), f.stem);
+    if (without_emg && use != Use::passive) without(emg_of(f, found_, !around_.raw_emg), f.stem);
     bool stated = false;
     for (const std::filesystem::path& loads : around_.external_loads) {
       if (trial_stem(loads) != f.stem) continue;
@@ -126,12 +126,19 @@ class TrialWriter {
     out_.line("");
   }
 
-  /// Offers the table of torques of a trial, which may be measured or computed, that beside
-  /// the motion first; false if there is none.
+  /// Returns true for a table that is the motion of another trial.
+  [[nodiscard]] bool is_of_another(const std::filesystem::path& table, const FoundRecording& motion) const {
+    return std::ranges::any_of(
+        found_, [&](const FoundRecording& f) { return &f != &motion && !f.angles.empty() && f.path == table; });
+  }
+
+  /// Offers the table of torques of a trial, which may be measured or computed: the motion's own, else that beside the
+  /// motion, else any; false if there is none.
   bool offer_torque(const FoundRecording& motion) {
-    auto table = around_.torques.end();
+    auto table = std::ranges::find(around_.torques, motion.path);
     for (auto other = around_.torques.begin(); other != around_.torques.end(); ++other) {
-      if (stem_of_torques(*other) != motion.stem) continue;
+      if (table != around_.torques.end() && *table == motion.path) break;
+      if (stem_of_torques(*other) != motion.stem || is_of_another(*other, motion)) continue;
       const bool beside = other->parent_path() == motion.path.parent_path();
       if (table == around_.torques.end() || beside) table = other;
     }
@@ -152,7 +159,8 @@ class TrialWriter {
                                 : fmt::format("the EMG of '{}' ({}) is {}", stem, other->path.filename().string(),
                                               other->raw ? "raw, and the study takes envelopes"
                                                          : "an envelope, and the study takes raw EMG");
-    out_.todo(fmt::format("{}; '{}' gives motion and torque only", why, stem));
+    out_.todo(
+        fmt::format("{}; '{}' gives motion and torque only; use = \"passive\" if the muscles were at rest", why, stem));
   }
 
   /// Writes a maximal contraction if the name says so, otherwise a question.

@@ -91,6 +91,20 @@ TEST(DraftTrials, OfferATableOfTorquesOfTheirNameAndAskOnceWhetherItWasMeasured)
   EXPECT_EQ(out.questions.size(), 2U);  // the torques of two trials, and what was held in the third
 }
 
+TEST(DraftTrials, TakeTheTorqueOfTheMotionsOwnFileAndNoneOfAnotherTrial) {
+  std::vector<FoundRecording> files{found("turn.csv", true, false), found("turn_emg.sto", false, true),
+                                    found("turn_id.csv", true, false), found("turn_id_emg.sto", false, true)};
+  DraftText out;
+  draft_trials(files,
+               {.torques = {"turn_id.csv", "turn.csv"},
+                .own_model = true,
+                .relative = [](const std::filesystem::path& path) { return path.string(); }},
+               out);
+  EXPECT_THAT(out.toml, HasSubstr("motion = \"turn.csv\"\nemg = \"turn_emg.sto\"\nuse = \"calibration\"\n# TODO"));
+  EXPECT_THAT(out.toml, HasSubstr("# external_torque = \"turn.csv\"\n\n[[trial]]"));
+  EXPECT_THAT(out.toml, HasSubstr("# external_torque = \"turn_id.csv\"\n\n"));
+}
+
 TEST(DraftTrials, TakeTheKindOfEmgOfMostMovementsAndSayWhichKindTheOthersHave) {
   std::vector<FoundRecording> files{found("bend.mot", true, false),      found("bend_emg.sto", false, true),
                                     found("stretch.mot", true, false),   found("stretch_emg.sto", false, true),
@@ -108,7 +122,7 @@ TEST(DraftTrials, TakeTheKindOfEmgOfMostMovementsAndSayWhichKindTheOthersHave) {
   EXPECT_THAT(out.toml, HasSubstr("emg = \"bend_emg.sto\"\nuse = \"calibration\""));
   EXPECT_THAT(out.questions,
               ::testing::Contains("the EMG of 'other' (other_raw.sto) is raw, and the study takes envelopes; 'other' "
-                                  "gives motion and torque only"));
+                                  "gives motion and torque only; use = \"passive\" if the muscles were at rest"));
   EXPECT_EQ(out.questions.size(), 2U);  // the other: what was held, once for all trials
   files[3].raw = true;                  // as many raw as envelopes
   files.resize(4);
