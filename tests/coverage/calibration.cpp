@@ -3,6 +3,7 @@
 /// draws. `calibration --help` prints the options.
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -180,8 +181,10 @@ std::vector<std::string> names_of(const Settings& settings) {
   std::vector<std::string> names;
   const fit::ParameterMap map(person.data, person.options);
   for (const fit::Unknown& u : map.free()) names.push_back(u.label);
-  for (const char* name : {"noise.torque_sd", "noise.torque_time", "noise.emg", "noise.model"})
-    names.emplace_back(name);
+  constexpr std::array<const char*, fit::kNoiseFieldCount> kNoise{
+      "noise.torque_sd", "noise.torque_time", "noise.emg",        "noise.model",
+      "noise.arm_slope", "noise.crosstalk",   "noise.gain_drift", "noise.rise_and_fall"};
+  names.insert(names.end(), kNoise.begin(), kNoise.end());
   for (const fit::TrialData& trial : person.data.trials) names.push_back(trial.name + ".torque_share");
   return names;
 }
