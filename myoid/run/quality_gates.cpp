@@ -14,7 +14,6 @@
 #include "myoid/body/dynamics/ground_support.h"
 #include "myoid/body/dynamics/torque_plausibility.h"
 #include "myoid/body/forces/sharing_plausibility.h"
-#include "myoid/fit/beliefs/beliefs.h"
 #include "myoid/ground/core/counted.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/page/typeset.h"
@@ -316,14 +315,14 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
 }
 
 Gate electrode_gate(const fit::ExchangedElectrodes& exchanged) {
-  // A larger difference of the synergists' strengths than usual could explain this, too.
-  return {"Electrodes on the muscles that they are named for",
-          exchanged.as_named.r2 > study::kGateLimits.explains ? GateStatus::warn : GateStatus::fail,
-          exchanged.sentence(),
-          fmt::format("no two channels that fit {:.0f} % better as each other; fails where they make less than half of "
-                      "the torque as they are (R2 0.5)",
-                      100.0 * fit::beliefs::kStrengthRatio.sd),
-          "Every number of the two muscles is then the other's."};
+  // A person whose synergists differ more than usual could explain this, too.
+  return {
+      "Electrodes on the muscles that they are named for",
+      exchanged.r2 > study::kGateLimits.explains ? GateStatus::warn : GateStatus::fail, exchanged.sentence(),
+      fmt::format("no two channels by whose exchange the recording is {:.0f} times as probable; fails where the fit "
+                  "explains less than half of the torque (R2 0.5)",
+                  std::exp(fit::kExchangedOdds)),
+      "Every number of the two muscles is then the other's."};
 }
 
 Gate clock_gate(const fit::ShiftedEmg& shifted) {
@@ -345,6 +344,8 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
   }
   list.push_back(recordings_gate(result));
   list.push_back(loads_gate(result.trials));
+  if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
+  if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   const auto add = [&list](std::vector<Gate> gates) { std::ranges::move(gates, std::back_inserter(list)); };
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));
@@ -355,8 +356,6 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
     add(fold_gates(result.folds, std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) !=
                                      result.level_faults.end()));
   }
-  if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
-  if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   return list;
 }
 

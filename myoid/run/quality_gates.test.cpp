@@ -105,9 +105,9 @@ TEST(QualityGates, ExchangedElectrodesAreAFailureOrOfSynergistsACaution) {
   const char* gate = "Electrodes on the muscles that they are named for";
   StudyResult result = some_result(0.01, 0, 90.0);
   EXPECT_EQ(status_of(result, gate), GateStatus::info);
-  result.fit.exchanged = {.first = "BIC", .second = "TRI", .as_named = {}, .exchanged = {}};
+  result.fit.exchanged = {.first = "BIC", .second = "TRI", .log_odds = 20.0, .r2 = 0.0};
   EXPECT_EQ(status_of(result, gate), GateStatus::fail);
-  result.fit.exchanged->as_named.r2 = 0.9;
+  result.fit.exchanged->r2 = 0.9;
   EXPECT_EQ(status_of(result, gate), GateStatus::warn);
   EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
 }

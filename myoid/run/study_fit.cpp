@@ -65,8 +65,6 @@ bool shares_forces(const study::Study& study) {
 StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64_t seed, const Progress& progress) {
   StudyFit found;
   if (wants_torque(study)) {
-    const double delay_s = study.emg.delay_s.value_or(fit::EstimatorOptions{}.delay_prior_mean_s);
-    found.exchanged = fit::exchanged_electrodes(input.data, delay_s);
     found.shifted = fit::shifted_emg(
         input.data, {recording::kLimits.clocks.earliest_offset_s, recording::kLimits.clocks.latest_offset_s});
   }
@@ -86,6 +84,7 @@ StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64
       std::optional<IdentificationResult> exact;
       if (study.emg.kind == study::EmgKind::activation) exact = fit::identify_exactly(input.data, input.options);
       found.methods.push_back(exact ? std::move(*exact) : fit::identify_torque(input.data, input.options));
+      found.exchanged = fit::exchanged_electrodes(input.data, input.options, found.methods.back());
     }
   }
   return found;

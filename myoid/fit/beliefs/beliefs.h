@@ -168,10 +168,6 @@ inline constexpr Belief kRestingWeight =
     belief("weight of limb and instrument in a passive trial", 0.0, 10.0, value, "N m").judged("passive trials");
 inline constexpr Belief kRestingTissue =
     belief("departure of a passive torque from the sine of a weight", 0.0, 1.0, value, "N m").judged("passive trials");
-inline constexpr Belief kStrengthRatio =
-    belief("ratio of two muscles' F_max", kModels, 0.42, value, "")
-        .used("by more than this an exchange of two electrodes must improve the fit")
-        .from("each differs by 30 % between published sets");
 
 // Quantities that residuals hardly determine.
 inline constexpr std::string_view kPosterior = "every fit of a torque or force";

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/fit/beliefs/beliefs.h"
 #include "myoid/fit/intervals/score.h"
+#include "myoid/fit/intervals/verdict_rules.h"
+#include "myoid/fit/methods/cross_validation.h"
 #include "myoid/fit/methods/prediction.h"
+#include "myoid/fit/posterior/exploration.h"
 
 namespace myoid::fit {
 namespace {
@@ -20,40 +23,65 @@ struct Sides {
   Eigen::VectorXd measured, predicted;
 };
 
-/// True if the channel's largest value in one of three calibration trials or more is far above that of all others: with
-/// another gain, or as the electrode of another muscle, that trial alone sets what activation 1 is.
-bool rests_on_one_trial(const StudyData& data, const std::string& channel) {
-  constexpr double kFar = 2.5;
-  std::vector<double> peaks;
-  for (const TrialData& trial : data.trials) {
-    if (trial.calibration) peaks.push_back(trial.activation.column(channel).maxCoeff());
+constexpr double kFar = 2.5;           // standard deviations of a muscle's number
+constexpr std::size_t kMostPairs = 4;  // that are tried
+
+/// An EMG channel, and the greatest distance of its muscles' numbers from what is known of people.
+struct FarChannel {
+  std::string name;
+  double distance = 0.0;
+};
+
+std::vector<FarChannel> far_channels(const StudyData& data, const IdentificationResult& fit) {
+  std::vector<FarChannel> channels;
+  for (const MuscleSetup& setup : data.muscles) {
+    auto at = std::ranges::find(channels, setup.emg_channel, &FarChannel::name);
+    if (at == channels.end()) at = channels.insert(channels.end(), {setup.emg_channel});
+    const auto known = std::ranges::find(fit.prior_distances, setup.name, &PriorDistance::muscle);
+    if (known != fit.prior_distances.end()) at->distance = std::max(at->distance, known->farthest_distance);
   }
-  if (peaks.size() < 3) return false;
-  std::ranges::sort(peaks, std::greater<>());
-  return peaks[0] > kFar * peaks[1];
+  return channels;
+}
+
+/// Two channels, in the order in which they are tried: those farthest first.
+struct ChannelPair {
+  std::string first, second;
+  double distance = 0.0;
+};
+
+std::vector<ChannelPair> doubtful_pairs(const StudyData& data, const IdentificationResult& fit) {
+  const std::vector<FarChannel> channels = far_channels(data, fit);
+  std::vector<ChannelPair> pairs;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    for (std::size_t j = i + 1; j < channels.size(); ++j) {
+      const FarChannel &a = channels[i], &b = channels[j];
+      if (std::max(a.distance, b.distance) < kFar && fit.r2 > kVerdictRules.least_r2) continue;
+      pairs.push_back({a.name, b.name, a.distance + b.distance});
+    }
+  }
+  std::ranges::stable_sort(pairs, std::ranges::greater(), &ChannelPair::distance);
+  if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
+  return pairs;
+}
+
+/// Returns ln of the evidence of the heaviest mode.
+double log_evidence(const StudyData& data, const EstimatorOptions& options) {
+  return explore(data, options).modes.front().mode.log_evidence;
 }
 
 }  // namespace
 
 std::string ExchangedElectrodes::sentence() const {
   return fmt::format(
-      "with '{}' and '{}' exchanged the literature's muscles make the torque to {:.2f} N m rms (R2 {:.2f}), as they "
-      "are named only to {:.2f} (R2 {:.2f}): were the two electrodes plugged in or labelled the wrong way round?",
-      first, second, exchanged.rms_nm, exchanged.r2, as_named.rms_nm, as_named.r2);
+      "with '{}' and '{}' exchanged the recording is 10^{:.0f} times as probable: were the two electrodes plugged in "
+      "or "
+      "labelled the wrong way round?",
+      first, second, log_odds / std::numbers::ln10);
 }
 
-LabelFit fit_of_labels(const StudyData& data, double delay_s, const std::string& first, const std::string& second) {
-  StudyData named;  // the trials are not changed, and not copied
-  named.muscles = data.muscles;
+LabelFit fit_of_labels(const StudyData& data, double lead_s) {
   std::vector<muscle::HillParameters<double>> literature;
-  for (MuscleSetup& setup : named.muscles) {
-    literature.push_back(setup.start);
-    if (setup.emg_channel == first) {
-      setup.emg_channel = second;
-    } else if (setup.emg_channel == second) {
-      setup.emg_channel = first;
-    }
-  }
+  for (const MuscleSetup& setup : data.muscles) literature.push_back(setup.start);
   std::vector<std::vector<Sides>> trials;
   double product = 0.0, square = 0.0, sum = 0.0, count = 0.0;
   for (const TrialData& whole : data.trials) {
@@ -66,7 +94,7 @@ LabelFit fit_of_labels(const StudyData& data, double delay_s, const std::string&
       // No electrode shows the resting torque of the joint.
       const Eigen::VectorXd resting = resting_torque_nm(trial);
       const Eigen::VectorXd active = trial.torque_nm - resting;
-      const Eigen::VectorXd torque = predict(named, trial, literature, delay_s).torque_nm - resting;
+      const Eigen::VectorXd torque = predict(data, trial, literature, lead_s).torque_nm - resting;
       Sides sides{below(trial.time_s, active, kCutoff_hz)(rows), below(trial.time_s, torque, kCutoff_hz)(rows)};
       product += sides.predicted.dot(sides.measured);
       square += sides.predicted.squaredNorm();
@@ -94,27 +122,27 @@ LabelFit fit_of_labels(const StudyData& data, double delay_s, const std::string&
   return fit;
 }
 
-std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, double delay_s) {
-  constexpr double kDescribes = 0.5;
-  std::vector<std::string> channels;
-  for (const MuscleSetup& setup : data.muscles) {
-    if (!contains(channels, setup.emg_channel) && !rests_on_one_trial(data, setup.emg_channel))
-      channels.push_back(setup.emg_channel);
-  }
-  const LabelFit now = fit_of_labels(data, delay_s);
+std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data,
+                                                        const EstimatorOptions& options,
+                                                        const IdentificationResult& fit) {
+  const std::vector<ChannelPair> pairs = fit.noise.size() > 0 ? doubtful_pairs(data, fit) : std::vector<ChannelPair>{};
+  if (pairs.empty()) return std::nullopt;
+  EstimatorOptions plain = remembering_drives(of_a_fold(options));
+  plain.law = fit.lag;
+  plain.choose_lag = false;
+  const double as_named = log_evidence(data, beginning_at(fit, plain));
   std::optional<ExchangedElectrodes> best;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    for (std::size_t j = i + 1; j < channels.size(); ++j) {
-      LabelFit fit = fit_of_labels(data, delay_s, channels[i], channels[j]);
-      if (fit.r2 <= kDescribes || fit.rms_nm >= (1.0 - beliefs::kStrengthRatio.sd) * now.rms_nm ||
-          (best && fit.rms_nm >= best->exchanged.rms_nm))
-        continue;
-      std::size_t better = 0;
-      for (std::size_t t = 0; t < fit.trial_rms_nm.size(); ++t)
-        better += fit.trial_rms_nm[t] < now.trial_rms_nm[t] ? 1 : 0;
-      if (4 * better >= 3 * fit.trial_rms_nm.size())
-        best = ExchangedElectrodes{channels[i], channels[j], now, std::move(fit)};
+  for (const ChannelPair& pair : pairs) {
+    StudyData other = data;
+    for (MuscleSetup& setup : other.muscles) {
+      if (setup.emg_channel == pair.first) {
+        setup.emg_channel = pair.second;
+      } else if (setup.emg_channel == pair.second) {
+        setup.emg_channel = pair.first;
+      }
     }
+    const double odds = log_evidence(other, plain) - as_named;
+    if (odds > (best ? best->log_odds : kExchangedOdds)) best = {pair.first, pair.second, odds, fit.r2};
   }
   return best;
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "myoid/fit/intervals/result.h"
+#include "myoid/fit/measurement/options.h"
 #include "myoid/fit/measurement/study_data.h"
 
 namespace myoid::fit {
@@ -16,23 +18,26 @@ struct LabelFit {
   std::vector<double> trial_rms_nm;  ///< One per calibration trial.
 };
 
-/// Two EMG channels that fit the torque much better when exchanged.
+/// Returns the fit with the EMG `lead_s` before the torque.
+[[nodiscard]] LabelFit fit_of_labels(const StudyData& data, double lead_s);
+
+/// Two EMG channels whose exchange makes the recording far more probable.
 struct ExchangedElectrodes {
   std::string first, second;  ///< Names of the channels.
-  LabelFit as_named, exchanged;
+  double log_odds = 0.0;      ///< ln of the evidence with these names exchanged, over that as they are.
+  double r2 = 0.0;            ///< Of the fit with the names as they are.
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Returns the fit with the channels of `data` as named, or with these two exchanged.
-[[nodiscard]] LabelFit fit_of_labels(const StudyData& data,
-                                     double delay_s,
-                                     const std::string& first = "",
-                                     const std::string& second = "");
+/// Fits the study again with two channels exchanged, and returns the pair that makes it more probable by
+/// kExchangedOdds or more; the evidence is Laplace's, with Gauss and Newton's curvature. Only pairs are tried of which
+/// a muscle lies far from what is known of people in `fit`, which fits `data` by `options`; all, where the fit explains
+/// less than half of the torque.
+[[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data,
+                                                                      const EstimatorOptions& options,
+                                                                      const IdentificationResult& fit);
 
-/// Finds the pair of channels whose exchange lowers the error of the literature's muscles most. The gain must exceed
-/// the uncertainty of their strengths (beliefs::kStrengthRatio) in at least three of four trials, and the exchanged fit
-/// must describe the torque (R2 above 0.5). A channel whose reference one trial alone sets, 2.5 times above all others,
-/// is not compared. Empty if there is no such pair.
-[[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, double delay_s);
+/// ln of the odds from which an exchange is named: 150 to 1.
+inline constexpr double kExchangedOdds = 5.0;
 
 }  // namespace myoid::fit
