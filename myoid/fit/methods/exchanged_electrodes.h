@@ -23,21 +23,19 @@ struct LabelFit {
 
 /// Two EMG channels whose exchange makes the recording far more probable.
 struct ExchangedElectrodes {
-  std::string first, second;  ///< Names of the channels.
-  double log_odds = 0.0;      ///< ln of the evidence with these names exchanged, over that as they are.
-  double r2 = 0.0;            ///< Of the fit with the names as they are.
+  std::string first, second;
+  double log_odds = 0.0;  ///< ln of the evidence with these names exchanged, over that as they are.
+  double r2 = 0.0;        ///< Of the fit with the names as they are.
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Fits the study again with two channels exchanged, and returns the pair that makes it more probable by
-/// kExchangedOdds or more; the evidence is Laplace's, with Gauss and Newton's curvature. Only pairs are tried of which
-/// a muscle lies far from what is known of people in `fit`, which fits `data` by `options`; all, where the fit explains
-/// less than half of the torque.
+/// Fits the study again with two channels exchanged, and returns the pair that makes it the most probable, by
+/// kExchangedOdds at least (Laplace's evidence). Pairs are tried of which a muscle lies far from what is known of
+/// people in `fit`, of `data` by `options`; all, where this fit explains less than half of the torque.
 [[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data,
                                                                       const EstimatorOptions& options,
                                                                       const IdentificationResult& fit);
 
-/// ln of the odds from which an exchange is named: 150 to 1.
-inline constexpr double kExchangedOdds = 5.0;
+inline constexpr double kExchangedOdds = 5.0;  ///< ln of the odds from which an exchange is named: 150 to 1.
 
 }  // namespace myoid::fit
