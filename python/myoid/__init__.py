@@ -9,11 +9,12 @@ Quantities are in SI units in memory (angles in radians); `read_series` gives a 
 
 from __future__ import annotations
 
+from ._needs import check_packages, why_not
+
+check_packages()
 try:
     from ._native import __version__
 except ImportError as error:
-    from ._needs import why_not
-
     raise ImportError(why_not(error)) from error
 from . import commands, plot
 from .commands import *  # noqa: F403

@@ -26,4 +26,7 @@ from .stages import *  # noqa: F403
 from .studies import *  # noqa: F403
 from .tools import *  # noqa: F403
 
-__all__ = [*studies.__all__, *stages.__all__, *tools.__all__]
+__all__: list[str] = []
+__all__ += studies.__all__
+__all__ += stages.__all__
+__all__ += tools.__all__
