@@ -67,6 +67,7 @@ TOML
 "$MYOID" twin --protocol "$work/protocol.toml" --subjects "$persons" --out "$work/people" >/dev/null 2>&1
 python3 "$here/make_bids.py" "$work/people" "$work/data"
 rm -rf "$work/people"
+sed -i 's/^\[identify\]/&\nnext_movements = 0/' "$work/data/code/study.toml"  # the longest stage of so short a recording
 last=$(printf 'sub-%03d' "$persons")
 rm "$work/data/$last/motion/${last}_task-lift_tracksys-omc_motion.tsv"  # one person fails, and stops nobody
 
