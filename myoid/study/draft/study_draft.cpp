@@ -139,6 +139,7 @@ class Draft {
     const std::vector<std::string> names = usual_first(free_coordinates());
     const std::vector<std::string> channels = all_channels();
     coordinate_ = coordinate_of_channels(model_, names, channels);
+    if (!coordinate_.empty()) other_side_ = same_on_the_other_side(model_, coordinate_, channels);
     if (!coordinate_.empty()) return;
     coordinate_ = names.empty() ? "TODO" : names[0];
     guessed_coordinate_ = names.empty() || !is_usual(names[0]) || !channels.empty();
@@ -304,6 +305,11 @@ class Draft {
                        list_of(other_models_)));
     if (guessed_coordinate_ && !wants_a_leg())
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
+    if (!other_side_.empty())
+      todo(fmt::format(
+          "which side? No electrode's name states it, and this draft takes {} with the muscles of that side; "
+          "`myoid init --coordinate {}` drafts the other",
+          coordinate_, other_side_));
     line("coordinate = " + toml_text(coordinate_));
     line("");
   }
@@ -407,7 +413,7 @@ class Draft {
         coordinate_ == "TODO" ? std::vector<std::string>{} : movers(model_, coordinate_);
     std::set<std::string> covered, names;
     std::vector<std::string> unused;
-    std::string first;
+    std::vector<std::string> drafted;
     for (const ChannelMuscles& pair : match_channels(channels, able)) {
       std::vector<std::string> fresh;
       for (const std::string& m : pair.muscles) {
@@ -419,21 +425,21 @@ class Draft {
       }
       std::string name = fresh.size() == 1 ? fresh[0] : abbreviation(fresh);
       while (!names.insert(name).second) name += "_2";
-      if (first.empty()) first = name;
+      drafted.push_back(name);
       line("[[muscle]]");
       line("name = " + toml_text(name));
       line("osim = " + list_of(fresh));
       line("emg = " + toml_text(pair.channel));
       line("");
     }
-    if (first.empty()) {
+    if (drafted.empty()) {
       if (!channels.empty()) unknown_pairs(channels, able);
       return;
     }
     std::vector<std::string> left;
     std::ranges::copy_if(able, std::back_inserter(left),
                          [&](const std::string& muscle) { return !covered.contains(muscle); });
-    if (!left.empty()) without_electrode(left, first);
+    if (!left.empty()) without_electrode(left, drafted);
     if (!unused.empty()) {
       line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_, fmt::join(unused, ", ")));
       line("");
@@ -451,15 +457,16 @@ class Draft {
     line("");
   }
 
-  /// Offers the channel of the muscle `like` to the first of the muscles that have none.
-  void without_electrode(const std::vector<std::string>& left, const std::string& like) {
+  /// Asks what to do with muscles without electrode; the first is written as one that acts like one of `drafted`.
+  void without_electrode(const std::vector<std::string>& left, const std::vector<std::string>& drafted) {
     todo(
         fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a group, or let them "
                     "act as another muscle does:",
                     coordinate_, fmt::join(left, ", ")));
     line("# [[muscle]]");
     line("# name = " + toml_text(left[0]));
-    line("# emg = { same_as = " + toml_text(like) + " }");
+    line(fmt::format("# emg = {{ same_as = \"TODO\" }}   # a muscle that pulls with it, of {}",
+                     fmt::join(drafted, ", ")));
     line("");
   }
 
@@ -491,6 +498,7 @@ class Draft {
   body::BodyModel model_;
   std::string coordinate_;
   bool guessed_coordinate_ = false;
+  std::string other_side_;  ///< The same coordinate of the other side, if the electrodes may be on that one.
   std::set<fs::path> loads_data_;
   TorqueTables torques_;
   std::vector<FoundRecording> found_;
