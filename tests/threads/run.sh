@@ -42,7 +42,7 @@ watched "twin of 4 persons" "$tree/bin/myoid" twin --protocol "$work/p.toml" --s
 watched "run, 4 threads" "$tree/bin/myoid" run "$work/people/person_000001/study.toml" --threads 4 --out "$work/results"
 printf 'name,study\nA,people/person_000001/study.toml\nB,people/person_000002/study.toml\n' >"$work/persons.csv"
 watched "cohort, 2 persons at a time" "$tree/bin/myoid" cohort "$work/persons.csv" --jobs 2 --out "$work/cohort"
-gcc -std=c99 -O1 -g -pthread -fsanitize=thread -Imyoid/results/realtime -I$tree/include tests/realtime/threads.c \
+gcc -std=c99 -O1 -g -pthread -fsanitize=thread -I$tree/include tests/realtime/threads.c \
   -L$tree/lib -lmyoid -Wl,-rpath,"$PWD/$tree/lib" -o "$work/threads"
 watched "C interface, 4 threads" "$work/threads" "$work/results"
 exit $failed
