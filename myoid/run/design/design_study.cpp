@@ -299,8 +299,9 @@ DesignStudyResult design_study(const study::Study& study,
         "a study without a model has no muscle paths for other movements: give [model] a file to design a recording");
   const StudyData data = muscles_of(study, model);
   const EstimatorOptions torque = estimator_of(study, data, options.gain_sd);
-  const ProposedRange range =
-      human_range(model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))]);
+  const body::Coordinate& coordinate =
+      model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))];
+  const ProposedRange range = human_range(coordinate.name, coordinate.lower, coordinate.upper);
   const std::vector<Movement> movements = catalogue_of(study, range, options.catalogue);
 
   options.progress.tell(0.05, "movements");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/units.h"
-#include "myoid/ground/files/label_match.h"
 
 namespace myoid::run {
 namespace {
@@ -20,8 +20,9 @@ struct Published {
   bool either_way = false;  ///< Models differ in the direction of flexion.
 };
 
-constexpr std::array<Published, 11> kPublished{{{"elbow", 0.0, 150.0, true},
-                                                {"knee", 0.0, 135.0, true},
+constexpr std::array<Published, 12> kPublished{{{"elbowflex", 0.0, 150.0, true},
+                                                {"kneeangle", 0.0, 135.0, true},
+                                                {"kneeflex", 0.0, 135.0, true},
                                                 {"ankleangle", -50.0, 20.0},
                                                 {"subtalarangle", -35.0, 35.0},
                                                 {"hipflexion", -30.0, 120.0},
@@ -35,26 +36,28 @@ constexpr double kBetweenPeopleDeg = 10.0;
 
 }  // namespace
 
-ProposedRange human_range(const body::Coordinate& coordinate) {
-  const ProposedRange whole{coordinate.lower, coordinate.upper, ""};
-  const std::string plain = plain_label(coordinate.name);
+ProposedRange human_range(const std::string& coordinate, double lower_rad, double upper_rad) {
+  const ProposedRange whole{lower_rad, upper_rad, ""};
+  std::string plain;  // "Knee_Angle_r" is "kneeangler"
+  for (const char c : coordinate)
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const auto found = std::ranges::find_if(
       kPublished, [&](const Published& each) { return plain.find(each.word) != std::string::npos; });
   if (found == kPublished.end()) return whole;
   double low = (found->low_deg - kBetweenPeopleDeg) * kDegree, high = (found->high_deg + kBetweenPeopleDeg) * kDegree;
-  if (found->either_way && std::abs(coordinate.lower) > std::abs(coordinate.upper)) {
+  if (found->either_way && std::abs(lower_rad) > std::abs(upper_rad)) {
     std::swap(low, high);
     low = -low;
     high = -high;
   }
-  if (low <= coordinate.lower && coordinate.upper <= high) return whole;
-  low = std::max(low, coordinate.lower);
-  high = std::min(high, coordinate.upper);
+  if (low <= lower_rad && upper_rad <= high) return whole;
+  low = std::max(low, lower_rad);
+  high = std::min(high, upper_rad);
   if (!(low < high)) return whole;
   return {low, high,
           fmt::format("{} from {:.0f} to {:.0f} deg: the model's range, {:.0f} to {:.0f} deg, goes beyond people's",
-                      coordinate.name, low / kDegree, high / kDegree, coordinate.lower / kDegree,
-                      coordinate.upper / kDegree)};
+                      coordinate, low / kDegree, high / kDegree, lower_rad / kDegree, upper_rad / kDegree)};
 }
 
 }  // namespace myoid::run

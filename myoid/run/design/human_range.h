@@ -2,8 +2,6 @@
 
 #include <string>
 
-#include "myoid/body/model/body_model.h"
-
 namespace myoid::run {
 
 /// The angles over which movements are proposed.
@@ -18,6 +16,6 @@ struct ProposedRange {
 /// (Boone and Azen, J Bone Joint Surg 61-A, 1979). Elbow and knee may flex in the negative direction: they do where the
 /// model's range reaches farther there. A name of no such joint, and a range that has nothing in common with people's,
 /// give the model's range.
-[[nodiscard]] ProposedRange human_range(const body::Coordinate& coordinate);
+[[nodiscard]] ProposedRange human_range(const std::string& coordinate, double lower_rad, double upper_rad);
 
 }  // namespace myoid::run

@@ -139,7 +139,6 @@ class Draft {
     const std::vector<std::string> names = usual_first(free_coordinates());
     const std::vector<std::string> channels = all_channels();
     coordinate_ = coordinate_of_channels(model_, names, channels);
-    if (!coordinate_.empty()) other_side_ = same_on_the_other_side(model_, coordinate_, channels);
     if (!coordinate_.empty()) return;
     coordinate_ = names.empty() ? "TODO" : names[0];
     guessed_coordinate_ = names.empty() || !is_usual(names[0]) || !channels.empty();
@@ -305,13 +304,18 @@ class Draft {
                        list_of(other_models_)));
     if (guessed_coordinate_ && !wants_a_leg())
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
-    if (!other_side_.empty())
-      todo(fmt::format(
-          "which side? No electrode's name states it, and this draft takes {} with the muscles of that side; "
-          "`myoid init --coordinate {}` drafts the other",
-          coordinate_, other_side_));
+    if (options_.coordinate.empty()) ask_for_the_side();
     line("coordinate = " + toml_text(coordinate_));
     line("");
+  }
+
+  void ask_for_the_side() {
+    const std::string other = same_on_the_other_side(model_, coordinate_, all_channels());
+    if (other.empty()) return;
+    todo(
+        fmt::format("which side? No electrode's name states it, and this draft takes {} with the muscles of that side; "
+                    "`myoid init --coordinate {}` drafts the other",
+                    coordinate_, other));
   }
 
   void markers_table() {
@@ -498,7 +502,6 @@ class Draft {
   body::BodyModel model_;
   std::string coordinate_;
   bool guessed_coordinate_ = false;
-  std::string other_side_;  ///< The same coordinate of the other side, if the electrodes may be on that one.
   std::set<fs::path> loads_data_;
   TorqueTables torques_;
   std::vector<FoundRecording> found_;
