@@ -19,12 +19,12 @@ version=$("$2" --version)
 cp -r "$source/tests/installed" "$work/user"
 cp -r "$source/examples" "$work/examples"
 away=()  # a command before others: without the checkout
-if [ "$(id -u)" -eq 0 ] && unshare --mount true 2>/dev/null; then
-  mkdir "$work/empty"
-  {
-    [ "$1" = system ] || printf 'mount --bind %q %q\n' "$work/empty" "$(realpath "$1")"
-    printf 'mount --bind %q %q\nexec "$@"\n' "$work/empty" "$source"
-  } >"$work/hide.sh"
+mkdir "$work/empty"
+{
+  [ "$1" = system ] || printf 'mount --bind %q %q\n' "$work/empty" "$(realpath "$1")"
+  printf 'mount --bind %q %q\nexec "$@"\n' "$work/empty" "$source"
+} >"$work/hide.sh"
+if [ "$(id -u)" -eq 0 ] && unshare --mount bash -e "$work/hide.sh" true 2>/dev/null; then
   away=(unshare --mount bash -e "$work/hide.sh")
   ! "${away[@]}" test -e "$source/CMakeLists.txt" || { echo "the checkout is still there"; exit 1; }
   echo "the checkout is hidden"
