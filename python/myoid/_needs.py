@@ -12,7 +12,8 @@ from pathlib import Path
 def check_packages() -> None:
     """Raises ModuleNotFoundError without NumPy, which `pip install --no-deps` leaves out."""
     if importlib.util.find_spec("numpy") is None:
-        raise ModuleNotFoundError("myoid needs the package numpy: pip install numpy (Debian: python3-numpy)", name="numpy")
+        remedy = "pip install numpy (Debian: python3-numpy)"
+        raise ModuleNotFoundError(f"myoid needs the package numpy: {remedy}", name="numpy")
 
 
 def why_not(error: ImportError) -> str:

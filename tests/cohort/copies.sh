@@ -17,9 +17,9 @@ done
 python3 - "$program" "$out" <<'PY'
 import resource, subprocess, sys, time
 begin = time.monotonic()
-code = subprocess.call([sys.argv[1], "cohort", sys.argv[2] + "/../persons.csv", "--out", sys.argv[2], "--group", "--quiet",
-                        "--overwrite"],
-                       stdout=subprocess.DEVNULL)
+program, out = sys.argv[1:]
+command = [program, "cohort", out + "/../persons.csv", "--out", out, "--group", "--quiet", "--overwrite"]
+code = subprocess.call(command, stdout=subprocess.DEVNULL)
 used = resource.getrusage(resource.RUSAGE_CHILDREN)
 print(f"exit code {code}, {time.monotonic() - begin:.1f} s by the clock, {used.ru_utime + used.ru_stime:.1f} s of "
       f"processor, {used.ru_maxrss / 1000:.0f} MB")

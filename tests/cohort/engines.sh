@@ -2,8 +2,8 @@
 # usage: tests/cohort/engines.sh PROGRAM [PERSONS] [--kills N] [--alone N] [ENGINE...]
 #
 # Makes a BIDS data set of virtual persons and computes it by one process on one core and by every engine (parallel,
-# snakemake, slurm), N workers (default 1) killed on the way, and compares the bytes of all results. With --alone the one
-# process computes N persons only, after the engine: those whose workers were killed, the one who fails and others.
+# snakemake, slurm), N workers (default 1) killed on the way, and compares the bytes of all results. With --alone the
+# one process computes N persons only, after the engine: those whose workers were killed, the one who fails and others.
 # Slurm runs as one node on loopback that this script starts and stops. An engine that is not installed is skipped, and
 # the script says so.
 #
@@ -67,7 +67,8 @@ TOML
 "$MYOID" twin --protocol "$work/protocol.toml" --subjects "$persons" --out "$work/people" >/dev/null 2>&1
 python3 "$here/make_bids.py" "$work/people" "$work/data"
 rm -rf "$work/people"
-sed -i 's/^\[identify\]/&\nnext_movements = 0/' "$work/data/code/study.toml"  # the longest stage of so short a recording
+# Without the longest stage of so short a recording.
+sed -i 's/^\[identify\]/&\nnext_movements = 0/' "$work/data/code/study.toml"
 last=$(printf 'sub-%03d' "$persons")
 rm "$work/data/$last/motion/${last}_task-lift_tracksys-omc_motion.tsv"  # one person fails, and stops nobody
 

@@ -46,6 +46,7 @@ grep -q "^$version: 4 muscles" "$work/said"
 
 build_alone examples "$work/built" Debug
 [ "$(find built -maxdepth 1 -type f -executable | wc -l)" -eq 6 ] || { echo "not six examples"; exit 1; }
-"${away[@]}" built/muscle_forces examples/03_muscle_forces/triceps.toml examples/03_muscle_forces/lengths.csv >"$work/said"
+given=examples/03_muscle_forces
+"${away[@]}" built/muscle_forces $given/triceps.toml $given/lengths.csv >"$work/said"
 grep -q '^at 0.0 s, fiber 0.1200 m, 0.0000 m/s: 1000.0000 N$' "$work/said"  # half active at the optimal length
 cp -r built "$built"

@@ -11,10 +11,9 @@ from conftest import SOURCE
 def mypy(*arguments, cwd):
     if not shutil.which("mypy"):
         pytest.skip("needs mypy")
-    return subprocess.run(
-        ["mypy", "--no-incremental", "--cache-dir", os.devnull, *map(os.fspath, arguments)], cwd=cwd, capture_output=True,
-        text=True, check=False, env={**os.environ, "MYPYPATH": os.fspath(SOURCE / "python")},
-    )  # fmt: skip
+    command = ["mypy", "--no-incremental", "--cache-dir", os.devnull, *map(os.fspath, arguments)]
+    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False,
+                          env={**os.environ, "MYPYPATH": os.fspath(SOURCE / "python")})  # fmt: skip
 
 
 def test_the_package_has_the_types_that_it_states():

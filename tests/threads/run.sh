@@ -36,12 +36,22 @@ watched() {  # watched NAME COMMAND...
   echo "$name: $found warnings of the thread sanitizer, exit code $code"
 }
 for target in "$@"; do watched "$target" "$tree/bin/$target"; done
-printf 'level = "L1"\n[[trial]]\nname = "mvc"\nkind = "mvc"\n[[trial]]\nname = "lift"\nkind = "eccentric"\nheld_mass_kg = 1.0\n' \
-  >"$work/p.toml"
-watched "twin of 4 persons" "$tree/bin/myoid" twin --protocol "$work/p.toml" --subjects 4 --threads 4 --out "$work/people"
-watched "run, 4 threads" "$tree/bin/myoid" run "$work/people/person_000001/study.toml" --threads 4 --out "$work/results"
+cat >"$work/p.toml" <<'TOML'
+level = "L1"
+[[trial]]
+name = "mvc"
+kind = "mvc"
+direction = "both"
+[[trial]]
+name = "lift"
+kind = "eccentric"
+held_mass_kg = 1.0
+TOML
+program=$tree/bin/myoid
+watched "twin of 4 persons" $program twin --protocol "$work/p.toml" --subjects 4 --threads 4 --out "$work/people"
+watched "run, 4 threads" $program run "$work/people/person_000001/study.toml" --threads 4 --out "$work/results"
 printf 'name,study\nA,people/person_000001/study.toml\nB,people/person_000002/study.toml\n' >"$work/persons.csv"
-watched "cohort, 2 persons at a time" "$tree/bin/myoid" cohort "$work/persons.csv" --jobs 2 --out "$work/cohort"
+watched "cohort, 2 persons at a time" $program cohort "$work/persons.csv" --jobs 2 --out "$work/cohort"
 gcc -std=c99 -O1 -g -pthread -fsanitize=thread -I$tree/include tests/realtime/threads.c \
   -L$tree/lib -lmyoid -Wl,-rpath,"$PWD/$tree/lib" -o "$work/threads"
 watched "C interface, 4 threads" "$work/threads" "$work/results"
