@@ -82,7 +82,7 @@ myoid_install_browser() {
 # The Python module and its tests. Without these packages the module is not built.
 myoid_install_python() {
   local wanted=(pybind11-dev python3-dev python3-numpy python3-pandas python3-xarray python3-pytest python3-pip
-                python3-scipy python3-matplotlib python3-nbclient python3-ipykernel) name missing=()
+                python3-scipy python3-matplotlib python3-nbclient python3-ipykernel python3-joblib mypy) name missing=()
   for name in "${wanted[@]}"; do
     myoid_is_installed "$name" || missing+=("$name")
   done

@@ -5,7 +5,8 @@
 
 The page counts its own frames by requestAnimationFrame while it plays the trial that it opens first, from the second
 second on: until then it has found how finely it can draw the body (`pixels` of the canvas for one of the page's).
-`without-body` leaves the body undrawn, which shows what the plots alone cost.
+`without-body` leaves the body undrawn, which shows what the plots alone cost. A page without a workbench, as that of a
+group, has two figures: the first picture and the end of loading.
 """
 
 import json
@@ -53,6 +54,12 @@ new Promise((done) => {
   look();
 })
 """
+LOADED = """
+new Promise((done) => {
+  const look = () => (document.readyState === 'complete' ? done(performance.now() / 1000) : setTimeout(look, 5));
+  look();
+})
+"""
 FIRST_PICTURE = "performance.getEntriesByName('first-contentful-paint')[0].startTime / 1000"
 
 
@@ -61,6 +68,9 @@ def measure(page, width, seconds, hidden):
     try:
         browser.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
         browser.call("Page.navigate", url=page.resolve().as_uri())
+        if b'id="workbench"' not in page.read_bytes():
+            loaded = browser.value(LOADED)
+            return {"first_picture_s": browser.value(FIRST_PICTURE), "loaded_s": loaded}
         ready = browser.call("Runtime.evaluate", expression=READY, awaitPromise=True, returnByValue=True)
         expression = MEASURE.replace("SECONDS", str(seconds)).replace("HIDDEN", "true" if hidden else "false")
         expression = expression.replace("AFTER", str(ready["result"]["value"]))

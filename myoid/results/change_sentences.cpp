@@ -81,6 +81,11 @@ std::string branch_text(fit::FitCase fit_case, std::string_view before, std::str
   return fit_case == fit::FitCase::both ? "" : fmt::format("{}{}{}", before, name(fit_case), behind);
 }
 
+std::string unlike_sentence(const RunComparison& comparison) {
+  if (comparison.unlike.empty()) return "";
+  return fmt::format("The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
+}
+
 std::string reading_sentence(const RunComparison& comparison) {
   const bool given = std::ranges::any_of(
       comparison.parameters, [](const ComparedParameter& p) { return p.first.given_ci_low && p.second.given_ci_low; });

@@ -26,6 +26,10 @@ namespace myoid::results {
 /// Returns the sentence that says which of two readings the compared numbers are; empty if there is only one.
 [[nodiscard]] std::string reading_sentence(const RunComparison& comparison);
 
+/// Returns the sentence on what makes the sessions unlike, such as a maximal contraction in one alone; empty if nothing
+/// does. `compare` and its page both print it.
+[[nodiscard]] std::string unlike_sentence(const RunComparison& comparison);
+
 /// Returns the sentences of all counted numbers that differ, "No number changed ..." if none does. `compare` and the
 /// group's page both print it.
 [[nodiscard]] std::string changes_sentence(const RunComparison& comparison);

@@ -232,6 +232,8 @@ TEST(CompareRuns, AStrengthAtTheLargestEmgIsNotThatOfFullEffort) {
   const RunComparison other = compare_runs(first, session("three", 50, false));
   EXPECT_EQ(other.parameters.at(0).change, Change::cannot_tell);
   ASSERT_EQ(other.unlike.size(), 1U);
+  EXPECT_EQ(unlike_sentence(alike), "");
+  EXPECT_NE(unlike_sentence(other).find(other.unlike[0]), std::string::npos);
 }
 
 TEST(CompareRuns, AJointsTorqueIsComparedWhereItsMusclesAreTheSame) {

@@ -115,10 +115,8 @@ page::Section errors_section(const RunComparison& comparison) {
 }
 
 std::string headline(const RunComparison& comparison) {
-  std::string text = changes_sentence(comparison);
-  if (!comparison.unlike.empty())
-    text += fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
-  return text;
+  const std::string unlike = unlike_sentence(comparison);
+  return changes_sentence(comparison) + (unlike.empty() ? "" : " ") + unlike;
 }
 
 }  // namespace

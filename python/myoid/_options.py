@@ -9,7 +9,7 @@ from typing import Any, Union
 from ._call import Progress
 
 File = Union[str, "os.PathLike[str]"]
-Input = Any  # a file, or a value: see commands.py
+Input = Any  # a file, or a value: see __init__.py
 Inputs = Any  # one or several
 Texts = Union[str, Sequence[str]]
 Numbers = Union[Mapping[str, float], Sequence[str]]

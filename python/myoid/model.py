@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._shown import Shown
 from ._speech import speaking
 from .series import Table
 
@@ -71,8 +72,8 @@ class Body:
     mass: float
 
 
-@dataclass(eq=False)
-class MuscleKinematics:
+@dataclass(eq=False, repr=False)
+class MuscleKinematics(Shown):
     """Muscles at postures; columns are the muscles in the order of the model.
 
     Attributes:

@@ -127,8 +127,6 @@ class Result:
 
     Attributes:
         path: The folder.
-        gates: The quality gates of this call, a dict each: name, status, value, threshold, why; None for a folder that
-            was opened.
         remarks: The remarks of this call; empty for a folder that was opened.
     """
 
@@ -151,7 +149,6 @@ class Result:
         self._folder = folder
         self.path = folder.path
         self.found = dict(found or {})
-        self.gates: list[dict[str, str]] | None = self.found.get("gates")
         self.remarks = list(self.found.get("remarks", []))
         if not self.path.is_dir():
             raise MissingFileError(f"{self.path}: there is no such folder; give that of a finished run", str(self.path))
@@ -167,6 +164,18 @@ class Result:
         """The table of parameters.csv: a row for each muscle, parameter, method and case, with `estimate`, `ci_low`,
         `ci_high` (95 %), `verdict` and `reason`, in the unit of the column `unit`."""
         return Table.read(self.path / "parameters.csv")
+
+    @cached_property
+    def gates(self) -> list[dict[str, str]] | None:
+        """The quality gates, a dict each: name, status ("pass", "warn", "fail" or "info"), value, threshold, why; None
+        where neither the call nor report.json has them."""
+        if "gates" in self.found:
+            return list(self.found["gates"])
+        file = self.path / "report.json"
+        if not file.is_file():
+            return None
+        gates: list[dict[str, str]] | None = json.loads(file.read_text(encoding="utf-8")).get("gates")
+        return gates
 
     @cached_property
     def run(self) -> dict[str, Any]:
@@ -376,6 +385,9 @@ class TwinStudyResult:
     def predictions(self) -> Table:
         """Predictions of the trials that were held back."""
         return Table.read(self.path / "predictions.csv")
+
+    def _repr_html_(self) -> str:
+        return self.summary._repr_html_()
 
     def __repr__(self) -> str:
         return f"TwinStudyResult({self.finished} persons, level {self.level}, {len(self.failures)} failures)"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._call import call
 from ._options import File, Input, Inputs, Numbers, Report, Texts
+from ._shown import Shown
 from .errors import InvalidInput
 from .model import Model
 from .remarks import Remark
@@ -23,8 +24,8 @@ __all__ = [
 ]  # fmt: skip
 
 
-@dataclass(eq=False)
-class EmgResult:
+@dataclass(eq=False, repr=False)
+class EmgResult(Shown):
     """Activations of each input.
 
     Attributes:
@@ -78,8 +79,8 @@ def emg(inputs: Inputs, *, rate: float | None = None, out: File | None = None, m
     return EmgResult(**found)
 
 
-@dataclass(eq=False)
-class IkResult:
+@dataclass(eq=False, repr=False)
+class IkResult(Shown):
     """Joint angles.
 
     Attributes:
@@ -121,8 +122,8 @@ def ik(*, model: File, markers: Input, out: File | None = None, up: str | None =
     return IkResult(**call("ik", locals()))
 
 
-@dataclass(eq=False)
-class IdResult:
+@dataclass(eq=False, repr=False)
+class IdResult(Shown):
     """Joint torques.
 
     Attributes:
@@ -155,8 +156,8 @@ def id(*, model: File, motion: Input, out: File | None = None, lowpass: float | 
     return IdResult(**call("id", locals()))
 
 
-@dataclass(eq=False)
-class PathsResult:
+@dataclass(eq=False, repr=False)
+class PathsResult(Shown):
     """Muscles along a motion; channels are the muscles.
 
     Attributes:
@@ -190,8 +191,8 @@ def paths(*, model: File, motion: Input, out: File | None = None, lowpass: float
     return PathsResult(**call("paths", locals()))
 
 
-@dataclass(eq=False)
-class SweepResult:
+@dataclass(eq=False, repr=False)
+class SweepResult(Shown):
     """Muscles over one coordinate, the others at their defaults; arrays by muscle.
 
     Attributes:
@@ -243,8 +244,8 @@ def sweep(*, model: File, coordinate: str, over: Sequence[float] | None = None, 
     return SweepResult(**call("sweep", options))
 
 
-@dataclass(eq=False)
-class SoResult:
+@dataclass(eq=False, repr=False)
+class SoResult(Shown):
     """Shared muscle forces; channels are the muscles.
 
     Attributes:
@@ -293,8 +294,8 @@ def so(*, model: File, motion: Input, out: File | None = None, objective: str | 
     return SoResult(**call("so", locals()))
 
 
-@dataclass(eq=False)
-class MuscleResult:
+@dataclass(eq=False, repr=False)
+class MuscleResult(Shown):
     """One muscle alone: the simulated experiment, or the fit.
 
     Attributes:
@@ -351,8 +352,8 @@ def muscle(*, muscle: File, length: Inputs, column: str | None = None, scale: Se
     return MuscleResult(**found)
 
 
-@dataclass(eq=False)
-class SimulateResult:
+@dataclass(eq=False, repr=False)
+class SimulateResult(Shown):
     """A simulated movement. Channels are coordinates or muscles.
 
     Attributes:

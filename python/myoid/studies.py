@@ -14,6 +14,7 @@ from typing import Any
 from . import _native
 from ._call import call
 from ._options import File, Input, Inputs, Report, Texts
+from ._shown import Shown
 from ._speech import speaking
 from .errors import InvalidInput, MyoidWarning
 from .remarks import Remark
@@ -144,6 +145,11 @@ class CheckResult:
     def __repr__(self) -> str:
         return f"CheckResult({self.errors} errors, {len(self.findings)} findings)"
 
+    def _repr_html_(self) -> str:
+        """For notebooks: a row for each finding."""
+        columns = ["severity", "where", "about", "text"]
+        return Table([{c: getattr(finding, c) for c in columns} for finding in self.findings], columns)._repr_html_()
+
     def __bool__(self) -> bool:
         """True if `run` takes the study."""
         return self.errors == 0
@@ -161,8 +167,8 @@ def check(study: File, *, model: File | None = None, up: str | None = None, star
     return CheckResult(**call("check", locals()))
 
 
-@dataclass(eq=False)
-class CompareResult:
+@dataclass(eq=False, repr=False)
+class CompareResult(Shown):
     """Two runs, number by number.
 
     Attributes:
@@ -190,8 +196,8 @@ def compare(first: File | Result, second: File | Result, *, out: File | None = N
     return CompareResult(**found)
 
 
-@dataclass(eq=False)
-class ReviewResult:
+@dataclass(eq=False, repr=False)
+class ReviewResult(Shown):
     """A second opinion on a calibration of another program.
 
     Attributes:
@@ -226,8 +232,8 @@ def review(project: File, *, out: File, joint: Texts | None = None, overwrite: b
     return ReviewResult(**found)
 
 
-@dataclass(eq=False)
-class DesignResult:
+@dataclass(eq=False, repr=False)
+class DesignResult(Shown):
     """Movements to record next.
 
     Attributes:
@@ -277,8 +283,8 @@ def design(study: File | None = None, *, model: str | None = None, wire: bool = 
     return DesignResult(**found)
 
 
-@dataclass(eq=False)
-class TwinResult:
+@dataclass(eq=False, repr=False)
+class TwinResult(Shown):
     """Virtual recordings with known parameters.
 
     Attributes:
@@ -336,8 +342,8 @@ def twin_study(*, protocol: File, level: str | None = None, offset: float | None
     return TwinStudyResult(folder, call("twin_study", {**options, "out": folder.path}))
 
 
-@dataclass(eq=False)
-class CohortResult:
+@dataclass(eq=False, repr=False)
+class CohortResult(Shown):
     """Many persons side by side.
 
     Attributes:
@@ -366,9 +372,6 @@ class CohortResult:
         """The results of each computed person, by the person's folder."""
         folders = sorted(file.parent for file in (self.path / "persons").glob("*/parameters.csv"))
         return {folder.name: Result(folder) for folder in folders}
-
-    def _repr_html_(self) -> str:
-        return self.persons._repr_html_()
 
 
 def cohort(manifest: File, *, out: File, study: File | None = None, person: Texts | None = None, group: bool = False,
@@ -414,8 +417,8 @@ def report(folder: File | None = None, *, video: Texts | None = None, video_offs
     return Path(call("report", locals())["file"])
 
 
-@dataclass(eq=False)
-class InitResult:
+@dataclass(eq=False, repr=False)
+class InitResult(Shown):
     """A draft of a study.
 
     Attributes:

@@ -9,6 +9,7 @@ from typing import Any
 
 from ._call import call
 from ._options import File, Input, Report, Texts
+from ._shown import Shown
 from .errors import InvalidInput, MissingFileError
 from .remarks import Remark
 
@@ -17,8 +18,8 @@ __all__ = [
 ]  # fmt: skip
 
 
-@dataclass(eq=False)
-class ToolResult:
+@dataclass(eq=False, repr=False)
+class ToolResult(Shown):
     """What a tool of OpenSim did.
 
     Attributes:

@@ -121,6 +121,20 @@ function takes_series_and_leaves_empty_values_out(recording, lift)
   first = myoid.read_sto(one);
   second = myoid.read_sto(two);
   assert(max(abs(first.values(:) - second.values(:))) < 1e-6);
+  if exist('OCTAVE_VERSION', 'builtin')  % has no class table; @table stands for it
+    columns = cell2struct([{other.time}, num2cell(other.values, 1)], [{'time'}, other.names(:)'], 2);
+    myoid.call('id', {}, 'model', model, 'motion', table(columns), 'out', two, 'lowpass', 6, 'quiet', true, ...
+               'overwrite', true);
+    third = myoid.read_sto(two);
+    assert(isequal(third.values, second.values) && isequal(third.names, second.names));
+  end
+  % A logical vector chooses samples, as in any array.
+  half = other.time < mean(other.time);
+  other.values = other.values(half, :);
+  other.time = other.time(half);
+  myoid.call('id', {}, 'model', model, 'motion', other, 'out', two, 'lowpass', 6, 'quiet', true, 'overwrite', true);
+  fourth = myoid.read_sto(two);
+  assert(numel(fourth.time) == sum(half));
 end
 
 function says_where_a_missing_program_goes()
@@ -133,6 +147,8 @@ end
 function refuses_values_it_does_not_understand()
   % [1 2] is two words, not 12: --threads takes one, and the other is a file that is not there.
   fails(@() myoid.call('info', {}, 'threads', [1 2]), 'myoid:badInput', '2: there is no such file');
+  fails(@() myoid.call('info', {'no "such" ''file'' $HOME `x` \ %d.c3d'}), 'myoid:badInput', ...
+        'no "such" ''file'' $HOME `x` \ %d.c3d');
   for value = {struct('a', 1), 1 + 2i, {[1 2]}, @sin, ['ab'; 'cd'], [true false]}
     fails(@() myoid.call('info', {}, 'threads', value{1}), 'myoid:commandLine', 'option threads');
   end

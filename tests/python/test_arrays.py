@@ -166,6 +166,14 @@ def test_07_run_and_08_parameters(result):
     assert len(result.parameters[:3]) == 3
 
 
+def test_07_gates_of_an_opened_folder(result, tmp_path):
+    gates = myoid.Result(result.path).gates
+    assert gates == result.gates and {gate["status"] for gate in gates} <= {"pass", "warn", "fail", "info"}
+    copied = result.save(tmp_path / "copied")
+    (copied / "report.json").unlink()
+    assert myoid.Result(copied).gates is None
+
+
 def test_09_both_readings(result):
     rows = result.parameters.where(method="torque", parameter="max_isometric_force")
     assert len(rows) >= 2
@@ -323,6 +331,25 @@ def test_19_notebook(result, recording, model, angles):
         page = thing._repr_html_()
         assert "<table>" in page and len(page) < 60_000, name
     assert "rad" in angles._repr_html_() and result.parameters[:1]._repr_html_().count("<tr>") == 2
+
+
+def test_19_results_of_calls_fit_one_screen(result, recording, model, angles, tmp_path):
+    shown = {
+        "emg": myoid.emg(recording.parent / "lift_emg.sto", unit="V"),
+        "ik": myoid.ik(model=model, markers=recording.parent / "lift.trc"),
+        "paths": myoid.paths(model=model, motion=angles), "so": myoid.so(model=model, motion=angles, lowpass=6),
+        "sweep": myoid.sweep(model=model, coordinate="elbow_flexion"),
+        "compare": myoid.compare(result, result.save(tmp_path / "copy")), "check": myoid.check(recording),
+        "simulate": myoid.simulate(excite={"BIC": 0.1}, end=0.1),
+        "kinematics": model.muscle_kinematics({"elbow_flexion": np.linspace(0, 2, 500)}),
+        "init": myoid.init(tmp_path / "new", from_=recording.parent, model=recording.parent / "model.osim"),
+    }  # fmt: skip
+    for name, thing in shown.items():
+        lines = repr(thing).splitlines()
+        assert len(lines) <= 24 and max(map(len, lines)) <= 140, name
+        assert "<table>" in thing._repr_html_() and len(thing._repr_html_()) < 60_000, name
+    assert "elbow_flexion" in repr(shown["sweep"]) and "[m]" not in repr(shown["check"])
+    assert "muscle" in shown["compare"]._repr_html_() and "TimeSeries" in repr(shown["emg"])
 
 
 def test_20_settings_and_init(recording, tmp_path):

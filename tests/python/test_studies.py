@@ -79,7 +79,7 @@ def test_a_result_reads_its_folder(result, tmp_path):
     assert result.gates and {gate["status"] for gate in result.gates} <= {"pass", "warn", "fail", "info"}
     assert result.report.is_file() and (result.model is None or result.model.is_file())
     again = myoid.Result(result.path)
-    assert list(again.parameters) == list(result.parameters) and again.gates is None
+    assert list(again.parameters) == list(result.parameters) and again.gates == result.gates
     assert (result.save(tmp_path / "copy") / "report.html").read_bytes() == result.report.read_bytes()
     assert "numbers identified" in repr(result)
 

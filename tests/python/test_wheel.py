@@ -9,6 +9,7 @@ import tarfile
 import zipfile
 from pathlib import Path
 
+import numpy
 import pytest
 from conftest import SOURCE, program
 
@@ -99,6 +100,15 @@ def test_a_module_that_cannot_be_loaded_says_why(tmp_path):
     assert f"Python 3.{sys.version_info[1]}" in done.stdout
 
 
+def test_without_numpy_the_package_is_named():
+    code = "try:\n    import myoid\nexcept ModuleNotFoundError as error:\n    print(error.name, error, sep='\\n')"
+    # -S: without the folders of installed packages.
+    done = subprocess.run([sys.executable, "-S", "-c", code], env={"PYTHONPATH": str(TREE / "python")},
+                          capture_output=True, text=True, check=True)  # fmt: skip
+    assert done.stdout.splitlines()[0] == "numpy"
+    assert "pip install numpy" in done.stdout
+
+
 def test_the_tag_is_the_oldest_system_that_has_every_symbol():
     from build_backend import oldest_system
 
@@ -141,10 +151,36 @@ def test_a_second_wheel_has_the_same_bytes_and_the_sdist_the_sources(wheel, tmp_
     assert not any(name.startswith(f"{base}/build/") for name in names)
 
 
-def test_a_study_runs_from_the_wheel_in_an_empty_environment(wheel, tmp_path):
+def test_the_twenty_snippets_run_from_the_wheel_outside_the_checkout(wheel, tmp_path):
+    environment, copied = tmp_path / "env", tmp_path / "copied"
+    # The packages that the snippets use beside myoid are the system's.
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", "--system-site-packages", environment], check=True)
+    pip("--python", environment / "bin/python", "install", "--no-index", "--no-deps", "--ignore-installed", wheel)
+    (copied / "tests/python").mkdir(parents=True)
+    for file in ("conftest.py", "test_arrays.py"):
+        shutil.copy(SOURCE / "tests/python" / file, copied / "tests/python")
+    shutil.copytree(SOURCE / "examples/rat_soleus", copied / "examples/rat_soleus")
+    inherited = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+
+    def run(*command):
+        done = subprocess.run([environment / "bin/python", *command], cwd=copied, capture_output=True, text=True,
+                              check=False, env={**inherited, "MYOID": str(environment / "bin/myoid")})  # fmt: skip
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+    assert run("-c", "import myoid; print(myoid.__file__)").startswith(str(environment))
+    told = run("-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python/test_arrays.py")
+    assert int(re.search(r"(\d+) passed", told)[1]) >= 20
+    print(told)
+
+
+def test_a_study_runs_from_the_wheel_in_an_environment_of_numpy_alone(wheel, tmp_path):
     environment = tmp_path / "env"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", environment], check=True)
     pip("--python", environment / "bin/python", "install", "--no-index", "--no-deps", wheel)
+    (packages,) = environment.glob("lib/python3*/site-packages")
+    for part in Path(numpy.__file__).parents[1].glob("numpy*"):
+        (packages / part.name).symlink_to(part)
 
     def run(*command):
         done = subprocess.run([environment / "bin" / command[0], *command[1:]], cwd=tmp_path, capture_output=True,

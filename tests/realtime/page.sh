@@ -32,6 +32,8 @@ grep -q 'N m (.* to .*)' said
 here=$(dirname "$page")/../../tests/realtime
 cc -std=c99 -Wall -Wextra -Werror -I"$include" "$here/faults.c" -L"$library" -lmyoid -lm -Wl,-rpath,"$library" -o faults
 ./faults results
+cc -std=c99 -Wall -Wextra -Werror -pthread -I"$include" "$here/threads.c" -L"$library" -lmyoid -Wl,-rpath,"$library" -o threads
+./threads results
 if command -v python3 >/dev/null; then
   python3 "$here/../../examples/realtime/with_ctypes.py" results "$library/libmyoid.so" | tee said
   grep -q 'N m (.* to .*)' said

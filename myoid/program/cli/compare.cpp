@@ -60,7 +60,8 @@ void print(const results::RunComparison& comparison, bool all) {
     parameter = std::max(parameter, labelled(p).size());
   }
   say("{}\n\n", results::changes_sentence(comparison));
-  if (const std::string reading = results::reading_sentence(comparison); !reading.empty()) say("{}\n\n", reading);
+  for (const std::string& sentence : {results::unlike_sentence(comparison), results::reading_sentence(comparison)})
+    if (!sentence.empty()) say("{}\n\n", sentence);
   say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", owner, "parameter [unit]", parameter, "first",
       "second", "difference", "%", "p", "verdict");
   for (const results::ComparedParameter& p : comparison.parameters) {

@@ -93,6 +93,7 @@ DesignResult design(const DesignOptions& o) {
   const run::DesignStudyResult& found = result.design;
   if (found.too_hard == found.catalogue_size)
     throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
+  if (!found.range.empty()) remarks.note(found.range);
   remarks.note(fmt::format(
       "{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} persons; {} exchanges",
       found.catalogue_size, found.too_hard, found.too_tiring, choice.persons, found.exchanges));

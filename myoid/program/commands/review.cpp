@@ -6,6 +6,7 @@
 #include "myoid/opensim/projects/read_project.h"
 #include "myoid/page/write_report.h"
 #include "myoid/program/commands/project_files.h"
+#include "myoid/program/commands/run.h"
 #include "myoid/results/review/review_report.h"
 #include "myoid/run/run_study.h"
 
@@ -23,6 +24,7 @@ ReviewResult review(const ReviewOptions& o) {
   refuse_inside(o.project, o.folder);
   ProjectOfStudy of = project_of_study(o.project, o.joints, o.folder, remarks);
   write_project_study(of.study, o.folder);
+  if (const std::string idle = seed_without_effect(of.study.study, o.call); !idle.empty()) remarks.warn(idle);
   ReviewResult result;
   run::StudyResult fitted = run::run_study(of.study.study, {.start_s = o.call.start_s,
                                                             .end_s = o.call.end_s,

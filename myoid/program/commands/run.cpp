@@ -97,6 +97,7 @@ RunResult run(const study::Study& study, const RunOptions& o) {
   Remarks remarks(o.call);
   RunResult result;
   for (const std::string& text : study.identify.without_effect) remarks.warn(text);
+  if (const std::string idle = seed_without_effect(study, o.call); !idle.empty()) remarks.warn(idle);
   if (const std::string assumed = study::assumed_starts(study); !assumed.empty()) remarks.warn(assumed);
   result.study = run::run_study(study, {.start_s = o.call.start_s,
                                         .end_s = o.call.end_s,
@@ -115,6 +116,15 @@ RunResult run(const study::Study& study, const RunOptions& o) {
   if (result.study.fit_input.nuisances_held) remarks.note(std::string(run::kFewRows));
   result.remarks = remarks.list();
   return result;
+}
+
+std::string seed_without_effect(const study::Study& study, const Call& call) {
+  const bool compares = study.identify.compare_solvers &&
+                        std::ranges::find(study.identify.methods, fit::Method::paper) != study.identify.methods.end();
+  if (compares || call.seed == Call{}.seed) return "";
+  return "--seed has no effect here: only compare_solvers of method paper draws numbers by it; the draws of the "
+         "posterior "
+         "are the same for the same data";
 }
 
 void write_run(const RunResult& result, const std::filesystem::path& folder, page::Kept kept) {

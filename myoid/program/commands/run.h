@@ -63,6 +63,10 @@ struct RunResult {
 /// Runs a study that no file holds yet; `options.study` is not read.
 [[nodiscard]] RunResult run(const study::Study& study, const RunOptions& options);
 
+/// Returns the sentence that a seed has no effect on a study; empty for the usual one, and where solvers are compared:
+/// nothing else draws numbers by the call's seed.
+[[nodiscard]] std::string seed_without_effect(const study::Study& study, const Call& call);
+
 /// Writes all results and the report, in the place of the files of an earlier run.
 void write_run(const RunResult& result, const std::filesystem::path& folder, page::Kept kept = page::Kept::all);
 

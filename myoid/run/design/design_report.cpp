@@ -22,14 +22,15 @@ Badge plan_badge(Verdict verdict) {
 }
 
 page::Table plan_table(const DesignStudyResult& design) {
-  page::Table table{"next_recording",
-                    "Movements that would tell most",
-                    fmt::format("Chosen from {} movements; {} were beyond the strength that is certain. After each "
-                                "movement and all before it: the median over the parameters of the half 95 % "
-                                "interval that may be expected, and how many would be identified.",
-                                design.catalogue_size, design.too_hard),
-                    {"", "movement", "duration", "rest before", "median interval", "identified"},
-                    {}};
+  page::Table table{
+      "next_recording",
+      "Movements that would tell most",
+      fmt::format("Chosen from {} movements{}{}; {} were beyond the strength that is certain. After each "
+                  "movement and all before it: the median over the parameters of the half 95 % "
+                  "interval that may be expected, and how many would be identified.",
+                  design.catalogue_size, design.range.empty() ? "" : " of ", design.range, design.too_hard),
+      {"", "movement", "duration", "rest before", "median interval", "identified"},
+      {}};
   table.rows.push_back({{"0"},
                         {"what this recording tells"},
                         {"-"},

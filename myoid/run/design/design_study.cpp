@@ -17,6 +17,7 @@
 #include "myoid/muscle/fatigue.h"
 #include "myoid/run/design/design_fatigue.h"
 #include "myoid/run/design/design_knowledge.h"
+#include "myoid/run/design/human_range.h"
 #include "myoid/run/design/posterior_information.h"
 #include "myoid/study/study_model.h"
 
@@ -61,13 +62,11 @@ EstimatorOptions estimator_of(const study::Study& study, const StudyData& data, 
 }
 
 /// Returns the movements that the study's equipment allows.
-std::vector<Movement> catalogue_of(const study::Study& study, const body::BodyModel& model, CatalogueOptions options) {
-  const body::Coordinate& coordinate =
-      model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))];
-  options.coordinate = coordinate.name;
+std::vector<Movement> catalogue_of(const study::Study& study, const ProposedRange& range, CatalogueOptions options) {
+  options.coordinate = study.model.coordinate;
   options.planes = options.planes && !study.model.file;
   if (study.model.file && !study.model.held_mass) options.held_masses_kg = {0.0};
-  return movement_catalogue(coordinate.lower, coordinate.upper, options);
+  return movement_catalogue(range.low_rad, range.high_rad, options);
 }
 
 std::vector<MovementCourse> courses_of(const study::Study& study,
@@ -300,13 +299,17 @@ DesignStudyResult design_study(const study::Study& study,
         "a study without a model has no muscle paths for other movements: give [model] a file to design a recording");
   const StudyData data = muscles_of(study, model);
   const EstimatorOptions torque = estimator_of(study, data, options.gain_sd);
-  const std::vector<Movement> movements = catalogue_of(study, model, options.catalogue);
+  const body::Coordinate& coordinate =
+      model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))];
+  const ProposedRange range = human_range(coordinate.name, coordinate.lower, coordinate.upper);
+  const std::vector<Movement> movements = catalogue_of(study, range, options.catalogue);
 
   options.progress.tell(0.05, "movements");
   const std::vector<MovementCourse> courses = courses_of(study, model, movements, options.progress);
   const auto parameters = parameters_of(data, torque, courses, options.seed);
   DesignStudyResult result;
   result.catalogue_size = movements.size();
+  result.range = range.says;
   if (!parameters) {
     result.too_hard = movements.size();
     return result;

@@ -49,6 +49,7 @@ struct DesignStudyResult {
   std::vector<fit::ParameterEstimate> beforehand;  ///< One for each target.
   std::vector<PlannedMovement> plan;               ///< In the order of their information.
   std::size_t catalogue_size = 0;
+  std::string range;           ///< Says why the angles are not those of the model (human_range); empty: they are.
   std::size_t too_hard = 0;    ///< Number of movements that too few of the persons could do.
   std::size_t too_tiring = 0;  ///< Number of movements that alone exceed the fatigue budget.
   int exchanges = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -22,6 +23,31 @@ std::size_t rank(const std::string& coordinate) {
   const auto found =
       std::ranges::find_if(kUsual, [&](std::string_view word) { return plain.find(word) != std::string::npos; });
   return static_cast<std::size_t>(found - kUsual.begin());
+}
+
+/// Returns the name with the other side in it; empty if it states none.
+std::string mirrored(std::string name) {
+  constexpr std::array<std::array<std::string_view, 2>, 2> kSides{{{"right", "left"}, {"Right", "Left"}}};
+  for (const auto& [right, left] : kSides) {
+    for (const auto& [from, to] : {std::pair(right, left), std::pair(left, right)})
+      if (const std::size_t at = name.find(from); at != std::string::npos) return name.replace(at, from.size(), to);
+  }
+  for (const auto& [from, to] :
+       {std::pair("_r", 'l'), std::pair("_l", 'r'), std::pair("_R", 'L'), std::pair("_L", 'R')}) {
+    if (!name.ends_with(from)) continue;
+    name.back() = to;
+    return name;
+  }
+  return "";
+}
+
+/// Counts the channels that have the name of a muscle that moves the coordinate.
+std::size_t channels_of(const body::BodyModel& model,
+                        const std::string& coordinate,
+                        const std::vector<std::string>& channels) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(match_channels(channels, movers(model, coordinate)),
+                            [](const ChannelMuscles& pair) { return !pair.muscles.empty(); }));
 }
 
 }  // namespace
@@ -62,14 +88,22 @@ std::string coordinate_of_channels(const body::BodyModel& model,
   std::string best;
   std::size_t most = 0;
   for (const std::string& name : coordinates) {
-    std::size_t count = 0;
-    for (const ChannelMuscles& pair : match_channels(channels, movers(model, name)))
-      count += pair.muscles.empty() ? 0 : 1;
+    const std::size_t count = channels_of(model, name, channels);
     if (count <= most) continue;
     most = count;
     best = name;
   }
   return best;
+}
+
+std::string same_on_the_other_side(const body::BodyModel& model,
+                                   const std::string& coordinate,
+                                   const std::vector<std::string>& channels) {
+  const std::string other = mirrored(coordinate);
+  const auto found = std::ranges::find(model.coordinates, other, &body::Coordinate::name);
+  if (found == model.coordinates.end() || found->locked) return "";
+  const std::size_t count = channels_of(model, coordinate, channels);
+  return count > 0 && channels_of(model, other, channels) >= count ? other : "";
 }
 
 }  // namespace myoid::study

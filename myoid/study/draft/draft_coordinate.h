@@ -23,4 +23,10 @@ namespace myoid::study {
                                                  const std::vector<std::string>& coordinates,
                                                  const std::vector<std::string>& channels);
 
+/// Returns the same coordinate of the other side ("knee_angle_l" of "knee_angle_r") if as many channels have names of
+/// muscles that move it: channels that state no side. Empty otherwise.
+[[nodiscard]] std::string same_on_the_other_side(const body::BodyModel& model,
+                                                 const std::string& coordinate,
+                                                 const std::vector<std::string>& channels);
+
 }  // namespace myoid::study

@@ -6,6 +6,8 @@
 #include "myoid/body/arm/arm4.h"
 #include "myoid/body/osim/osim_reader.h"
 
+#include "tests/support/data_folder.h"
+
 namespace myoid::study {
 namespace {
 
@@ -18,6 +20,18 @@ TEST(DraftCoordinate, TheElbowIsMovedByItsFourMusclesAndTheShoulderByNone) {
   EXPECT_EQ(coordinate_of_channels(arm, names, {"Biceps", "ECG"}), "elbow_flexion");
   EXPECT_EQ(coordinate_of_channels(arm, names, {"ECG"}), "");
   EXPECT_EQ(coordinate_of_channels(arm, {}, {"Biceps"}), "");
+}
+
+TEST(DraftCoordinate, ElectrodesThatNameNoSideMayBeOnTheOtherOne) {
+  const body::BodyModel arm = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  EXPECT_EQ(same_on_the_other_side(arm, "elbow_flexion", {"Biceps"}), "");
+  const auto file = test::data_folder() / "opensim/gait2354/model.osim";
+  MYOID_REQUIRE_DATA(file);
+  const body::BodyModel legs = body::read_osim(file);
+  EXPECT_EQ(same_on_the_other_side(legs, "knee_angle_r", {"Rectus femoris", "Gastroc medialis"}), "knee_angle_l");
+  EXPECT_EQ(same_on_the_other_side(legs, "knee_angle_l", {"Rectus femoris"}), "knee_angle_r");
+  EXPECT_EQ(same_on_the_other_side(legs, "knee_angle_r", {"R Rectus femoris", "R Gastroc medialis"}), "");
+  EXPECT_EQ(same_on_the_other_side(legs, "knee_angle_r", {"ECG"}), "") << "no muscle's name, no side to ask for";
 }
 
 TEST(DraftCoordinate, TheUsualOnesStandFirstTheOthersInTheirOrder) {

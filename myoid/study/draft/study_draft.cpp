@@ -304,8 +304,18 @@ class Draft {
                        list_of(other_models_)));
     if (guessed_coordinate_ && !wants_a_leg())
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
+    if (options_.coordinate.empty()) ask_for_the_side();
     line("coordinate = " + toml_text(coordinate_));
     line("");
+  }
+
+  void ask_for_the_side() {
+    const std::string other = same_on_the_other_side(model_, coordinate_, all_channels());
+    if (other.empty()) return;
+    todo(
+        fmt::format("which side? No electrode's name states it, and this draft takes {} with the muscles of that side; "
+                    "`myoid init --coordinate {}` drafts the other",
+                    coordinate_, other));
   }
 
   void markers_table() {
@@ -407,7 +417,7 @@ class Draft {
         coordinate_ == "TODO" ? std::vector<std::string>{} : movers(model_, coordinate_);
     std::set<std::string> covered, names;
     std::vector<std::string> unused;
-    std::string first;
+    std::vector<std::string> drafted;
     for (const ChannelMuscles& pair : match_channels(channels, able)) {
       std::vector<std::string> fresh;
       for (const std::string& m : pair.muscles) {
@@ -419,21 +429,21 @@ class Draft {
       }
       std::string name = fresh.size() == 1 ? fresh[0] : abbreviation(fresh);
       while (!names.insert(name).second) name += "_2";
-      if (first.empty()) first = name;
+      drafted.push_back(name);
       line("[[muscle]]");
       line("name = " + toml_text(name));
       line("osim = " + list_of(fresh));
       line("emg = " + toml_text(pair.channel));
       line("");
     }
-    if (first.empty()) {
+    if (drafted.empty()) {
       if (!channels.empty()) unknown_pairs(channels, able);
       return;
     }
     std::vector<std::string> left;
     std::ranges::copy_if(able, std::back_inserter(left),
                          [&](const std::string& muscle) { return !covered.contains(muscle); });
-    if (!left.empty()) without_electrode(left, first);
+    if (!left.empty()) without_electrode(left, drafted);
     if (!unused.empty()) {
       line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_, fmt::join(unused, ", ")));
       line("");
@@ -451,15 +461,16 @@ class Draft {
     line("");
   }
 
-  /// Offers the channel of the muscle `like` to the first of the muscles that have none.
-  void without_electrode(const std::vector<std::string>& left, const std::string& like) {
+  /// Asks what to do with muscles without electrode; the first is written as one that acts like one of `drafted`.
+  void without_electrode(const std::vector<std::string>& left, const std::vector<std::string>& drafted) {
     todo(
         fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a group, or let them "
                     "act as another muscle does:",
                     coordinate_, fmt::join(left, ", ")));
     line("# [[muscle]]");
     line("# name = " + toml_text(left[0]));
-    line("# emg = { same_as = " + toml_text(like) + " }");
+    line(fmt::format("# emg = {{ same_as = \"TODO\" }}   # a muscle that pulls with it, of {}",
+                     fmt::join(drafted, ", ")));
     line("");
   }
 

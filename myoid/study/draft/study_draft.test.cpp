@@ -180,6 +180,8 @@ TEST(StudyDraft, OfAWalkingTrialTheJointIsThatOfTheChannelsAndTheGroundReactionC
   const StudyDraft draft = draft_study(folder.path(), {.from = {data / "gait-emg"}});
   const Study study = parse_study(draft.toml, folder / "study.toml");
   EXPECT_EQ(study.model.coordinate, "knee_angle_r");
+  EXPECT_THAT(draft.todo, ::testing::Contains(HasSubstr("--coordinate knee_angle_l")));
+  EXPECT_THAT(draft.toml, HasSubstr("# emg = { same_as = \"TODO\" }"));
   ASSERT_EQ(study.trials.size(), 1U);
   EXPECT_EQ(study.trials[0].external_loads->filename(), "grf_walk.xml");
   EXPECT_EQ(study.trials[0].emg->filename(), "emg_walk_raw.anc");
