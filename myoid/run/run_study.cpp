@@ -115,10 +115,12 @@ std::vector<TrialResult> joined(const study::Study& study,
 }
 
 /// Returns movements that would determine more than this recording; without a dynamometer the
-/// movements use the laboratory's masses. Empty if the fit is no basis for a design, or no model can move.
+/// movements use the laboratory's masses. Empty if the fit is no basis for a design, or no model can move; a run that
+/// plans nothing for another reason keeps its numbers, and a remark says why.
 std::optional<DesignStudyResult> next_recording(const StudySource& source,
                                                 const StudyFit& fit,
-                                                const Progress& progress) {
+                                                const Progress& progress,
+                                                std::vector<Remark>& remarks) {
   const study::Study& study = source.study;
   if (study.model.is_none()) return std::nullopt;
   DesignStudyOptions options;
@@ -135,7 +137,12 @@ std::optional<DesignStudyResult> next_recording(const StudySource& source,
     if (torque->termination != math::Termination::converged || !torque->covariance.allFinite()) return std::nullopt;
     options.earlier = earlier_run(*torque);
   }
-  return design_study(study, *source.model, options);
+  try {
+    return design_study(study, *source.model, options);
+  } catch (const InvalidInput& error) {
+    remarks.push_back({.says = fmt::format("no next recording is planned: {}", error.what())});
+    return std::nullopt;
+  }
 }
 
 StudyInputs read_stage(const study::Study& whole, const RunOptions& options, Stages& stages) {
@@ -188,8 +195,9 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
         "validation", "predicts parts left out of the fit", 0.85, 0.95,
         [&](const Progress& progress) { return study_validation(fit_source(result), input, *best, progress); });
   if (study.identify.next_movements > 0 && wants_torque(study))
-    result.next = stages.run("next recording", "looks for the next recording", 0.95, 1.0,
-                             [&](const Progress& progress) { return next_recording(result.source, fit, progress); });
+    result.next = stages.run(
+        "next recording", "looks for the next recording", 0.95, 1.0,
+        [&](const Progress& progress) { return next_recording(result.source, fit, progress, validation.remarks); });
   for (IdentificationResult& method : fit.methods) {
     if (&method == best) std::ranges::move(validation.remarks, std::back_inserter(method.warnings));
   }

@@ -66,12 +66,13 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, double strength_sd, con
     }
   }
   // Scaled by the prior: a direction that the run left undetermined has no variance in its
-  // covariance, and keeps its prior. The least variance of a direction is a millionth.
+  // covariance, and keeps its prior. The least standard deviation of a direction is a ten-thousandth of the prior's, so
+  // that its inverse stays positive definite in double precision.
   const Eigen::VectorXd unit = sd_before.cwiseInverse();
   const math::SymmetricEigen axes = math::symmetric_eigen(unit.asDiagonal() * known.covariance * unit.asDiagonal());
   if (!axes.values.allFinite()) throw InvalidInput("design: the covariance of the earlier run is not finite");
   Eigen::VectorXd variance = axes.values;
-  for (double& v : variance) v = v <= 1e-14 ? 1.0 : std::max(v, 1e-12);
+  for (double& v : variance) v = v <= 1e-14 ? 1.0 : std::max(v, 1e-8);
   const Eigen::MatrixXd scaled = sd_before.asDiagonal() * axes.vectors;
   known.covariance = scaled * variance.asDiagonal() * scaled.transpose();
   const Eigen::MatrixXd inverse = unit.asDiagonal() * axes.vectors;

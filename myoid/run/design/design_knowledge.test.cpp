@@ -36,6 +36,15 @@ TEST(DesignKnowledge, WithoutARunItIsThePriorsAndAQuarterOfTheBoundsWhereThereIs
   EXPECT_LT((known.precision * known.covariance - Eigen::Matrix3d::Identity()).norm(), 1e-9);
 }
 
+TEST(DesignKnowledge, NumbersThatARunTiesToEachOtherHaveAnInverseToSevenDigits) {
+  EarlierRun run;
+  run.parameters = {"BRA.max_isometric_force", "BIC.max_isometric_force"};
+  run.estimate = Eigen::Vector2d(700.0, 900.0);
+  run.covariance = (Eigen::Matrix2d() << 0.01, 0.01, 0.01, 0.01 + 1e-13).finished();
+  const Knowledge known = knowledge_of(three(), 0.0, run);
+  EXPECT_LT((known.precision * known.covariance - Eigen::Matrix3d::Identity()).norm(), 1e-7);
+}
+
 TEST(DesignKnowledge, ARunReplacesWhatItFittedAndLeavesTheRest) {
   EarlierRun run;
   run.parameters = {"BRA.max_isometric_force", "BIC.max_isometric_force"};
