@@ -244,7 +244,9 @@ void levenberg_marquardt(Search& search) {
         return finish(search, Termination::converged, "the step is below the tolerance");
       }
       if (!accepted) {
-        if (promised <= search.options.cost_tolerance * result.cost) {
+        // A step that the bounds cut may promise nothing where a shorter one does.
+        const bool cut = (result.x + step - x).cwiseAbs().maxCoeff() > 0.0;
+        if (!cut && promised <= search.options.cost_tolerance * result.cost) {
           return finish(search, Termination::converged, "the cost can fall no further within round-off");
         }
         // The minimum of the parabola through the cost and its slope here and the cost there.

@@ -73,6 +73,27 @@ TEST(LevenbergMarquardt, StopsAtABoundAndSaysSo) {
   EXPECT_NEAR(fit.jacobian.col(1).dot(fit.residual), 0.0, 1e-4);
 }
 
+TEST(Minimize, AStepThatABoundMakesUselessIsNoMinimum) {
+  // A valley from the start to (2, -2), which a bound at 0.5 closes: the step to its end, cut at the bound, only
+  // climbs.
+  Eigen::Matrix2d valley;
+  valley << 1.0, 0.999, 0.0, 0.05;
+  LeastSquaresProblem problem{.residual_count = 2,
+                              .evaluate =
+                                  [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+                                    r = valley * (x - Eigen::Vector2d(2.0, -2.0));
+                                    if (jacobian != nullptr) *jacobian = valley;
+                                  },
+                              .lower = Eigen::Vector2d(-10.0, -10.0),
+                              .upper = Eigen::Vector2d(0.5, 10.0)};
+  const LeastSquaresResult fit = minimize(problem, Eigen::Vector2d(0.1, 0.1), {.initial_radius = 100.0});
+  ASSERT_EQ(fit.termination, Termination::converged) << fit.message;
+  // At the bound the second number minimizes (1.5 - 0.999 u)^2 + (0.05 u)^2, u = x + 2. Its square root of the
+  // round-off of the cost.
+  EXPECT_EQ(fit.x[0], 0.5);
+  EXPECT_NEAR(fit.x[1], 1.5 * 0.999 / (0.999 * 0.999 + 0.0025) - 2.0, 1e-7);
+}
+
 TEST(Covariance, TwoColumnsThatAreOneAreReportedUndetermined) {
   Eigen::MatrixXd jacobian(5, 3);
   jacobian << 1, 2, 1, 2, 1, 2, 3, 0, 3, 1, 1, 1, 4, 2, 4;
