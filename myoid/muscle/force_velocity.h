@@ -16,32 +16,35 @@ struct VelocityHyperbola {
   /// Share of the way from 1 to the plateau at which the lengthening branch continues as its tangent.
   /// 1: the published branch goes on to infinity.
   T tangent_from{1.0};
-  /// Below -v_max the law is zero (false), or its tangent there (true): negative, and invertible.
+  /// Below its zero the law is 0 (false), or its tangent there (true): negative, and invertible.
   bool tangent_below = false;
+  T zero{1.0};               ///< z: the law is zero at -z.
+  T lengthening_slope{0.0};  ///< kappa: the lengthening branch rises along a line of this slope.
 };
 
 /// Returns the force-velocity multiplier f_v [-], the force over the isometric force at equal length and activation,
 /// and its slope d f_v / dv. `v` is dl_m/dt over v_max, positive in lengthening.
 ///
-///   f_v(v) = 0                            v <= -1
-///   f_v(v) = V_sh (1 + v) / (V_sh - v)    -1 < v <= 0
-///   f_v(v) = (P + V_ml v) / (P + v)       0 < v
+///   f_v(v) = 0                                     v <= -z
+///   f_v(v) = V_sh (1 + v / z) / (V_sh - v)         -z < v <= 0
+///   f_v(v) = (P + V_ml v) / (P + v) + kappa v      0 < v
 ///
-/// Hence f_v(-1) = 0, f_v(0) = 1, f_v(inf) = V_ml. The law is continuous and, if V_ml >= 1, never falls. The slopes at
-/// rest are 1 + 1/V_sh and (V_ml - 1) / P; at v = 0 derivatives are those of shortening. Without `tangent_below` a
-/// sample below -1 says nothing about the shape: every derivative is zero there, so a fit leaves it out.
+/// The paper's law has z = 1 and kappa = 0. Hence f_v(-z) = 0, f_v(0) = 1, and without kappa f_v(inf) = V_ml. The law
+/// is continuous and, if V_ml >= 1, never falls. The slopes at rest are 1/z + 1/V_sh and (V_ml - 1) / P + kappa; at v =
+/// 0 derivatives are those of shortening. Without `tangent_below` a sample below -z says nothing about the shape: every
+/// derivative is zero there, so a fit leaves it out.
 template <typename T>
 [[nodiscard]] CurvePoint<T> force_velocity(const VelocityHyperbola<T>& h, const T& v) {
   const double number = value_of(v);
   const T& c = h.concentric_curvature;
-  if (number <= -1.0) {
+  if (number <= -value_of(h.zero)) {
     if (!h.tangent_below) return {T(0.0), 0.0};
-    const T slope = c / (T(1.0) + c);
-    return {slope * (T(1.0) + v), value_of(slope)};
+    const T slope = c / (h.zero * (h.zero + c));
+    return {slope * (h.zero + v), value_of(slope)};
   }
   if (number <= 0.0) {
     const T pole = c - v;
-    return {c * (T(1.0) + v) / pole, value_of(c * (T(1.0) + c) / (pole * pole))};
+    return {c * (T(1.0) + v / h.zero) / pole, value_of(c * (T(1.0) + c / h.zero) / (pole * pole))};
   }
   const T& p = h.eccentric_curvature_product;
   const T& m = h.eccentric_plateau;
@@ -49,11 +52,13 @@ template <typename T>
     const T last = p * h.tangent_from / (T(1.0) - h.tangent_from);
     if (number > value_of(last)) {
       const T slope = p * (m - T(1.0)) / ((p + last) * (p + last));
-      return {T(1.0) + (m - T(1.0)) * h.tangent_from + slope * (v - last), value_of(slope)};
+      return {T(1.0) + (m - T(1.0)) * h.tangent_from + slope * (v - last) + h.lengthening_slope * v,
+              value_of(slope + h.lengthening_slope)};
     }
   }
   const T pole = p + v;
-  return {(p + m * v) / pole, value_of(p * (m - T(1.0)) / (pole * pole))};
+  return {(p + m * v) / pole + h.lengthening_slope * v,
+          value_of(p * (m - T(1.0)) / (pole * pole) + h.lengthening_slope)};
 }
 
 /// Returns the velocity [v_max] at which strength f_v(v) + damping v = force, all over F_max, in closed form: each
@@ -64,13 +69,14 @@ template <typename T>
                                            double damping,
                                            double force) {
   const double c = h.concentric_curvature;
+  const double z = h.zero;
   if (force <= strength) {  // shortening, or rest
-    if (force <= -damping) {
+    if (force <= -damping * z) {
       if (!h.tangent_below) return force / damping;
-      const double slope = strength * c / (1.0 + c);
-      return (force - slope) / (slope + damping);
+      const double slope = strength * c / (z * (z + c));
+      return (force - slope * z) / (slope + damping);
     }
-    const double b = (strength + damping) * c + force;
+    const double b = (strength / z + damping) * c + force;
     const double product = c * (strength - force);
     const double root = std::sqrt(b * b + 4.0 * damping * product);
     if (b > 0.0) return -2.0 * product / (b + root);
@@ -78,6 +84,7 @@ template <typename T>
   }
   const double p = h.eccentric_curvature_product;
   const double m = h.eccentric_plateau;
+  damping += strength * h.lengthening_slope;
   if (h.tangent_from < 1.0) {
     const double last = p * h.tangent_from / (1.0 - h.tangent_from);
     const double value = 1.0 + (m - 1.0) * h.tangent_from;

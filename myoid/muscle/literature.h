@@ -24,7 +24,8 @@ inline constexpr std::array<LiteratureMuscle, 4> kElbowMuscles = {{{"BIC", 1059.
                                                                    {"TRI", 2047.12, 0.1217, 0.1134, 0.1775}}};
 
 /// The values for a muscle without better data.
-inline constexpr double kLiteratureWidth = 0.45;      ///< l_sh / l0
+inline constexpr double kLiteratureWidth = 0.45;  ///< l_sh / l0
+inline constexpr double kSoestWidth = 0.56;       ///< Half width of the parabola over l0 (van Soest & Bobbert 1993).
 inline constexpr double kLiteratureCurvature = 0.28;  ///< V_sh
 inline constexpr double kLiteraturePlateau = 1.4;     ///< V_ml
 inline constexpr double kLiteratureSlopeRatio = 1.5;  ///< S: slopes of f_v at rest, eccentric over concentric

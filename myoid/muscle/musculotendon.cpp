@@ -31,6 +31,26 @@ MusculotendonLaws millard_laws(TendonMode mode) {
   return {mode, LengthLaw::millard, VelocityLaw::millard, PassiveLaw::millard, TendonLaw::millard};
 }
 
+MusculotendonLaws soest_laws(TendonMode mode) {
+  return {mode, LengthLaw::soest, VelocityLaw::soest, PassiveLaw::soest, TendonLaw::soest};
+}
+
+MusculotendonLaws laws_of(LawSet set, TendonMode mode) {
+  switch (set) {
+    case LawSet::paper:
+      return paper_laws(mode);
+    case LawSet::thelen:
+      return thelen_laws(mode);
+    case LawSet::de_groote:
+      return de_groote_laws(mode);
+    case LawSet::millard:
+      return millard_laws(mode);
+    case LawSet::soest:
+      return soest_laws(mode);
+  }
+  return {};
+}
+
 MusculotendonParameters<double> published_defaults(const HillParameters<double>& hill, const MusculotendonLaws& laws) {
   MusculotendonParameters<double> p;
   p.hill = hill;
@@ -39,6 +59,7 @@ MusculotendonParameters<double> published_defaults(const HillParameters<double>&
       p.tendon_strain = 0.033;
       break;
     case TendonLaw::thelen:
+    case TendonLaw::soest:
       p.tendon_strain = 0.04;
       break;
     case TendonLaw::de_groote:
@@ -48,7 +69,7 @@ MusculotendonParameters<double> published_defaults(const HillParameters<double>&
   }
   p.passive_strain = 0.6;
   p.passive_shape = laws.passive == PassiveLaw::thelen ? 5.0 : 4.0;
-  p.damping = 0.1;
+  p.damping = laws.velocity == VelocityLaw::soest ? 1e-4 : 0.1;
   p.muscle_mass_kg = muscle_mass_kg(hill.max_isometric_force_n, hill.optimal_fiber_length_m);
   return p;
 }
@@ -63,6 +84,8 @@ void validate(const MusculotendonParameters<double>& p, const MusculotendonLaws&
           p.pennation_at_optimal_rad, "0 to 1.4 rad");
   require(p.passive_strain > 0.0, "passive_strain", p.passive_strain, "a positive number");
   require(p.passive_shape > 0.0, "passive_shape", p.passive_shape, "a positive number");
+  require(p.passive_slack >= 0.0 && (laws.passive != PassiveLaw::soest || p.passive_slack < 1.0 + p.passive_strain),
+          "passive_slack", p.passive_slack, "a length over l0 below 1 + passive_strain");
   require(p.optimal_length_shift >= 0.0 && p.optimal_length_shift < 10.0, "optimal_length_shift",
           p.optimal_length_shift, "0 (none) or a small positive number such as 0.15");
   const double plateau = p.hill.eccentric_plateau;
@@ -75,7 +98,7 @@ void validate(const MusculotendonParameters<double>& p, const MusculotendonLaws&
             "a positive length, or mode `rigid`");
   }
   if (laws.mode == TendonMode::equilibrium) {
-    if (laws.velocity == VelocityLaw::hill) {
+    if (laws.velocity == VelocityLaw::hill || laws.velocity == VelocityLaw::soest) {
       require(plateau >= 1.0, "eccentric_plateau", plateau,
               "at least 1: below it the equilibrium has several velocities");
     }
@@ -104,7 +127,7 @@ std::array<double, kMusculotendonEventCount> musculotendon_events(const Musculot
   const double last = tangent ? h.eccentric_curvature_product * h.tangent_from / (1.0 - h.tangent_from) : 0.0;
   return {unit.laws().mode == TendonMode::rigid ? now.tendon.value : now.strain,
           now.speed,
-          1.0 + law_speed,
+          unit.curves().zero_velocity(now.activity()) + law_speed,
           now.length_m / p.hill.optimal_fiber_length_m - 1.0,
           now.length_m / unit.shortest_fiber_m() - 1.0,
           tangent ? law_speed - last : 1.0};

@@ -41,6 +41,7 @@ std::vector<Case> cases() {
       all.push_back({"Thelen" + suffix, thelen_laws(mode), pennation});
       all.push_back({"De Groote" + suffix, de_groote_laws(mode), pennation});
       all.push_back({"Millard" + suffix, millard_laws(mode), pennation});
+      all.push_back({"van Soest" + suffix, soest_laws(mode), pennation});
     }
   }
   all.push_back({"paper, undamped", paper_laws(TendonMode::equilibrium), 0.2, 0.0});

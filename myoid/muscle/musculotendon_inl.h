@@ -74,7 +74,11 @@ struct Instant {
   T strength{};                                             ///< a f_l
   T speed{};                                                ///< v / v_max
   T viscous{};                                              ///< Mode `rigid`: the damper's force over F_max.
+  T activation{};
+  T relative_length{};  ///< l_m over the optimal length at this activation.
   bool floored = false;
+
+  [[nodiscard]] Activity<T> activity() const { return {activation, relative_length, length.value}; }
 };
 
 /// Returns the forces that depend on the fiber's length. The optimum is longer at low activation.
@@ -83,9 +87,13 @@ void contract(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, 
   const MusculotendonParameters<T>& p = unit.parameters();
   const T& l0 = p.hill.optimal_fiber_length_m;
   const T longer = T(1.0) + p.optimal_length_shift * (T(1.0) - input.activation);
-  now.length = unit.curves().length(now.length_m / longer / l0);
+  now.activation = input.activation;
+  if (unit.laws().velocity == VelocityLaw::soest && value_of(now.activation) < kSoestRest)
+    now.activation = T(kSoestRest);
+  now.relative_length = now.length_m / longer / l0;
+  now.length = unit.curves().length(now.relative_length);
   now.length.slope /= value_of(longer);
-  now.strength = input.activation * now.length.value;
+  now.strength = now.activation * now.length.value;
   if (unit.undamped_equilibrium() && value_of(now.strength) < kLeastStrength) {
     now.strength = T(kLeastStrength);
     now.floored = true;
@@ -103,18 +111,18 @@ enum class Depth { rate, all };
 /// Returns the equilibrium's velocity with its derivatives: one Newton step in T from the solution
 /// in numbers, whose residual in T carries the derivatives (implicit function theorem).
 template <typename T>
-void solve_speed(const Musculotendon<T>& unit, const T& activation, const T& force, Depth depth, Instant<T>& now) {
+void solve_speed(const Musculotendon<T>& unit, const T& force, Depth depth, Instant<T>& now) {
   const T& damping = unit.parameters().damping;
   const double speed =
-      unit.curves().solve_velocity(value_of(activation), value_of(now.strength), value_of(damping), value_of(force));
+      unit.curves().solve_velocity(now.activity(), value_of(now.strength), value_of(damping), value_of(force));
   now.speed = T(speed);
   if constexpr (std::is_same_v<T, double>) {
-    if (depth == Depth::all) now.velocity = unit.curves().velocity(activation, now.speed);
+    if (depth == Depth::all) now.velocity = unit.curves().velocity(now.activity(), now.speed);
   } else {
-    now.velocity = unit.curves().velocity(activation, now.speed);
+    now.velocity = unit.curves().velocity(now.activity(), now.speed);
     const T miss = force - now.strength * now.velocity.value - damping * now.speed;
     now.speed = now.speed + miss / T(value_of(now.strength) * now.velocity.slope + value_of(damping));
-    if (depth == Depth::all) now.velocity = unit.curves().velocity(activation, now.speed);
+    if (depth == Depth::all) now.velocity = unit.curves().velocity(now.activity(), now.speed);
   }
 }
 
@@ -141,7 +149,7 @@ Instant<T> rigid_instant(const Musculotendon<T>& unit, const MusculotendonInput<
   now.reach = {along, along / now.length_m};
   now.speed = input.velocity_mps * now.reach.cosine / p.hill.max_shortening_speed_mps;
   contract(unit, input, now);
-  now.velocity = unit.curves().velocity(input.activation, now.speed);
+  now.velocity = unit.curves().velocity(now.activity(), now.speed);
   const T pull = now.strength * now.velocity.value + now.passive.value;
   const T total = pull + p.damping * now.speed;
   if (value_of(total) > 0.0) {
@@ -175,10 +183,10 @@ Instant<T> instant(const Musculotendon<T>& unit,
   Instant<T> now = stretched(unit, input, state.fiber_length_m);
   if (unit.laws().mode == TendonMode::mass) {
     now.speed = state.fiber_velocity_mps / unit.parameters().hill.max_shortening_speed_mps;
-    now.velocity = unit.curves().velocity(input.activation, now.speed);
+    now.velocity = unit.curves().velocity(now.activity(), now.speed);
   } else {
     const T force = now.tendon.value / now.reach.cosine - now.passive.value;
-    solve_speed(unit, input.activation, force, depth, now);
+    solve_speed(unit, force, depth, now);
   }
   return now;
 }
@@ -188,7 +196,7 @@ template <typename T>
 Instant<T> steady_instant(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, const T& l) {
   Instant<T> now = stretched(unit, input, l);
   now.speed = input.velocity_mps * now.reach.cosine / unit.parameters().hill.max_shortening_speed_mps;
-  now.velocity = unit.curves().velocity(input.activation, now.speed);
+  now.velocity = unit.curves().velocity(now.activity(), now.speed);
   return now;
 }
 
@@ -282,7 +290,7 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
     o.power_w.kinetic = -p.muscle_mass_kg * o.fiber_velocity_mps * o.fiber_acceleration_mps2;
     o.energy_j.kinetic = T(0.5) * p.muscle_mass_kg * o.fiber_velocity_mps * o.fiber_velocity_mps;
   }
-  const double share = now.floored ? 0.0 : value_of(input.activation) * now.length.slope;
+  const double share = now.floored ? 0.0 : value_of(now.activation) * now.length.slope;
   o.fiber_stiffness_npm = value_of(f_max) / value_of(p.hill.optimal_fiber_length_m) *
                           (share * value_of(now.velocity.value) + now.passive.slope);
   o.slack = !(value_of(now.tendon.value) > 0.0);

@@ -17,22 +17,28 @@ enum class TendonMode {
 inline constexpr std::string_view kTendonModeNames[] = {"rigid", "equilibrium", "mass"};
 constexpr ChoiceNames choice_names(TendonMode) { return kTendonModeNames; }
 
-/// Active force over length: the paper's Gaussian (Thelen's too), or a published curve.
-enum class LengthLaw { gaussian, de_groote, millard };
-inline constexpr std::string_view kLengthLawNames[] = {"gaussian", "de_groote", "millard"};
+/// Active force over length: the paper's Gaussian (Thelen's too), a published curve, or a parabola.
+enum class LengthLaw { gaussian, de_groote, millard, soest };
+inline constexpr std::string_view kLengthLawNames[] = {"gaussian", "de_groote", "millard", "soest"};
 constexpr ChoiceNames choice_names(LengthLaw) { return kLengthLawNames; }
-/// Active force over velocity: the paper's hyperbolas, Thelen's (whose speed falls with activation), ...
-enum class VelocityLaw { hill, thelen, de_groote, millard };
-inline constexpr std::string_view kVelocityLawNames[] = {"hill", "thelen", "de_groote", "millard"};
+/// Active force over velocity: the paper's hyperbolas, Thelen's (whose speed falls with activation), ..., or Hill's
+/// with a and b that fall with length and activation.
+enum class VelocityLaw { hill, thelen, de_groote, millard, soest };
+inline constexpr std::string_view kVelocityLawNames[] = {"hill", "thelen", "de_groote", "millard", "soest"};
 constexpr ChoiceNames choice_names(VelocityLaw) { return kVelocityLawNames; }
 /// Passive force of the fiber; the paper has none.
-enum class PassiveLaw { none, thelen, de_groote, millard };
-inline constexpr std::string_view kPassiveLawNames[] = {"none", "thelen", "de_groote", "millard"};
+enum class PassiveLaw { none, thelen, de_groote, millard, soest };
+inline constexpr std::string_view kPassiveLawNames[] = {"none", "thelen", "de_groote", "millard", "soest"};
 constexpr ChoiceNames choice_names(PassiveLaw) { return kPassiveLawNames; }
-/// Tendon force over strain: the paper's line, or a curve with a toe.
-enum class TendonLaw { linear, thelen, de_groote, millard };
-inline constexpr std::string_view kTendonLawNames[] = {"linear", "thelen", "de_groote", "millard"};
+/// Tendon force over strain: the paper's line, a curve with a toe, or a parabola.
+enum class TendonLaw { linear, thelen, de_groote, millard, soest };
+inline constexpr std::string_view kTendonLawNames[] = {"linear", "thelen", "de_groote", "millard", "soest"};
 constexpr ChoiceNames choice_names(TendonLaw) { return kTendonLawNames; }
+
+/// A publication's laws of all elements.
+enum class LawSet { paper, thelen, de_groote, millard, soest };
+inline constexpr std::string_view kLawSetNames[] = {"paper", "thelen", "de_groote", "millard", "soest"};
+constexpr ChoiceNames choice_names(LawSet) { return kLawSetNames; }
 
 /// Which law each element of a musculotendon unit follows.
 struct MusculotendonLaws {
@@ -41,11 +47,14 @@ struct MusculotendonLaws {
   VelocityLaw velocity = VelocityLaw::hill;
   PassiveLaw passive = PassiveLaw::none;
   TendonLaw tendon = TendonLaw::linear;
+
+  bool operator==(const MusculotendonLaws&) const = default;
 };
 
 /// The numbers of one musculotendon unit. Each law reads only some of them: De Groote's and
 /// Millard's length and velocity curves take only l0, v_max and F_max of `hill`; Thelen's A_f is
-/// V_sh, his F_len V_ml, his gamma (l_sh / l0)^2, and P follows from A_f and F_len.
+/// V_sh, his F_len V_ml, his gamma (l_sh / l0)^2, and P follows from A_f and F_len. Under `soest` l_sh is the half
+/// width of the parabola, and P follows from V_sh and V_ml.
 template <typename T = double>
 struct MusculotendonParameters {
   HillParameters<T> hill;
@@ -56,6 +65,7 @@ struct MusculotendonParameters {
   T passive_strain{0.6};          ///< (l_m - l0) / l0 at which the passive force is F_max.
   T passive_shape{4.0};           ///< k_pe [-] of the exponential passive laws.
   T optimal_length_shift{0.0};    ///< gamma [-]: l_opt(a) = l0 (1 + gamma (1 - a)); 0.15 published.
+  T passive_slack{1.0};           ///< l_m / l0 at which the passive force of `soest` begins.
 };
 
 /// Calls f(name, unit, field) for every parameter, the Hill parameters first, in one fixed order:
@@ -77,8 +87,9 @@ void visit_parameters(Parameters& p, F&& f) {
   f(std::string_view("passive_strain"), Unit::dimensionless, p.passive_strain);
   f(std::string_view("passive_shape"), Unit::dimensionless, p.passive_shape);
   f(std::string_view("optimal_length_shift"), Unit::dimensionless, p.optimal_length_shift);
+  f(std::string_view("passive_slack"), Unit::dimensionless, p.passive_slack);
 }
-inline constexpr int kMusculotendonParameterCount = 15;
+inline constexpr int kMusculotendonParameterCount = 16;
 
 /// Returns the numbers in another scalar, without derivatives: seed them afterwards.
 template <typename T, typename From>
@@ -99,15 +110,18 @@ template <typename T, typename From>
 }
 
 /// Returns the laws of the source paper (Gaussian, hyperbolas, linear tendon, no passive force) and
-/// the sets of the three publications.
+/// the sets of the publications. `soest_laws` is van Soest & Bobbert (1993) as Kistemaker et al. (2006) continued them.
 [[nodiscard]] MusculotendonLaws paper_laws(TendonMode mode = TendonMode::mass);
 [[nodiscard]] MusculotendonLaws thelen_laws(TendonMode mode = TendonMode::equilibrium);
 [[nodiscard]] MusculotendonLaws de_groote_laws(TendonMode mode = TendonMode::equilibrium);
 [[nodiscard]] MusculotendonLaws millard_laws(TendonMode mode = TendonMode::equilibrium);
+[[nodiscard]] MusculotendonLaws soest_laws(TendonMode mode = TendonMode::equilibrium);
+[[nodiscard]] MusculotendonLaws laws_of(LawSet set, TendonMode mode = TendonMode::equilibrium);
 
 /// Returns the Hill parameters with the published values of these laws for the rest: tendon strain
-/// 0.033 (linear), 0.04 (Thelen), 0.049 (De Groote, Millard); passive strain 0.6 and shape 5
-/// (Thelen) or 4; damping 0.1; the mass of `muscle_mass_kg`; no pennation, no shift of the optimum.
+/// 0.033 (linear), 0.04 (Thelen, van Soest), 0.049 (De Groote, Millard); passive strain 0.6 and shape 5
+/// (Thelen) or 4; damping 0.1, or 1e-4 (van Soest); the mass of `muscle_mass_kg`; no pennation, no shift of the
+/// optimum.
 [[nodiscard]] MusculotendonParameters<double> published_defaults(const HillParameters<double>& hill,
                                                                  const MusculotendonLaws& laws);
 

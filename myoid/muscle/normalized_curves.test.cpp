@@ -21,15 +21,15 @@ NormalizedCurves<T> curves_of(const MusculotendonLaws& laws) {
   return {laws, shape};
 }
 
-const MusculotendonLaws kSets[] = {paper_laws(), thelen_laws(), de_groote_laws(), millard_laws()};
+const MusculotendonLaws kSets[] = {paper_laws(), thelen_laws(), de_groote_laws(), millard_laws(), soest_laws()};
 
 TEST(NormalizedCurves, TheVelocityThatIsSolvedForMakesTheForce) {
   for (const MusculotendonLaws& laws : kSets) {
     const NormalizedCurves<double> curves = curves_of<double>(laws);
     for (const double a : {0.05, 0.5, 1.0}) {
       for (const double v : {-1.3, -0.9, -0.2, 0.0, 0.1, 0.6, 1.4}) {
-        const double force = 0.7 * curves.velocity(a, v).value + 0.1 * v;
-        EXPECT_NEAR(curves.solve_velocity(a, 0.7, 0.1, force), v, 1e-11);
+        const double force = 0.7 * curves.velocity({a}, v).value + 0.1 * v;
+        EXPECT_NEAR(curves.solve_velocity({a}, 0.7, 0.1, force), v, 1e-11);
       }
     }
   }
@@ -39,9 +39,9 @@ TEST(NormalizedCurves, ThelensLawIsUndoneWithoutDamping) {
   const NormalizedCurves<double> curves = curves_of<double>(thelen_laws());
   for (const double a : {0.05, 0.5, 1.0}) {
     // Published: v = (1/4 + 3/4 a) (f - 1) / b,  b = 1 + f / A_f below 1.
-    EXPECT_NEAR(curves.solve_velocity(a, 1.0, 0.0, 0.4), (0.25 + 0.75 * a) * (0.4 - 1.0) / (1.0 + 0.4 / 0.3), 1e-14);
+    EXPECT_NEAR(curves.solve_velocity({a}, 1.0, 0.0, 0.4), (0.25 + 0.75 * a) * (0.4 - 1.0) / (1.0 + 0.4 / 0.3), 1e-14);
     // Below zero force the velocity goes on as the line that touches the curve there.
-    EXPECT_NEAR(curves.solve_velocity(a, 1.0, 0.0, -0.1) - curves.solve_velocity(a, 1.0, 0.0, 0.0),
+    EXPECT_NEAR(curves.solve_velocity({a}, 1.0, 0.0, -0.1) - curves.solve_velocity({a}, 1.0, 0.0, 0.0),
                 -0.1 * (0.25 + 0.75 * a) * (1.0 + 1.0 / 0.3), 1e-14);
   }
 }
@@ -56,7 +56,7 @@ TEST(NormalizedCurves, SlopesAndEnergiesBelongToTheValues) {
       EXPECT_NEAR(curves.passive(l).value.v[0], curves.passive(l).slope, 1e-11);
       EXPECT_NEAR(curves.passive_energy(l).v[0], curves.passive(l).value.a, 1e-13);
       const Jet v(x - 1.0, 0);
-      EXPECT_NEAR(curves.velocity(Jet(0.5), v).value.v[0], curves.velocity(Jet(0.5), v).slope, 1e-11);
+      EXPECT_NEAR(curves.velocity({Jet(0.5)}, v).value.v[0], curves.velocity({Jet(0.5)}, v).slope, 1e-11);
       const Jet strain(0.04 * x, 0);
       EXPECT_NEAR(curves.tendon(strain).value.v[0], curves.tendon(strain).slope, 1e-10);
       EXPECT_NEAR(curves.tendon_energy(strain).v[0], curves.tendon(strain).value.a, 1e-13);

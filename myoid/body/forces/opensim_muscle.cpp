@@ -52,7 +52,7 @@ OpensimMuscle::Curve OpensimMuscle::active_length(double l) const {
 /// Returns the velocity multiplier. Thelen's muscle pulls with at least zero force, also if it
 /// shortens faster than v_max.
 double OpensimMuscle::velocity(double activation, double v) const {
-  const double f = curves_.velocity(activation, v).value;
+  const double f = curves_.velocity({activation}, v).value;
   return is_thelen() ? std::max(0.0, f) : f;
 }
 
@@ -196,7 +196,7 @@ OpensimMuscle::State OpensimMuscle::at_fiber_length(double activation,
   if (rigid_tendon_) {
     v = velocity_mps * cosine / vmax;
   } else if (strength > 0.0) {
-    v = curves_.solve_velocity(a, strength, damping_, series / cosine - rest);
+    v = curves_.solve_velocity({a}, strength, damping_, series / cosine - rest);
   }
   s.tendon_force_n = fmax * series;
   s.elastic_force_n = fmax * rest;

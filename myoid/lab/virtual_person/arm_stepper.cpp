@@ -43,7 +43,7 @@ ArmStepper::ArmStepper(const TrueArm& arm, double step_s) : arm_(&arm), step_s_(
     const muscle::Musculotendon<double> unit(p, arm.laws, arm.millard);
     const muscle::NormalizedCurves<double>& curves = unit.curves();
     laws_[i] = {.length = {[&](double l) { return curves.length(l); }, 0.3, 2.1, kIntervals},
-                .velocity = {[&](double v) { return curves.velocity(1.0, v); }, -1.2, 1.2, 2 * kIntervals},
+                .velocity = {[&](double v) { return curves.velocity({1.0}, v); }, -1.2, 1.2, 2 * kIntervals},
                 .passive = {[&](double l) { return curves.passive(l); }, 0.2, 2.0, kIntervals},
                 .tendon = tabulated_tendon(curves, p.tendon_strain),
                 .height_m = unit.height_m(),

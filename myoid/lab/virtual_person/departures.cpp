@@ -100,7 +100,7 @@ PerMuscle DepartedMuscles::full_force_n(const MuscleGeometry& geometry,
     const double length_m = fiber_length_m(m, geometry.length_m[m], tension_n[m]);
     const double speed_mps = geometry.velocity_mps[m];
     force_n[m] = curves_ ? hill.max_isometric_force_n * curves_->length(length_m / hill.optimal_fiber_length_m).value *
-                               curves_->velocity(1.0, speed_mps / hill.max_shortening_speed_mps).value
+                               curves_->velocity({1.0}, speed_mps / hill.max_shortening_speed_mps).value
                          : muscle::hill_force(1.0, length_m, speed_mps, hill);
   }
   return force_n;
