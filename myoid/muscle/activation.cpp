@@ -21,7 +21,7 @@ void validate(const ActivationDynamics<double>& d) {
 
 double activation_event(const ActivationDynamics<double>& d, double excitation, const ActivationPoint<double>& state) {
   if (d.law == ActivationLaw::two_lags) return state.filtered_excitation - state.activation;
-  if (d.law == ActivationLaw::thelen) return excitation - state.activation;
+  if (d.law == ActivationLaw::thelen || d.law == ActivationLaw::one_lag) return excitation - state.activation;
   return 1.0;
 }
 

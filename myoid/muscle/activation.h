@@ -15,12 +15,14 @@ enum class ActivationLaw {
   de_groote,  ///< Thelen's, smooth in u - a: De Groote et al. (2016).
   recursive,  ///< Two lags, rising and falling alike: the recursive filter of Buchanan et al.
               ///< (2004).
+  one_lag,    ///< One lag, rising and falling with its own time: calcium by Hatze (1981).
 };
-inline constexpr std::string_view kActivationLawNames[] = {"envelope", "two_lags", "thelen", "de_groote", "recursive"};
+inline constexpr std::string_view kActivationLawNames[] = {"envelope",  "two_lags",  "thelen",
+                                                           "de_groote", "recursive", "one_lag"};
 constexpr ChoiceNames choice_names(ActivationLaw) { return kActivationLawNames; }
 
 /// A law with its constants. `recursive` takes tau_ne and tau_ac for its two time constants,
-/// `thelen` and `de_groote` do not use tau_ne.
+/// `thelen`, `de_groote` and `one_lag` do not use tau_ne.
 template <typename T = double>
 struct ActivationDynamics {
   ActivationLaw law = ActivationLaw::two_lags;
@@ -47,6 +49,7 @@ struct ActivationPoint {
       return 0;
     case ActivationLaw::thelen:
     case ActivationLaw::de_groote:
+    case ActivationLaw::one_lag:
       return 1;
     case ActivationLaw::two_lags:
     case ActivationLaw::recursive:
@@ -61,6 +64,7 @@ struct ActivationPoint {
 ///   de_groote: 0,  ((f + 1/2) / (tau_ac z) + (1/2 - f) z / tau_deac) (u - a),
 ///              f = tanh(b (u - a)) / 2
 ///   recursive: (u - e) / tau_ne,  (e - a) / tau_ac
+///   one_lag:   0,  (u - a) / tau,  tau = tau_ac if u >= a, else tau_deac
 ///   envelope:  0, 0 (a is u)
 template <typename T>
 [[nodiscard]] ActivationPoint<T> activation_rate(const ActivationDynamics<T>& d,
@@ -87,12 +91,14 @@ template <typename T>
     }
     case ActivationLaw::recursive:
       return {(u - e) / d.excitation_time_s, (e - a) / d.activation_time_s};
+    case ActivationLaw::one_lag:
+      return {T(0.0), (u - a) / (value_of(u) >= value_of(a) ? d.activation_time_s : d.deactivation_time_s)};
   }
   return {};
 }
 
 /// Returns a number that is zero at a kink of the right-hand side: e - a (two_lags), u - a
-/// (thelen); 1 for the smooth laws.
+/// (thelen, one_lag); 1 for the smooth laws.
 [[nodiscard]] double activation_event(const ActivationDynamics<double>& dynamics,
                                       double excitation,
                                       const ActivationPoint<double>& state);

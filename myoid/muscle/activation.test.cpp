@@ -18,8 +18,8 @@ using test::step_activation;
 using Dynamics = ActivationDynamics<double>;
 using Point = ActivationPoint<double>;
 
-constexpr ActivationLaw kLaws[] = {ActivationLaw::envelope, ActivationLaw::two_lags, ActivationLaw::thelen,
-                                   ActivationLaw::de_groote, ActivationLaw::recursive};
+constexpr ActivationLaw kLaws[] = {ActivationLaw::envelope,  ActivationLaw::two_lags,  ActivationLaw::thelen,
+                                   ActivationLaw::de_groote, ActivationLaw::recursive, ActivationLaw::one_lag};
 
 /// Euler steps, Richardson-extrapolated from n, 2n and 4n of them: another algorithm.
 Point by_small_steps(const Dynamics& d, double u, const Point& from, double interval_s, int n) {

@@ -91,6 +91,69 @@ TEST(FitIsolatedMuscle, FromASlackMuscleASearchElsewhereFindsTheMuscle) {
   EXPECT_NEAR(fit.estimates[0].value, 0.02, 2e-5);
 }
 
+TEST(FitIsolatedMuscle, FindsTheTimesOfTheActivation) {
+  IsolatedModel truth = test::small_muscle();
+  truth.response.activation.activation_time_s = 0.02;
+  truth.response.delay_s = 0.012;
+  IsolatedModel start = test::small_muscle();
+  start.response.delay_s = 0.006;
+  const IsolatedFit fit =
+      fit_isolated_muscle(start, recordings_of(truth), {.parameters = {"activation_time", "excitation_delay"}});
+  // One-sided differences of forces every 17 ms: the minimum is flat within some 1e-3.
+  EXPECT_NEAR(fit.estimates[0].value / 0.02, 1.0, 2e-3);
+  EXPECT_NEAR(fit.estimates[1].value / 0.012, 1.0, 2e-3);
+  EXPECT_EQ(fit.model.response.delay_s, fit.estimates[1].value);
+}
+
+TEST(FitIsolatedMuscle, EachRecordingsOwnTendonDoesNotSpoilTheOtherNumbers) {
+  IsolatedModel truth = test::small_muscle();
+  truth.parameters.hill.max_isometric_force_n = 2.4;
+  std::vector<IsolatedRecording> recordings;
+  double softer = 0.8;
+  for (IsolatedRecording& r : recordings_of(truth)) {
+    truth.parameters.tendon_strain = 0.049 * softer;
+    softer += 0.3;
+    r.force_n = isolated_force(truth, r);
+    recordings.push_back(r);
+  }
+  const std::vector<std::string> names{"max_isometric_force", "max_shortening_speed", "tendon_strain"};
+  const IsolatedFit common = fit_isolated_muscle(test::small_muscle(), recordings, {.parameters = names});
+  const IsolatedFit own =
+      fit_isolated_muscle(test::small_muscle(), recordings, {.parameters = names, .own = {"tendon_strain"}});
+  EXPECT_GT(std::abs(common.estimates[1].value / 0.12 - 1.0), 0.01);
+  EXPECT_NEAR(own.estimates[1].value / 0.12, 1.0, 1e-3);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(own.of_recordings[i].parameters.tendon_strain, 0.049 * (0.8 + 0.3 * static_cast<double>(i)), 1e-4);
+  EXPECT_GT(own.estimates[2].scatter, 0.1);
+  EXPECT_EQ(own.estimates[0].scatter, 0.0);
+}
+
+TEST(FitIsolatedMuscle, AFitWithoutOneRecordingFindsTheSameMuscleFromExactForces) {
+  IsolatedModel truth = test::small_muscle();
+  truth.parameters.hill.max_isometric_force_n = 2.4;
+  const std::vector<IsolatedRecording> recordings = recordings_of(truth);
+  const IsolatedFitOptions options{.parameters = {"max_isometric_force", "tendon_strain"}};
+  const IsolatedFit all = fit_isolated_muscle(test::small_muscle(), recordings, options);
+  const std::vector<IsolatedFit> without = fit_without_each(test::small_muscle(), recordings, options, all);
+  ASSERT_EQ(without.size(), 3U);
+  for (const IsolatedFit& fit : without) {
+    EXPECT_NEAR(fit.estimates[0].value / 2.4, 1.0, 1e-4);
+    EXPECT_EQ(fit.of_recordings.size(), 2U);
+  }
+  EXPECT_TRUE(fit_without_each(test::small_muscle(), {recordings[0]}, options, all).empty());
+}
+
+TEST(FitIsolatedMuscle, TheWidthOfTheForceLengthCurveFollowsTheOptimalLength) {
+  IsolatedModel start = test::small_muscle();
+  start.laws.length = LengthLaw::gaussian;
+  IsolatedModel truth = start;
+  truth.parameters.hill.optimal_fiber_length_m *= 1.1;
+  truth.parameters.hill.force_length_width_m *= 1.1;
+  const IsolatedFit fit = fit_isolated_muscle(start, recordings_of(truth), {.parameters = {"optimal_fiber_length"}});
+  EXPECT_NEAR(fit.estimates[0].value / 0.022, 1.0, 1e-4);
+  EXPECT_NEAR(fit.model.parameters.hill.force_length_width_m, 0.45 * fit.estimates[0].value, 1e-12);
+}
+
 /// A fit that found these values, each with this standard error from its residuals.
 IsolatedFit fit_of(const std::vector<double>& values, double std_error) {
   IsolatedFit fit;

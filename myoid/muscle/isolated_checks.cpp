@@ -42,17 +42,24 @@ std::vector<std::string> check_recording_order(const IsolatedModel& start,
                                                const std::vector<IsolatedRecording>& recordings,
                                                double relative_tolerance) {
   constexpr double kBetter = 0.5;
+  // Every length is simulated with the times of every other recording.
+  std::vector<IsolatedMuscleInput> inputs;
+  for (const IsolatedRecording& recording : recordings)
+    inputs.push_back(thinned(recording.input, 5e-5 * start.parameters.hill.optimal_fiber_length_m));
   const auto error_n = [&](std::size_t length, std::size_t force) {
-    IsolatedRecording mixed = recordings[length];
-    mixed.time_s = recordings[force].time_s;
-    mixed.force_n = recordings[force].force_n;
+    const IsolatedRecording mixed{.name = recordings[length].name,
+                                  .input = inputs[length],
+                                  .time_s = recordings[force].time_s,
+                                  .force_n = recordings[force].force_n};
     return mean_force_error(start, mixed, relative_tolerance);
   };
+  std::vector<double> own_n;
+  for (std::size_t i = 0; i < recordings.size(); ++i) own_n.push_back(error_n(i, i));
   std::vector<std::string> suspicious;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     for (std::size_t j = i + 1; j < recordings.size(); ++j) {
       if (!covers(recordings[i], recordings[j]) || !covers(recordings[j], recordings[i])) continue;
-      if (error_n(i, j) + error_n(j, i) >= kBetter * (error_n(i, i) + error_n(j, j))) continue;
+      if (error_n(i, j) + error_n(j, i) >= kBetter * (own_n[i] + own_n[j])) continue;
       suspicious.push_back(
           fmt::format("{} and {} fit each other's length much better than their own, with the muscle as it "
                       "starts: give --length, --scale and --measured in the same order",

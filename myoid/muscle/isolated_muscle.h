@@ -8,7 +8,7 @@
 #include "myoid/ground/core/progress.h"
 #include "myoid/ground/core/time_series.h"
 #include "myoid/ground/math/ode.h"
-#include "myoid/muscle/activation.h"
+#include "myoid/muscle/excitation_response.h"
 #include "myoid/muscle/musculotendon.h"
 
 namespace myoid::muscle {
@@ -19,14 +19,14 @@ struct IsolatedMuscleInput {
   /// Between them a cubic that keeps their shape (no overshoot, continuous velocity).
   Eigen::VectorXd time_s, length_m;
 
-  /// Samples of the drive, in 0..1; straight between them, constant outside. Times may be empty if
-  /// there is one value: constant.
+  /// Samples of the drive, in 0..1; straight between them, constant outside. A drive of nothing but 0 and 1 is a
+  /// switch, turned at the first sample of a new value. Times may be empty if there is one value: constant.
   Eigen::VectorXd drive_time_s, drive;
-  /// True: the drive is an excitation, and the activation follows by `dynamics`. False: the drive is the activation.
+  /// True: the drive is an excitation, and the active state follows by `response`. False: the drive is the active
+  /// state.
   bool drive_is_excitation = false;
-  ActivationDynamics<double> dynamics{
-      .law = ActivationLaw::thelen, .activation_time_s = 0.010, .deactivation_time_s = 0.040};
-  /// Activation at the first time, with an excitation; empty: settled on the first drive.
+  ExcitationResponse response;
+  /// State of the activation's law at the first time, with an excitation; empty: settled on the first drive.
   std::optional<double> initial_activation;
 };
 
@@ -34,6 +34,7 @@ struct IsolatedMuscleOptions {
   Eigen::VectorXd output_time_s;  ///< Within the samples of the length; empty: their times.
   double relative_tolerance = 1e-9;
   double absolute_tolerance = 1e-12;  ///< [m], [m/s], [-]
+  long max_steps = 5'000'000;
   Progress progress;
 };
 
@@ -55,5 +56,14 @@ struct IsolatedMuscleResult {
 [[nodiscard]] IsolatedMuscleResult simulate_isolated_muscle(const Musculotendon<double>& unit,
                                                             const IsolatedMuscleInput& input,
                                                             const IsolatedMuscleOptions& options = {});
+
+/// Returns the tendon's force [N] of the same experiment alone; NaN at times that the integration did not reach.
+[[nodiscard]] Eigen::VectorXd isolated_tendon_force(const Musculotendon<double>& unit,
+                                                    const IsolatedMuscleInput& input,
+                                                    const IsolatedMuscleOptions& options = {});
+
+/// Returns the input with as few samples of the length as hold its curve within `tolerance_m` of every sample: the
+/// integration, which ends a step at each sample, goes in long steps where the length is smooth.
+[[nodiscard]] IsolatedMuscleInput thinned(const IsolatedMuscleInput& input, double tolerance_m);
 
 }  // namespace myoid::muscle

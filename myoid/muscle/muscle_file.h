@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "myoid/muscle/activation.h"
+#include "myoid/muscle/excitation_response.h"
 #include "myoid/muscle/millard.h"
 #include "myoid/muscle/musculotendon.h"
 
@@ -16,12 +16,15 @@ struct MuscleFile {
   MusculotendonParameters<double> parameters;
   MusculotendonLaws laws;
   MillardShape millard;
-  ActivationDynamics<double> activation;
+  ExcitationResponse response;
 };
 
 /// Reads a muscle strictly. Throws ReadError with the line for unknown keys, wrong types and
 /// impossible numbers, and InvalidInput for contradictory numbers.
 [[nodiscard]] MuscleFile read_muscle_file(const std::filesystem::path& path);
 [[nodiscard]] MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path& path);
+
+/// Returns the text of a file with this muscle.
+[[nodiscard]] std::string muscle_toml(const MuscleFile& file);
 
 }  // namespace myoid::muscle

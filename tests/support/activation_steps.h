@@ -103,6 +103,10 @@ inline muscle::ActivationPoint<double> step_activation(const muscle::ActivationD
       return {from.filtered_excitation, thelen(u, from.activation, d, interval_s)};
     case muscle::ActivationLaw::de_groote:
       return {from.filtered_excitation, runge_kutta(u, from.activation, d, interval_s)};
+    case muscle::ActivationLaw::one_lag: {
+      const double tau = u >= from.activation ? d.activation_time_s : d.deactivation_time_s;
+      return {from.filtered_excitation, u + (from.activation - u) * std::exp(-interval_s / tau)};
+    }
     case muscle::ActivationLaw::recursive:
       return two_lags(u, from, d.excitation_time_s, d.activation_time_s, interval_s);
     case muscle::ActivationLaw::two_lags: {
