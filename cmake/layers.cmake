@@ -78,8 +78,8 @@ set(MYOID_LAYER_twin core math files muscle tables recording c3d arm intervals s
 set(MYOID_LAYER_cohort core math files tables recording intervals page study design results)
 set(MYOID_LAYER_realtime core files measurement kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
-set(MYOID_LAYER_steps core files muscle tables c3d recording signals model osim arm kinematics dynamics
-    forces simulation page study checks results)
+set(MYOID_LAYER_steps core math files muscle tables c3d recording signals model osim arm kinematics dynamics
+    forces simulation intervals page study checks results)
 set(MYOID_LAYER_commands core files tables recording osim arm measurement intervals methods page study
     checks design run scene opensim projects exports results draft contents identify_files review virtual_person
     twin cohort steps)

@@ -305,8 +305,8 @@ class MuscleResult(Shown):
         series: activation, lengths [m], velocities [m/s], pennation [rad], forces [N]; None for a fit.
         mean_absolute_error: From the measured force [N]; None without one.
         relative_error: The same as a share of the isometric force.
-        estimates: Of a fit: parameter, unit, start, estimate, std_error (infinite
-            unless `told`), at_bound, told.
+        estimates: Of a fit: parameter, unit, start, estimate, std_error (infinite unless `told`), at_bound, told,
+            scatter among the recordings, ci_low and ci_high (95 %), verdict, reason.
         errors: Of a fit: recording, starting_values, fitted, predicted, as shares of the isometric force.
     """
 
@@ -325,7 +325,8 @@ def muscle(*, muscle: File, length: Inputs, column: str | None = None, scale: Se
            offset: float | None = None, activation: Inputs | None = None, excitation: Inputs | None = None,
            drive_column: str | None = None,
            initial_activation: float | str | None = None, measured: Inputs | None = None,
-           measured_column: str | None = None, fit: Texts | None = None, isometric_force: float | None = None,
+           measured_column: str | None = None, fit: Texts | None = None, own: Texts | None = None,
+           laws: Texts | None = None, fitted: File | None = None, isometric_force: float | None = None,
            tolerance: float | None = None, out: File | None = None, start: float | None = None,
            end: float | None = None, overwrite: bool = False, progress: Report = None) -> MuscleResult:  # fmt: skip
     """One muscle alone: which force does it make under an imposed length? With `fit`: which parameters?
@@ -341,6 +342,9 @@ def muscle(*, muscle: File, length: Inputs, column: str | None = None, scale: Se
         measured: Measured force over time [N].
         measured_column: Which column of it.
         fit: Parameters to identify.
+        own: Of these, those of which each recording has its own value around a common one.
+        laws: Sets of laws to compare by their errors on left-out recordings: "all", or some.
+        fitted: With `fit`, the file of the muscle with the estimates (.toml).
         isometric_force: Force that errors are related to [N].
         tolerance: Relative, of the integration.
         out: Series over time (.sto); of a fit the parameters (.csv).

@@ -14,9 +14,10 @@
 namespace myoid::python {
 namespace {
 
-py::list estimate_rows(const muscle::IsolatedFit& fit) {
+py::list estimate_rows(const program::MuscleFit& fit) {
   py::list rows;
-  for (const muscle::IsolatedEstimate& e : fit.estimates) {
+  for (std::size_t i = 0; i < fit.all.estimates.size(); ++i) {
+    const muscle::IsolatedEstimate& e = fit.all.estimates[i];
     py::dict d;
     d["parameter"] = e.parameter;
     d["unit"] = std::string(symbol(e.unit));
@@ -25,6 +26,11 @@ py::list estimate_rows(const muscle::IsolatedFit& fit) {
     d["std_error"] = e.std_error;
     d["at_bound"] = e.at_bound;
     d["told"] = e.told;
+    d["scatter"] = e.scatter;
+    d["ci_low"] = fit.judgments[i].low;
+    d["ci_high"] = fit.judgments[i].high;
+    d["verdict"] = std::string(fit::name(fit.judgments[i].verdict));
+    d["reason"] = fit.judgments[i].reason;
     rows.append(d);
   }
   return rows;
@@ -58,7 +64,7 @@ py::dict muscle_dict(program::MuscleResult result) {
     }
   }
   if (result.fit) {
-    d["estimates"] = estimate_rows(result.fit->all);
+    d["estimates"] = estimate_rows(*result.fit);
     d["errors"] = error_rows(result.fit->errors);
     d["finished"] = result.fit->converged;
     d["message"] = result.fit->all.message;
@@ -70,9 +76,11 @@ py::dict muscle_command(py::dict given) {
   Work work("muscle", std::move(given));
   const auto o = work.options<program::MuscleOptions>();
   return muscle_dict(work.run([&] {
-    if (!o.out.empty()) check_output(o.out, o.inputs(), o.call.overwrite);
+    for (const std::string& path : {o.out, o.fitted})
+      if (!path.empty()) check_output(path, o.inputs(), o.call.overwrite);
     program::MuscleResult r = program::muscle(o);
     if (!o.out.empty()) program::write_muscle(r, o.out);
+    if (!o.fitted.empty()) program::write_fitted_muscle(r, o.fitted);
     return r;
   }));
 }

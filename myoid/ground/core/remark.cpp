@@ -78,6 +78,7 @@ constexpr std::array kNames = {
     "unloaded_time",
     "body_unsupported",
     "resting_torque",
+    "force_enhancement",
     "fit_poor",
     "far_from_prior",
     "unlike_person",

@@ -88,6 +88,8 @@ enum class RemarkCode {
   unloaded_time,
   body_unsupported,
   resting_torque,
+  // A muscle alone.
+  force_enhancement,
   // The fit.
   fit_poor,
   far_from_prior,

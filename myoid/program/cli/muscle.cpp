@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/ground/core/choice.h"
 #include "myoid/ground/core/json_text.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
@@ -28,24 +29,51 @@ nlohmann::json fit_json(const MuscleResult& result) {
                       {"predicted_from_the_others", error.predicted}});
   nlohmann::json json{
       {"muscle", result.name}, {"converged", fit.converged}, {"moved", fit.all.moved}, {"errors", errors}};
-  for (const muscle::IsolatedEstimate& e : fit.all.estimates)
+  for (std::size_t i = 0; i < fit.all.estimates.size(); ++i) {
+    const muscle::IsolatedEstimate& e = fit.all.estimates[i];
+    const EstimateJudgment& judgment = fit.judgments[i];
     json["estimates"].push_back({{"parameter", e.parameter},
                                  {"start", e.start},
                                  {"estimate", e.value},
                                  {"std_error", e.std_error},
+                                 {"ci_low", judgment.low},
+                                 {"ci_high", judgment.high},
+                                 {"verdict", fit::name(judgment.verdict)},
+                                 {"reason", judgment.reason},
                                  {"at_bound", e.at_bound},
-                                 {"told", e.told}});
+                                 {"told", e.told},
+                                 {"scatter", e.scatter}});
+  }
+  for (const LawsComparison& row : fit.laws)
+    json["laws"].push_back({{"laws", choice_name(row.laws)},
+                            {"predicted_from_the_others", row.predicted},
+                            {"worse_by", row.worse_by},
+                            {"std_error", row.std_error},
+                            {"ties", row.ties}});
   return json;
+}
+
+void print_laws(const program::MuscleFit& fit) {
+  if (fit.laws.empty()) return;
+  say("\n{:<12}{:>12}{:>18}\n", "laws", "predicted", "worse than best");
+  for (const LawsComparison& row : fit.laws)
+    say("{:<12}{:>12.2f}{:>10.2f} ± {:.2f}{}\n", choice_name(row.laws), 100.0 * row.predicted, 100.0 * row.worse_by,
+        100.0 * row.std_error, row.ties && row.worse_by > 0.0 ? "  ties with the best" : "");
 }
 
 void print_fit(const MuscleResult& result) {
   const program::MuscleFit& fit = *result.fit;
   say("{}: {} ({} simulated experiments)\n\n", result.name, fit.all.message, fit.all.evaluations);
-  say("{:<28}{:>14}{:>14}{:>14}\n", "parameter", "start", "estimate", "std error");
-  for (const muscle::IsolatedEstimate& e : fit.all.estimates)
-    say("{:<28}{:>14.6g}{:>14.6g}{:>14} {}{}{}\n", e.parameter, e.start, e.value,
-        e.told ? fmt::format("{:.2g}", e.std_error) : "-", symbol(e.unit), e.at_bound ? ", at its bound" : "",
-        e.told ? "" : ", not told by the recordings");
+  say("{:<28}{:>12}{:>12}{:>12}{:>12}  {}\n", "parameter", "start", "estimate", "95 % from", "to", "verdict");
+  for (std::size_t i = 0; i < fit.all.estimates.size(); ++i) {
+    const muscle::IsolatedEstimate& e = fit.all.estimates[i];
+    const EstimateJudgment& judgment = fit.judgments[i];
+    const std::string unit = symbol(e.unit).empty() ? "" : fmt::format(" [{}]", symbol(e.unit));
+    say("{:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}  {}{}{}{}\n", e.parameter + unit, e.start, e.value, judgment.low,
+        judgment.high, fit::name(judgment.verdict), e.at_bound ? ", at its bound" : "",
+        e.told ? "" : ", not told by the recordings",
+        e.scatter > 0.0 ? fmt::format(", ± {:.0f} % among the recordings", 100.0 * e.scatter) : "");
+  }
   if (std::ranges::any_of(fit.all.estimates, &muscle::IsolatedEstimate::at_bound))
     say("the standard errors of the others hold only if the value at the bound is true: the recordings pull beyond "
         "it\n");
@@ -55,6 +83,7 @@ void print_fit(const MuscleResult& result) {
     say("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", error.recording, 100.0 * error.starting_values, 100.0 * error.fitted,
         100.0 * error.predicted);
   if (fit.errors.size() > 1) say("predicted: with the parameters that the other recordings give\n");
+  print_laws(fit);
 }
 
 nlohmann::json simulation_json(const MuscleResult& result) {
@@ -81,9 +110,11 @@ void print_simulation(const MuscleResult& result) {
 
 void carry_out(Context& context, const MuscleOptions& o, const CLI::App& /*command*/) {
   if (!o.out.empty()) context.prepare_file(o.out, o.inputs());
+  if (!o.fitted.empty()) context.prepare_file(o.fitted, o.inputs());
   const program::MuscleResult result = program::muscle(o);
   context.end_progress();
   if (!o.out.empty()) program::write_muscle(result, o.out);
+  if (!o.fitted.empty()) program::write_fitted_muscle(result, o.fitted);
   if (failed(result)) context.exit_code = kQualityGateFailed;
   if (result.simulated && result.simulated->simulated.status != math::OdeStatus::done) return;
   if (context.json) {
@@ -91,7 +122,8 @@ void carry_out(Context& context, const MuscleOptions& o, const CLI::App& /*comma
     return;
   }
   result.fit ? print_fit(result) : print_simulation(result);
-  if (!o.out.empty()) say("{}\n", o.out);
+  for (const std::string& path : {o.out, o.fitted})
+    if (!path.empty()) say("{}\n", path);
 }
 
 }  // namespace

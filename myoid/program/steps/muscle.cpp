@@ -4,12 +4,12 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/ground/core/counted.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/provenance.h"
 #include "myoid/ground/files/atomic_file.h"
-#include "myoid/muscle/isolated_checks.h"
 #include "myoid/program/steps/check_options.h"
 #include "myoid/program/steps/muscle_input.h"
 #include "myoid/recording/tables/storage_writer.h"
@@ -17,7 +17,6 @@
 namespace myoid::program {
 namespace {
 
-using muscle::IsolatedFit;
 using muscle::IsolatedRecording;
 
 void refuse_contradictions(const MuscleOptions& o) {
@@ -85,18 +84,6 @@ ImposedLength simulate_muscle(const MuscleOptions& o, const muscle::MuscleFile& 
   return result;
 }
 
-/// Widens each standard error to the spread over fits without one recording (jackknife), and warns
-/// of numbers that one recording decides.
-void compare_left_out(const std::vector<IsolatedRecording>& recordings, MuscleFit& fit, Remarks& remarks) {
-  for (const muscle::DecidedByOne& found : widen_to_jackknife(fit.all, fit.without_one)) {
-    const muscle::IsolatedEstimate& e = fit.all.estimates[found.parameter];
-    remarks.warn(fmt::format(
-        "{} is {:.4g} {} without {}, {:.1f} of the fit's standard errors from {:.4g}: it hangs on that recording; its "
-        "standard error is widened to the spread over the recordings",
-        e.parameter, found.without, symbol(e.unit), recordings[found.recording].name, found.std_errors, e.value));
-  }
-}
-
 std::vector<IsolatedRecording> read_recordings(const MuscleOptions& o,
                                                const muscle::MuscleFile& file,
                                                Remarks& remarks) {
@@ -108,99 +95,55 @@ std::vector<IsolatedRecording> read_recordings(const MuscleOptions& o,
   return recordings;
 }
 
-/// Warns of a search that left its start nowhere, of a better minimum elsewhere, and of parameters without an effect.
-void warn_of_untold(const IsolatedFit& fit, Remarks& remarks) {
-  if (!fit.moved)
-    remarks.warn(
-        "the search did not leave its start: the numbers are those of --muscle, not an answer of the recordings; start "
-        "from values at which the muscle bears force (is it slack there?)");
-  if (fit.from_elsewhere)
-    remarks.warn(
-        "the search from the values of --muscle ended in a worse minimum than a search from elsewhere, whose result "
-        "this is: the recordings may have more minima; start from measured lengths, or identify fewer parameters");
-  for (const muscle::IsolatedEstimate& e : fit.estimates) {
-    if (!e.told)
-      remarks.warn(fmt::format(
-          "{}: the recordings do not tell it: under these laws the force does not depend on it, or other parameters "
-          "undo its effect; {:.4g} {} is no estimate. Leave it out of --fit",
-          e.parameter, e.value, symbol(e.unit)));
+/// Returns the sets of laws that --laws names.
+std::vector<muscle::LawSet> law_sets(const std::vector<std::string>& words) {
+  std::vector<muscle::LawSet> sets;
+  for (const std::string& word : words) {
+    if (word == "all")
+      return {muscle::LawSet::paper, muscle::LawSet::thelen, muscle::LawSet::de_groote, muscle::LawSet::millard,
+              muscle::LawSet::soest};
+    const std::optional<muscle::LawSet> set = choice_named<muscle::LawSet>(word);
+    if (!set)
+      throw InvalidInput(
+          fmt::format("--laws {}: expected all, or some of {}", word, fmt::join(muscle::kLawSetNames, ", ")));
+    if (std::ranges::find(sets, *set) == sets.end()) sets.push_back(*set);
   }
+  return sets;
 }
 
-std::vector<IsolatedFit> fits_without_one(const muscle::IsolatedModel& start,
-                                          const std::vector<IsolatedRecording>& recordings,
-                                          const muscle::IsolatedFitOptions& options) {
-  std::vector<IsolatedFit> fits;
-  for (std::size_t i = 0; recordings.size() > 1 && i < recordings.size(); ++i) {
-    std::vector<IsolatedRecording> others = recordings;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    fits.push_back(fit_isolated_muscle(start, others, options));
-  }
-  return fits;
+MuscleFit fit_of(const MuscleOptions& o, const muscle::MuscleFile& file, Remarks& remarks) {
+  const muscle::IsolatedModel start{file.parameters, file.laws, file.millard, file.response};
+  const MuscleFitSettings settings{.fit = {.parameters = o.fit,
+                                           .own = o.own,
+                                           .relative_tolerance = std::max(o.tolerance, 1e-7),
+                                           .progress = o.call.progress},
+                                   .laws = law_sets(o.laws),
+                                   .relative_to_n = related_to(o, file)};
+  return fit_muscle(start, read_recordings(o, file, remarks), settings, remarks);
 }
 
-/// Adds the errors of every recording.
-void add_errors(const muscle::IsolatedModel& start,
-                const std::vector<IsolatedRecording>& recordings,
-                double relative_tolerance,
-                MuscleFit& fit) {
-  for (std::size_t i = 0; i < recordings.size(); ++i) {
-    const auto share = [&](const muscle::IsolatedModel& model) {
-      return mean_force_error(model, recordings[i], relative_tolerance) / fit.relative_to_n;
-    };
-    fit.errors.push_back({.recording = recordings[i].name,
-                          .starting_values = share(start),
-                          .fitted = share(fit.all.model),
-                          .predicted = fit.without_one.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                                               : share(fit.without_one[i].model)});
-  }
-}
-
-void warn_of_misses(MuscleFit& fit, Remarks& remarks) {
-  for (const RecordingErrors& error : fit.errors) {
-    if (error.fitted <= kErrorOfAGuess) continue;
-    remarks.warn(
-        fmt::format("{}: the fit misses the force by {:.0f} % of {:.4g} N, more than a guess would: are the files of "
-                    "--length and --measured in the same order, and in m and N?",
-                    error.recording, 100.0 * error.fitted, fit.relative_to_n));
-    fit.misses = true;
-  }
-}
-
-/// Fits the parameters to all recordings and to all but each one, and compares the results. Throws
-/// InvalidInput for forces that the muscle cannot produce.
-MuscleFit fit_muscle(const MuscleOptions& o, const muscle::MuscleFile& file, Remarks& remarks) {
-  const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
-  const double max_isometric_n = start.parameters.hill.max_isometric_force_n;
-  const muscle::IsolatedFitOptions options{
-      .parameters = o.fit, .relative_tolerance = std::max(o.tolerance, 1e-8), .progress = o.call.progress};
-  const std::vector<IsolatedRecording> recordings = read_recordings(o, file, remarks);
-  for (const std::string& text : check_force_size(recordings, max_isometric_n)) remarks.warn(text);
-  for (const std::string& text : check_recording_order(start, recordings, options.relative_tolerance))
-    remarks.warn(text);
-  MuscleFit fit;
-  fit.relative_to_n = related_to(o, file);
-  fit.all = fit_isolated_muscle(start, recordings, options);
-  warn_of_untold(fit.all, remarks);
-  muscle::IsolatedFitOptions near = options;
-  near.other_starts = 0;
-  fit.without_one = fits_without_one(fit.all.from_elsewhere ? fit.all.model : start, recordings, near);
-  const auto converged = [](const IsolatedFit& one) {
-    return one.termination == math::Termination::converged && one.moved;
-  };
-  fit.converged = converged(fit.all) && std::ranges::all_of(fit.without_one, converged);
-  add_errors(start, recordings, options.relative_tolerance, fit);
-  compare_left_out(recordings, fit, remarks);
-  warn_of_misses(fit, remarks);
-  return fit;
+/// Returns the muscle with the numbers and laws of the fit.
+muscle::MuscleFile fitted_file(muscle::MuscleFile file, const muscle::IsolatedModel& model) {
+  file.parameters = model.parameters;
+  file.laws = model.laws;
+  file.millard = model.millard;
+  file.response = model.response;
+  return file;
 }
 
 /// Returns the rows of a fit; `left_out` counts the recordings from 1, empty: none.
-std::string table_rows(const std::string& left_out, const muscle::IsolatedFit& fit) {
+std::string table_rows(const std::string& left_out,
+                       const muscle::IsolatedFit& fit,
+                       const std::vector<EstimateJudgment>& judgments) {
   std::string rows;
-  for (const muscle::IsolatedEstimate& e : fit.estimates)
-    rows += fmt::format("{},{},{},{},{},{},{}\n", left_out, e.parameter, symbol(e.unit), e.start, e.value,
-                        e.told ? fmt::format("{}", e.std_error) : "", e.at_bound);
+  for (std::size_t i = 0; i < fit.estimates.size(); ++i) {
+    const muscle::IsolatedEstimate& e = fit.estimates[i];
+    rows += fmt::format("{},{},{},{},{},{},{},{}", left_out, e.parameter, symbol(e.unit), e.start, e.value,
+                        e.told ? fmt::format("{}", e.std_error) : "", e.at_bound, e.scatter);
+    rows += judgments.empty()
+                ? ",,,\n"
+                : fmt::format(",{},{},{}\n", judgments[i].low, judgments[i].high, fit::name(judgments[i].verdict));
+  }
   return rows;
 }
 
@@ -237,6 +180,16 @@ void visit(MuscleOptions& o, study::SettingVisitor& v) {
           {.says = "Parameters to identify from one or several --length and --measured, by comma: "
                    "max_isometric_force,tendon_strain,...; each recording is also predicted from the others.",
            .option = {.by_comma = true}});
+  v.texts("own", o.own,
+          {.says = "Of these parameters those of which each recording has its own value around a common one.",
+           .option = {.needs = "fit", .by_comma = true}});
+  v.texts("laws", o.laws,
+          {.says = "Sets of laws to compare by their errors on left-out recordings: all, or some of paper, thelen, "
+                   "de_groote, millard, soest.",
+           .otherwise = "those of the muscle",
+           .option = {.needs = "fit", .by_comma = true}});
+  v.path("fitted", o.fitted,
+         {.says = "With --fit, the muscle with the estimates (.toml).", .option = {.needs = "fit"}});
   v.number("isometric-force", o.isometric_n,
            {.says = "Force that the error is related to.",
             .limits = study::above_zero("N"),
@@ -257,7 +210,8 @@ MuscleResult muscle(const MuscleOptions& options) {
   if (options.fit.empty()) {
     result.simulated = simulate_muscle(options, file, remarks);
   } else {
-    result.fit = fit_muscle(options, file, remarks);
+    result.fit = fit_of(options, file, remarks);
+    result.fitted = fitted_file(file, result.fit->all.model);
   }
   result.remarks = remarks.list();
   return result;
@@ -269,11 +223,15 @@ void write_muscle(const MuscleResult& result, const std::filesystem::path& path)
                              {.title = result.name, .comments = {"myoid " + std::string(version()), result.command}});
     return;
   }
-  std::string csv = "left_out,parameter,unit,start,estimate,std_error,at_bound\n";
-  csv += table_rows("", result.fit->all);
+  std::string csv = "left_out,parameter,unit,start,estimate,std_error,at_bound,scatter,ci_low,ci_high,verdict\n";
+  csv += table_rows("", result.fit->all, result.fit->judgments);
   for (std::size_t i = 0; i < result.fit->without_one.size(); ++i)
-    csv += table_rows(std::to_string(i + 1), result.fit->without_one[i]);
+    csv += table_rows(std::to_string(i + 1), result.fit->without_one[i], {});
   write_file(path, csv);
+}
+
+void write_fitted_muscle(const MuscleResult& result, const std::filesystem::path& path) {
+  write_file(path, muscle::muscle_toml(*result.fitted));
 }
 
 }  // namespace myoid::program

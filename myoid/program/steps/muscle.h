@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "myoid/muscle/fit_isolated.h"
 #include "myoid/muscle/isolated_muscle.h"
+#include "myoid/muscle/muscle_file.h"
 #include "myoid/program/steps/call.h"
+#include "myoid/program/steps/muscle_fit.h"
 #include "myoid/study/setting.h"
 
 namespace myoid::program {
@@ -28,31 +29,17 @@ struct MuscleOptions {
   std::vector<std::string> measured;        ///< Force [N] over time; with `fit` one file for each length.
   std::string measured_column;              ///< Column of the forces; empty: the only one.
   std::vector<std::string> fit;             ///< Parameters to identify; empty: simulates only.
+  std::vector<std::string> own;             ///< Of `fit`, parameters of which each recording has its own value.
+  std::vector<std::string> laws;            ///< Sets of laws to compare, or "all"; empty: those of the muscle.
   std::optional<double> isometric_n;        ///< Reference force of relative errors; empty: F_max.
   double tolerance = 1e-9;                  ///< Relative tolerance of the integration.
   std::string out;                          ///< File of `write_muscle`.
+  std::string fitted;                       ///< File of the muscle with the estimates (.toml).
 
   /// Returns the files that are read.
   [[nodiscard]] std::vector<std::string> inputs() const;
 };
 void visit(MuscleOptions& options, study::SettingVisitor& v);
-
-/// Mean absolute errors of one recording, relative to the reference force.
-struct RecordingErrors {
-  std::string recording;
-  double starting_values = 0.0, fitted = 0.0;
-  double predicted = 0.0;  ///< By the fit to the other recordings; NaN if there is no other.
-};
-
-/// The parameters from all recordings.
-struct MuscleFit {
-  muscle::IsolatedFit all;  ///< Standard errors include the spread over the recordings (jackknife).
-  std::vector<muscle::IsolatedFit> without_one;  ///< Without recording 0, 1, ...; empty for one.
-  std::vector<RecordingErrors> errors;
-  double relative_to_n = 0.0;  ///< Reference force of the relative errors.
-  bool converged = false;      ///< All of these fits converged.
-  bool misses = false;         ///< A recording's fitted error exceeds a guess's (kErrorOfAGuess).
-};
 
 /// Mean absolute difference between simulated and measured force, at the times of measurement.
 struct ForceComparison {
@@ -71,6 +58,7 @@ struct MuscleResult {
   std::string name;                        ///< Name of the muscle.
   std::optional<ImposedLength> simulated;  ///< Either this or `fit`.
   std::optional<MuscleFit> fit;
+  std::optional<muscle::MuscleFile> fitted;  ///< With `fit`: the muscle with its numbers and laws.
   std::string command;
   std::vector<Remark> remarks;
 };
@@ -80,7 +68,9 @@ struct MuscleResult {
 [[nodiscard]] MuscleResult muscle(const MuscleOptions& options);
 
 /// Writes the simulated series (.sto), or the table of the fits (.csv): left out, parameter, unit,
-/// start, estimate, std_error, at_bound.
+/// start, estimate, std_error, at_bound, scatter, and of the fit to all ci_low, ci_high, verdict.
 void write_muscle(const MuscleResult& result, const std::filesystem::path& path);
+/// Writes the muscle with the numbers of the fit (.toml).
+void write_fitted_muscle(const MuscleResult& result, const std::filesystem::path& path);
 
 }  // namespace myoid::program

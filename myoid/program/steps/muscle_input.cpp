@@ -91,7 +91,7 @@ muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& o,
   input.length_m = (scale * length.values.array() + o.offset_m).matrix();
   check_length(input.length_m, file, path);
   read_drive(o, index, remarks, input);
-  input.dynamics = file.activation;
+  input.response = file.response;
   if (o.initial_activation == "settled") return input;
   input.initial_activation = parse_number(o.initial_activation);
   if (!input.initial_activation) {
