@@ -1,5 +1,7 @@
 #include "myoid/muscle/isolated_checks.h"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
@@ -53,13 +55,16 @@ std::vector<std::string> check_recording_order(const IsolatedModel& start,
                                   .force_n = recordings[force].force_n};
     return mean_force_error(start, mixed, relative_tolerance);
   };
-  std::vector<double> own_n;
-  for (std::size_t i = 0; i < recordings.size(); ++i) own_n.push_back(error_n(i, i));
+  std::vector<std::optional<double>> known_n(recordings.size());
+  const auto own_n = [&](std::size_t i) {
+    if (!known_n[i]) known_n[i] = error_n(i, i);
+    return *known_n[i];
+  };
   std::vector<std::string> suspicious;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     for (std::size_t j = i + 1; j < recordings.size(); ++j) {
       if (!covers(recordings[i], recordings[j]) || !covers(recordings[j], recordings[i])) continue;
-      if (error_n(i, j) + error_n(j, i) >= kBetter * (own_n[i] + own_n[j])) continue;
+      if (error_n(i, j) + error_n(j, i) >= kBetter * (own_n(i) + own_n(j))) continue;
       suspicious.push_back(
           fmt::format("{} and {} fit each other's length much better than their own, with the muscle as it "
                       "starts: give --length, --scale and --measured in the same order",
