@@ -1,7 +1,7 @@
 """elbow-emg and upper-limb-optical: the studies of examples/, each trial left out, and each load of the elbow."""
 import pathlib
 
-from board import LITERATURE, REGRESSION, Row, Trial, baselines, folds, np, storage
+from board import LITERATURE, Row, Trial, baselines, folds, np, storage
 
 NEEDS = ("elbow-emg", "upper-limb-optical")
 EXAMPLES = pathlib.Path(__file__).resolve().parents[3] / "examples"
