@@ -321,7 +321,8 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
                    "is below theirs",
                    l.far_fold, l.larger_fold)},
       {"two electrodes that seem to be exchanged", "warning; fails",
-       fmt::format("fails if R² with the given names is {:g} or less", l.explains)},
+       fmt::format("the fit is 150 times as probable with both exchanged; fails if its R² is {:g} or less",
+                   l.explains)},
       {"EMG on another clock than the torque", "warning",
        "the literature's muscles err least at one delay outside the usual leads (`clock_offset`), 5 % less than "
        "inside, in three of four trials"},
