@@ -63,8 +63,8 @@ unit. Bold: no other way in the row is better.
     benchmarks/real/scoreboard.py build/release/bin/myoid --out docs
 
 Regression: least squares on each channel's EMG, 50 ms late, times 1, q and q², and on 1, q, q² and dq/dt of the joint.
-One gain: the literature's muscles. All numbers: [table](data/scoreboard.csv);
-[how to add a set or a tool](../benchmarks/real/README.md).
+One gain: the literature's muscles. All numbers: `docs/data/scoreboard.csv`; `benchmarks/real/README.md` says how to
+add a set or a tool.
 
 ![R² of torque that took no part in a fit](figures/scoreboard.svg)
 """
