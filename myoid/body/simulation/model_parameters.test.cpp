@@ -17,7 +17,7 @@ TEST(ModelParameters, EachHasANameOfItsOwnAndCanBeSet) {
   for (const ModelParameter& parameter : all) names.insert(parameter.name);
   EXPECT_EQ(names.size(), all.size());
   // Muscles with the times of their activation, the elbow, trunk, upper arm and forearm, gravity.
-  EXPECT_EQ(names.size(), 4u * (15u + 3u) + 9u + 3u * 7u + 3u);
+  EXPECT_EQ(names.size(), 4u * (16u + 3u) + 9u + 3u * 7u + 3u);
   *model_parameter(arm, "BRD.optimal_fiber_length").value = 0.2;
   EXPECT_EQ(arm.muscles[2].parameters.hill.optimal_fiber_length_m, 0.2);
   *model_parameter(arm, "forearm_hand.mass_center_y").value = -0.3;
