@@ -34,11 +34,13 @@ class Bench:
     program: str
     data: pathlib.Path
     folder: pathlib.Path
+    said: str = ""  # by the last command, on stderr
 
     def run(self, *arguments):
         done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
         if done.returncode not in (0, 4):
-            raise RuntimeError(f"myoid {' '.join(map(str, arguments[:1]))} ended with {done.returncode}: {done.stderr}")
+            sys.exit(f"{self.program} {arguments[0]} ended with {done.returncode}: {done.stderr}")
+        self.said = done.stderr
         return done.stdout
 
     def json(self, *arguments):

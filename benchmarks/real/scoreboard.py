@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """Public recordings of real muscles with an independent truth: this program, other tools and baselines in one table.
 
-usage: scoreboard.py MYOID [DATA] [--set NAME ...] [--out FOLDER]
-
 MYOID: the program. DATA: the folder of the recordings (examples/get_data); by default MYOID_DATA, or shared/data beside
 the checkout. A set whose recordings are absent is named and left out. --set: only these, of sets/. --out: a folder for
 scoreboard.md, data/scoreboard.csv and figures/scoreboard.svg; without it the table is printed. README.md says how to
@@ -14,6 +12,7 @@ import importlib
 import io
 import os
 import pathlib
+import shutil
 import sys
 import tempfile
 
@@ -135,16 +134,23 @@ def figure(found, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("data", nargs="*")
+    parser.add_argument("program", metavar="MYOID")
+    parser.add_argument("data", metavar="DATA", nargs="?")
     parser.add_argument("--set", nargs="+", choices=sets(), default=sets())
-    parser.add_argument("--out", type=pathlib.Path)
+    parser.add_argument("--out", metavar="FOLDER", type=pathlib.Path)
     options = parser.parse_args()
-    data = data_folder(options.data)
+    if shutil.which(options.program) is None:
+        parser.error(f"{options.program}: no program of this name can be started")
+    data = data_folder([options.data] if options.data else [])
     found = {}
     for name in options.set:
         print(f"{name} ...", file=sys.stderr, flush=True)
         found[name] = judge(name, options.program, data)
+    lacking = sorted({part for _, _, missing in found.values() for part in missing})
+    if lacking:
+        print(f"not in {data}: {', '.join(lacking)}; examples/get_data brings what it can fetch", file=sys.stderr)
+    if not any(rows for rows, _, _ in found.values()):
+        sys.exit(77)
     if options.out is None:
         print(markdown(found))
         return

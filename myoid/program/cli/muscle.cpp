@@ -1,6 +1,7 @@
 #include "myoid/program/steps/muscle.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -80,8 +81,8 @@ void print_fit(const MuscleResult& result) {
   say("\n{:<34}{:>12}{:>12}{:>12}\n", fmt::format("mean absolute error [% of {:.4g} N]", fit.relative_to_n), "start",
       "fitted", "predicted");
   for (const program::RecordingErrors& error : fit.errors)
-    say("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", error.recording, 100.0 * error.starting_values, 100.0 * error.fitted,
-        100.0 * error.predicted);
+    say("{:<34}{:>12.2f}{:>12.2f}{:>12}\n", error.recording, 100.0 * error.starting_values, 100.0 * error.fitted,
+        std::isfinite(error.predicted) ? fmt::format("{:.2f}", 100.0 * error.predicted) : "-");
   if (fit.errors.size() > 1) say("predicted: with the parameters that the other recordings give\n");
   print_laws(fit);
 }

@@ -19,6 +19,22 @@ namespace {
 
 using muscle::IsolatedRecording;
 
+/// Returns the sets of laws that --laws names.
+std::vector<muscle::LawSet> law_sets(const std::vector<std::string>& words) {
+  std::vector<muscle::LawSet> sets;
+  for (const std::string& word : words) {
+    if (word == "all")
+      return {muscle::LawSet::paper, muscle::LawSet::thelen, muscle::LawSet::de_groote, muscle::LawSet::millard,
+              muscle::LawSet::soest};
+    const std::optional<muscle::LawSet> set = choice_named<muscle::LawSet>(word);
+    if (!set)
+      throw InvalidInput(
+          fmt::format("--laws {}: expected all, or some of {}", word, fmt::join(muscle::kLawSetNames, ", ")));
+    if (std::ranges::find(sets, *set) == sets.end()) sets.push_back(*set);
+  }
+  return sets;
+}
+
 void refuse_contradictions(const MuscleOptions& o) {
   if (o.activation.empty() == o.excitation.empty()) {
     throw InvalidInput("give the drive once: --activation or --excitation, a number or a file");
@@ -38,6 +54,11 @@ void refuse_contradictions(const MuscleOptions& o) {
     throw InvalidInput(fmt::format("--scale: {} numbers for {} files of --length; give one, or one each",
                                    o.scales.size(), o.lengths.size()));
   }
+  for (const std::string& name : o.own) {
+    if (std::ranges::find(o.fit, name) == o.fit.end())
+      throw InvalidInput(fmt::format("--own {}: is not identified; name this parameter in --fit, too", name));
+  }
+  (void)law_sets(o.laws);  // before the recordings are read
 }
 
 /// Returns the reference force of relative errors [N].
@@ -95,29 +116,15 @@ std::vector<IsolatedRecording> read_recordings(const MuscleOptions& o,
   return recordings;
 }
 
-/// Returns the sets of laws that --laws names.
-std::vector<muscle::LawSet> law_sets(const std::vector<std::string>& words) {
-  std::vector<muscle::LawSet> sets;
-  for (const std::string& word : words) {
-    if (word == "all")
-      return {muscle::LawSet::paper, muscle::LawSet::thelen, muscle::LawSet::de_groote, muscle::LawSet::millard,
-              muscle::LawSet::soest};
-    const std::optional<muscle::LawSet> set = choice_named<muscle::LawSet>(word);
-    if (!set)
-      throw InvalidInput(
-          fmt::format("--laws {}: expected all, or some of {}", word, fmt::join(muscle::kLawSetNames, ", ")));
-    if (std::ranges::find(sets, *set) == sets.end()) sets.push_back(*set);
-  }
-  return sets;
-}
-
 MuscleFit fit_of(const MuscleOptions& o, const muscle::MuscleFile& file, Remarks& remarks) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard, file.response};
+  // Outside of the aggregate: GCC 12 destroys members that it has not made where an initializer throws.
+  const std::vector<muscle::LawSet> laws = law_sets(o.laws);
   const MuscleFitSettings settings{.fit = {.parameters = o.fit,
                                            .own = o.own,
                                            .relative_tolerance = std::max(o.tolerance, 1e-7),
                                            .progress = o.call.progress},
-                                   .laws = law_sets(o.laws),
+                                   .laws = laws,
                                    .relative_to_n = related_to(o, file)};
   return fit_muscle(start, read_recordings(o, file, remarks), settings, remarks);
 }

@@ -113,5 +113,17 @@ TEST(MuscleFunction, TakesOneDriveForAllExperimentsOrOneEach) {
   EXPECT_THAT(test::message_of([&] { (void)muscle(options); }), HasSubstr("--activation: 3 files for 2 of --length"));
 }
 
+TEST(MuscleFunction, RefusesUnknownLawsAndValuesOfTheirOwnOfWhatIsNotFitted) {
+  const test::TemporaryFolder folder;
+  MuscleOptions options = swing(folder);
+  options.measured = options.lengths;
+  options.fit = {"max_isometric_force"};
+  options.laws = {"thelen", "hill"};
+  EXPECT_THAT(test::message_of([&] { (void)muscle(options); }), HasSubstr("--laws hill: expected all"));
+  options.laws.clear();
+  options.own = {"tendon_strain"};
+  EXPECT_THAT(test::message_of([&] { (void)muscle(options); }), HasSubstr("--own tendon_strain: is not identified"));
+}
+
 }  // namespace
 }  // namespace myoid::program
