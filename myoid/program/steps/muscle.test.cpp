@@ -119,10 +119,10 @@ TEST(MuscleFunction, RefusesUnknownLawsAndValuesOfTheirOwnOfWhatIsNotFitted) {
   options.measured = options.lengths;
   options.fit = {"max_isometric_force"};
   options.laws = {"thelen", "hill"};
-  EXPECT_THAT(test::message_of([&] { (void)muscle(options); }), HasSubstr("--laws hill: expected all"));
+  EXPECT_THROW((void)muscle(options), InvalidInput);
   options.laws.clear();
   options.own = {"tendon_strain"};
-  EXPECT_THAT(test::message_of([&] { (void)muscle(options); }), HasSubstr("--own tendon_strain: is not identified"));
+  EXPECT_THROW((void)muscle(options), InvalidInput);
 }
 
 }  // namespace
