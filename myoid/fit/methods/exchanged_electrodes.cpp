@@ -21,7 +21,7 @@ namespace myoid::fit {
 namespace {
 
 constexpr double kCutoff_hz = 1.5;
-constexpr double kFar = 2.5;           // standard deviations of a muscle's number
+constexpr double kFar = 2.0;           // standard deviations of a muscle's number
 constexpr std::size_t kMostPairs = 4;  // that are tried
 
 /// Returns pairs of channels behind the sums of their muscles' distances from what is known of people, greatest first.
