@@ -10,234 +10,13 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/statistics.h"
+#include "myoid/muscle/force_errors.h"
+#include "myoid/muscle/isolated_values.h"
 
 namespace myoid::muscle {
 namespace {
-
-struct Field {
-  double* value = nullptr;
-  Unit unit = Unit::dimensionless;
-};
-
-/// Returns the field of this name; throws InvalidInput with all names if there is none.
-Field field_of(IsolatedModel& model, const std::string& wanted) {
-  Field found;
-  std::string names;
-  visit_model(model, [&](std::string_view name, Unit unit, double& field) {
-    names += (names.empty() ? "" : ", ") + std::string(name);
-    if (name == wanted) found = {&field, unit};
-  });
-  if (found.value == nullptr) throw InvalidInput(fmt::format("a muscle has no '{}'; there are {}", wanted, names));
-  return found;
-}
-
-/// Returns the starting value of a parameter: under Millard's curves that of the curve.
-double start_of(const IsolatedModel& model, const std::string& name) {
-  IsolatedModel copy = model;
-  const double value = *field_of(copy, name).value;
-  if (name == "eccentric_plateau" && model.laws.velocity == VelocityLaw::millard)
-    return model.millard.velocity.max_eccentric_multiplier;
-  if (name == "passive_strain" && model.laws.passive == PassiveLaw::millard) return model.millard.passive.strain_at_one;
-  return value;
-}
-
-Eigen::VectorXd logs_of(const IsolatedModel& model, const std::vector<std::string>& names) {
-  Eigen::VectorXd logs(static_cast<Eigen::Index>(names.size()));
-  for (std::size_t j = 0; j < names.size(); ++j)
-    logs[static_cast<Eigen::Index>(j)] = std::log(start_of(model, names[j]));
-  return logs;
-}
-
-IsolatedModel with_values(const IsolatedModel& start,
-                          const std::vector<std::string>& names,
-                          const Eigen::VectorXd& logs) {
-  IsolatedModel model = start;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const double value = std::exp(logs[static_cast<Eigen::Index>(i)]);
-    *field_of(model, names[i]).value = value;
-    if (names[i] == "eccentric_plateau" && model.laws.velocity == VelocityLaw::millard)
-      model.millard.velocity.max_eccentric_multiplier = value;
-    if (names[i] == "passive_strain" && model.laws.passive == PassiveLaw::millard) {
-      model.millard.passive.strain_at_one = value;
-      model.millard.passive.stiffness_at_one = 2.0 / value;
-    }
-  }
-  HillParameters<double>& hill = model.parameters.hill;
-  if (std::ranges::find(names, "force_length_width") == names.end())
-    hill.force_length_width_m *= hill.optimal_fiber_length_m / start.parameters.hill.optimal_fiber_length_m;
-  return model;
-}
-
-/// Returns the force of a unit whose input is given with the model's response.
-Eigen::VectorXd force_of(const Musculotendon<double>& unit,
-                         const IsolatedMuscleInput& input,
-                         const Eigen::VectorXd& time_s,
-                         double relative_tolerance,
-                         long max_steps) {
-  return isolated_tendon_force(unit, input,
-                               {.output_time_s = time_s,
-                                .relative_tolerance = relative_tolerance,
-                                .absolute_tolerance = 1e-3 * relative_tolerance,
-                                .max_steps = max_steps,
-                                .progress = {}});
-}
-
-/// The errors of the forces of all recordings but one, one below the other; then, times `noise_n`, the distances of the
-/// common values from the start and of the recordings' own values from the common ones, in their spreads. The unknowns
-/// are the logarithms of the common values and, for each recording in turn, those of its own values over them.
-class ForceErrors {
- public:
-  ForceErrors(const IsolatedModel& start,
-              const std::vector<IsolatedRecording>& recordings,
-              const IsolatedFitOptions& options)
-      : start_(start), recordings_(recordings), options_(options), logs_(logs_of(start, options.parameters)) {
-    const double tolerance_m = 5e-5 * start.parameters.hill.optimal_fiber_length_m;
-    for (const IsolatedRecording& recording : recordings) {
-      inputs_.push_back(thinned(recording.input, tolerance_m));
-      samples_.push_back(sparse(recording));
-    }
-    for (const std::string& name : options.own)
-      own_.push_back(std::ranges::find(options.parameters, name) - options.parameters.begin());
-    use_all_but({});
-  }
-
-  void use_all_but(std::optional<std::size_t> left_out) {
-    used_.clear();
-    first_.clear();
-    lengths_.clear();
-    count_ = 0;
-    for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (left_out == i) continue;
-      used_.push_back(i);
-      first_.push_back(count_);
-      lengths_.push_back(samples_[i].force_n.size());
-      count_ += lengths_.back();
-    }
-  }
-  /// Sets the weight of the beliefs: the error of a force, and the spreads of the own values; empty: there are none.
-  void believe(double noise_n, const Eigen::VectorXd& scatter) {
-    noise_n_ = noise_n;
-    scatter_ = scatter;
-  }
-
-  [[nodiscard]] const std::vector<Eigen::Index>& lengths() const { return lengths_; }
-  [[nodiscard]] Eigen::Index count() const { return count_; }         ///< Number of the forces.
-  [[nodiscard]] Eigen::Index common() const { return logs_.size(); }  ///< Number of the common unknowns.
-  [[nodiscard]] Eigen::Index uses() const { return static_cast<Eigen::Index>(used_.size()); }
-  [[nodiscard]] Eigen::Index unknowns() const { return common() + uses() * scatter_.size(); }
-  [[nodiscard]] int evaluations() const { return evaluations_; }
-  [[nodiscard]] const Eigen::VectorXd& start_logs() const { return logs_; }
-  [[nodiscard]] const std::vector<Eigen::Index>& own() const { return own_; }
-  /// Returns the spread of the measured forces [N] times the root of their number.
-  [[nodiscard]] double spread() const {
-    Eigen::VectorXd all(count_);
-    for (std::size_t k = 0; k < used_.size(); ++k) all.segment(first_[k], lengths_[k]) = samples_[used_[k]].force_n;
-    return (all.array() - all.mean()).matrix().norm();
-  }
-  /// Returns the logarithms of the values of one of the used recordings.
-  [[nodiscard]] Eigen::VectorXd logs_of_use(const Eigen::VectorXd& x, Eigen::Index use) const {
-    Eigen::VectorXd logs = x.head(common());
-    for (Eigen::Index q = 0; q < scatter_.size(); ++q)
-      logs[own_[static_cast<std::size_t>(q)]] += x[common() + use * scatter_.size() + q];
-    return logs;
-  }
-
-  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-    // Central differences. Relative to the derivative: truncation h^2 = 2e-5, the integrator's noise tolerance / h =
-    // 2e-5.
-    constexpr double kStep = 5e-3;
-    // Simulations of each recording: at x, and with each of its values moved up and down. Its own values move as the
-    // common ones do.
-    const Eigen::Index moves = jacobian == nullptr ? 1 : 1 + 2 * common();
-    Eigen::MatrixXd forces(count_, moves);
-    parallel_ranges<Eigen::Index>(uses() * moves, 1, [&](const auto& range) {
-      for (Eigen::Index k = range.begin(); k != range.end(); ++k) {
-        const Eigen::Index use = k % uses();
-        Eigen::VectorXd logs = logs_of_use(x, use);
-        if (const Eigen::Index move = k / uses(); move > 0) logs[(move - 1) / 2] += move % 2 == 1 ? kStep : -kStep;
-        segment(forces, use).col(k / uses()) = force_at(logs, used_[static_cast<std::size_t>(use)]);
-      }
-    });
-    options_.progress.check();
-    evaluations_ += static_cast<int>(uses() * moves);
-    const double weight = noise_n_ * 1.96 / std::log(options_.reach);
-    r.segment(count_, common()) = weight * (x.head(common()) - logs_);
-    for (Eigen::Index use = 0; use < uses(); ++use) {
-      const auto i = static_cast<std::size_t>(use);
-      r.segment(first_[i], lengths_[i]) = segment(forces, use).col(0) - samples_[used_[i]].force_n;
-      for (Eigen::Index q = 0; q < scatter_.size(); ++q) {
-        const Eigen::Index at = common() + use * scatter_.size() + q;
-        r[count_ + at] = noise_n_ / scatter_[q] * x[at];
-      }
-    }
-    if (jacobian == nullptr) return;
-    jacobian->setZero();
-    jacobian->block(count_, 0, common(), common()).diagonal().setConstant(weight);
-    for (Eigen::Index use = 0; use < uses(); ++use) {
-      auto block = segment(*jacobian, use);
-      for (Eigen::Index j = 0; j < common(); ++j)
-        block.col(j) = (segment(forces, use).col(2 * j + 1) - segment(forces, use).col(2 * j + 2)) / (2.0 * kStep);
-      for (Eigen::Index q = 0; q < scatter_.size(); ++q) {
-        const Eigen::Index at = common() + use * scatter_.size() + q;
-        block.col(at) = block.col(own_[static_cast<std::size_t>(q)]);
-        (*jacobian)(count_ + at, at) = noise_n_ / scatter_[q];
-      }
-    }
-  }
-
- private:
-  struct Samples {
-    Eigen::VectorXd time_s, force_n;
-  };
-  /// Returns samples of the force at least 2 ms apart, evenly: denser ones cost time and tell nothing more.
-  [[nodiscard]] static Samples sparse(const IsolatedRecording& recording) {
-    constexpr double kApart_s = 0.002;
-    const Eigen::Index n = recording.time_s.size();
-    if (n < 2) return {recording.time_s, recording.force_n};
-    const double step_s = (recording.time_s[n - 1] - recording.time_s[0]) / static_cast<double>(n - 1);
-    const auto stride = std::max<Eigen::Index>(1, std::llround(kApart_s / step_s));
-    const auto kept = Eigen::seq(0, n - 1, stride);
-    return {recording.time_s(kept), recording.force_n(kept)};
-  }
-  /// Returns the rows of a used recording.
-  [[nodiscard]] Eigen::Block<Eigen::MatrixXd> segment(Eigen::MatrixXd& rows, Eigen::Index use) const {
-    const auto i = static_cast<std::size_t>(use);
-    return rows.middleRows(first_[i], lengths_[i]);
-  }
-  /// Returns the forces; NaN for values of which no curve or muscle can be made.
-  [[nodiscard]] Eigen::VectorXd force_at(const Eigen::VectorXd& logs, std::size_t recording) const {
-    const Eigen::VectorXd& time_s = samples_[recording].time_s;
-    try {
-      const IsolatedModel model = with_values(start_, options_.parameters, logs);
-      IsolatedMuscleInput input = inputs_[recording];
-      input.response = model.response;
-      // Values at which the equilibrium is stiff, such as a muscle without strength, are no answer: they may fail.
-      const long max_steps = 20000 + 10 * input.time_s.size();
-      return force_of(Musculotendon<double>(model.parameters, model.laws, model.millard), input, time_s,
-                      options_.relative_tolerance, max_steps);
-    } catch (const InvalidInput&) {
-      if (logs == logs_) throw;
-      return Eigen::VectorXd::Constant(time_s.size(), std::numeric_limits<double>::quiet_NaN());
-    }
-  }
-
-  const IsolatedModel& start_;
-  const std::vector<IsolatedRecording>& recordings_;
-  const IsolatedFitOptions& options_;
-  Eigen::VectorXd logs_;
-  std::vector<IsolatedMuscleInput> inputs_;
-  std::vector<Samples> samples_;
-  std::vector<Eigen::Index> own_;
-  std::vector<std::size_t> used_;
-  std::vector<Eigen::Index> first_, lengths_;
-  Eigen::Index count_ = 0;
-  double noise_n_ = 0.0;
-  Eigen::VectorXd scatter_;
-  int evaluations_ = 0;
-};
 
 /// Returns number `index` of Halton's sequence of this base, in 0..1: evenly spread whatever their count.
 double halton(int index, int base) {
@@ -348,7 +127,8 @@ Eigen::VectorXd log_errors(const math::LeastSquaresResult& found,
 /// Throws InvalidInput unless the parameters can be fitted to the recordings.
 void check(const IsolatedModel& start,
            const std::vector<IsolatedRecording>& recordings,
-           const std::vector<std::string>& names) {
+           const std::vector<std::string>& names,
+           const std::vector<std::string>& own) {
   if (names.empty()) throw InvalidInput("a fit needs a parameter to identify");
   std::size_t n = 0;
   for (const IsolatedRecording& recording : recordings) {
@@ -359,6 +139,10 @@ void check(const IsolatedModel& start,
     n += static_cast<std::size_t>(recording.force_n.size());
   }
   if (n <= names.size()) throw InvalidInput(fmt::format("{} samples are too few for {} parameters", n, names.size()));
+  for (const std::string& name : own) {
+    if (std::ranges::find(names, name) == names.end())
+      throw InvalidInput("'{}' shall have an own value in each recording, and is not identified", name);
+  }
   for (const std::string& name : names) {
     const double value = start_of(start, name);
     if (std::ranges::count(names, name) > 1) throw InvalidInput(fmt::format("'{}' is to be identified twice", name));
@@ -423,16 +207,13 @@ void conclude(const IsolatedModel& start,
 Eigen::VectorXd isolated_force(const IsolatedModel& model,
                                const IsolatedRecording& recording,
                                double relative_tolerance) {
-  IsolatedMuscleInput input = recording.input;
-  input.response = model.response;
-  return force_of(Musculotendon<double>(model.parameters, model.laws, model.millard), input, recording.time_s,
-                  relative_tolerance, IsolatedMuscleOptions{}.max_steps);
+  return force_of(model, recording.input, recording.time_s, relative_tolerance, IsolatedMuscleOptions{}.max_steps);
 }
 
 IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
                                 const std::vector<IsolatedRecording>& recordings,
                                 const IsolatedFitOptions& options) {
-  check(start, recordings, options.parameters);
+  check(start, recordings, options.parameters, options.own);
   ForceErrors errors(start, recordings, options);
   const math::LeastSquaresProblem problem = problem_of(errors, options);
   IsolatedFit fit{.model = start};

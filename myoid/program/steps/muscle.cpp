@@ -54,10 +54,6 @@ void refuse_contradictions(const MuscleOptions& o) {
     throw InvalidInput(fmt::format("--scale: {} numbers for {} files of --length; give one, or one each",
                                    o.scales.size(), o.lengths.size()));
   }
-  for (const std::string& name : o.own) {
-    if (std::ranges::find(o.fit, name) == o.fit.end())
-      throw InvalidInput(fmt::format("--own {}: is not identified; name this parameter in --fit, too", name));
-  }
   (void)law_sets(o.laws);  // before the recordings are read
 }
 
