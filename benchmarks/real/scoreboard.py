@@ -15,6 +15,7 @@ import pathlib
 import shutil
 import sys
 import tempfile
+import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
@@ -61,9 +62,9 @@ unit. Bold: no other way in the row is better.
 
     benchmarks/real/scoreboard.py build/release/bin/myoid --out docs
 
-Regression: least squares on each channel's EMG, 50 ms late, times 1, q and q², and on 1, q, q² and dq/dt of the joint.
-One gain: the literature's muscles. All numbers: `docs/data/scoreboard.csv`; `benchmarks/real/README.md` says how to
-add a set or a tool.
+Regression: least squares on each channel's EMG, 50 ms late, times 1, q and q², and on 1, q, q² and dq/dt of the
+joint. One gain: the literature's muscles. All numbers: `docs/data/scoreboard.csv`; `benchmarks/real/README.md` says
+how to add a set or a tool.
 
 ![R² of torque that took no part in a fit](figures/scoreboard.svg)
 """
@@ -72,7 +73,8 @@ add a set or a tool.
 def markdown(found):
     """One table; a baseline has a column of its own, every other way stands in the last one."""
     columns = {MEAN: "mean", REGRESSION: "regression", LITERATURE: "one gain"}
-    lines = ["", f"| task | asked | ours | {' | '.join(columns.values())} | other |", "| --- " * (len(columns) + 4) + "|"]
+    lines = ["", f"| task | asked | ours | {' | '.join(columns.values())} | other |",
+             "| --- " * (len(columns) + 4) + "|"]
     seconds, left_out = {}, []
     for name, (rows, took, missing) in found.items():
         if missing:
@@ -86,7 +88,8 @@ def markdown(found):
                      f"{ours}; {row.note}" if row.note else ours, *(others.pop(key, "") for key in columns),
                      "; ".join(f"{who} {value}" for who, value in others.items())]
             lines.append(f"| {' | '.join(cells)} |")
-    lines += ["", "Seconds by the clock: " + ", ".join(f"{n} {t:.0f}" for n, t in seconds.items()) + "."]
+    clock = "Seconds by the clock: " + ", ".join(f"{n} {t:.0f}" for n, t in seconds.items()) + "."
+    lines += ["", textwrap.fill(clock, 120)]
     if left_out:
         lines.append("Not run: " + ", ".join(left_out) + ".")
     return "\n".join(lines) + "\n"
@@ -117,10 +120,11 @@ def figure(found, path):
     rows = [row for of_set, _, _ in found.values() for row in of_set if row.measure == "R2"][::-1]
     axes = plt.figure(figsize=(7.5, 0.22 * len(rows) + 0.8)).add_subplot()
     kinds = {"ours": ("o", "#1f4e9c"), "another tool": ("s", "#b5482a"), "a baseline": ("|", "#777777")}
+    kind_of = {"ours": "ours", **dict.fromkeys((MEAN, REGRESSION, LITERATURE), "a baseline")}
     for name, (mark, color) in kinds.items():
         points = [(max(value, -1.0), i) for i, row in enumerate(rows)
                   for who, value in [("ours", row.ours), *row.others.items()]
-                  if name == ("ours" if who == "ours" else "another tool" if who not in (MEAN, REGRESSION, LITERATURE) else "a baseline")]
+                  if name == kind_of.get(who, "another tool")]
         if points:
             axes.scatter(*zip(*points), marker=mark, color=color, label=name, s=28, zorder=3)
     axes.set_yticks(range(len(rows)), [row.task for row in rows])

@@ -39,7 +39,7 @@ struct IsolatedFitOptions {
   std::vector<std::string> parameters;  ///< Names of visit_model; positive at the start.
   /// A value stays within its start over and times this; the belief that it lies there has 95 %.
   double reach = 3.0;
-  /// Of `parameters`, those of which each recording has its own value: its logarithm scatters about the common one.
+  /// Each recording has its own value of these `parameters`; the logarithm scatters about the common one.
   std::vector<std::string> own;
   double relative_tolerance = 1e-7;  ///< Tolerance of the integration.
   int other_starts = 24;             ///< Points that are tried beside the start; 0: the start alone.

@@ -12,15 +12,7 @@ namespace myoid::muscle {
 namespace {
 
 std::vector<IsolatedRecording> recordings_of(const IsolatedModel& truth) {
-  std::vector<IsolatedRecording> list;
-  for (const double amplitude_m : {0.0008, 0.0016, 0.003}) {
-    IsolatedRecording r = test::swing(amplitude_m, "swing");
-    r.input.drive_is_excitation = true;
-    r.input.initial_activation = 0.01;
-    r.force_n = isolated_force(truth, r);
-    list.push_back(std::move(r));
-  }
-  return list;
+  return test::swings(truth, {0.0008, 0.0016, 0.003});
 }
 
 TEST(FitIsolatedMuscle, FindsTheMuscleThatMadeTheForcesBehindItsElasticTendon) {

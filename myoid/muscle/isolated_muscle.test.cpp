@@ -16,6 +16,7 @@
 #include "myoid/ground/math/shape_preserving_curve.h"
 
 #include "tests/support/activation_steps.h"
+#include "tests/support/data_folder.h"
 #include "tests/support/places.h"
 
 namespace myoid::muscle {
@@ -144,7 +145,7 @@ TEST(IsolatedMuscle, ReproducesTheForcesOfARatSoleusWithinThePublishedErrors) {
   // nothing fitted. Two readings of "maximally activated": activated from the start, while the
   // measured force still rises from zero; or excited then, from rest.
   const fs::path folder = test::data_folder() / "rat-soleus";
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  MYOID_REQUIRE_DATA(folder);
   std::vector<double> t, displacement;
   read_columns(folder / "displacement.dat", t, displacement);
   ASSERT_GT(t.size(), 100u);
@@ -240,7 +241,7 @@ TEST(IsolatedMuscle, ReproducesTheSimulatedGastrocnemiusOfItsAuthors) {
   // Reuvers & Kistemaker (2026): their muscle GMs1 and the forces that their program gave, here within 1e-3 of F_max,
   // 13.39 N: their tolerance of 1e-6 l0 and six digits in the file are far less, their steps of the length linear.
   const fs::path folder = test::data_folder() / "rat-gastrocnemius/GMs1/00";
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  MYOID_REQUIRE_DATA(folder);
   HillParameters<double> hill{.max_isometric_force_n = 13.39,
                               .optimal_fiber_length_m = 0.0132,
                               .force_length_width_m = 0.5 * 0.0132,

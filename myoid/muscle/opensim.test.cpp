@@ -15,6 +15,7 @@
 
 #include "myoid/muscle/musculotendon.h"
 
+#include "tests/support/data_folder.h"
 #include "tests/support/places.h"
 
 namespace myoid::muscle {
@@ -205,7 +206,7 @@ void expect_agreement(const Differences& d, int at_least) {
 
 TEST(OpenSimMuscles, MillardCurvesPennationAndDampedEquilibriumAreThoseOfRajagopalsModel) {
   const fs::path folder = test::data_folder() / "opensim/rajagopal2016";
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  MYOID_REQUIRE_DATA(folder);
   const Differences d = compare(folder, "Millard2012EquilibriumMuscle", false);
   expect_agreement(d, 4000);
   RecordProperty("left_out", d.left_out);
@@ -214,7 +215,7 @@ TEST(OpenSimMuscles, MillardCurvesPennationAndDampedEquilibriumAreThoseOfRajagop
 TEST(OpenSimMuscles, ThelenCurvesAndUndampedEquilibriumAreThoseOfArm26AndGait2354) {
   for (const char* model : {"arm26", "gait2354"}) {
     const fs::path folder = test::data_folder() / "opensim" / model;
-    if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
+    MYOID_REQUIRE_DATA(folder);
     const Differences d = compare(folder, "Thelen2003Muscle", true);
     expect_agreement(d, 600);
     EXPECT_LT(d.left_out, d.compared / 10) << model;

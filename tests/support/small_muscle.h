@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "myoid/muscle/fit_isolated.h"
 
@@ -31,6 +32,19 @@ inline muscle::IsolatedRecording swing(double amplitude_m, const std::string& na
   r.input.drive = Eigen::VectorXd::Ones(1);
   r.time_s = Eigen::VectorXd::LinSpaced(60, 0.0, 0.98);
   return r;
+}
+
+/// Recordings of such swings, with the forces of the muscle that excitation drives from rest.
+inline std::vector<muscle::IsolatedRecording> swings(const muscle::IsolatedModel& truth,
+                                                     const std::vector<double>& amplitudes_m) {
+  std::vector<muscle::IsolatedRecording> list;
+  for (const double amplitude_m : amplitudes_m) {
+    muscle::IsolatedRecording& r = list.emplace_back(swing(amplitude_m, "swing"));
+    r.input.drive_is_excitation = true;
+    r.input.initial_activation = 0.01;
+    r.force_n = isolated_force(truth, r);
+  }
+  return list;
 }
 
 }  // namespace myoid::test

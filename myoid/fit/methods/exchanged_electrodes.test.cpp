@@ -22,14 +22,14 @@ void exchange(StudyData& data, std::size_t a, std::size_t b) {
   std::swap(data.muscles[a].emg_channel, data.muscles[b].emg_channel);
 }
 
-/// What the fit of the study as it is named finds.
+/// Looks for an exchange after a fit of the study with the names that it has.
 std::optional<ExchangedElectrodes> found_in(const test::ElbowStudy& study) {
   const EstimatorOptions options = of_a_fold({});
   return exchanged_electrodes(study.data, options, identify_torque(study.data, options));
 }
 
 TEST(ExchangedElectrodes, AreNoneWhereTheyAreNamedRight) {
-  // Of seeds 1 to 60 none was suspected, either.
+  // With seeds 1 to 60 the fit suspects none, either.
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const auto found = found_in(person(seed));
     EXPECT_FALSE(found) << seed << ": " << found->sentence();
@@ -37,7 +37,7 @@ TEST(ExchangedElectrodes, AreNoneWhereTheyAreNamedRight) {
 }
 
 TEST(ExchangedElectrodes, OfTwoSidesAndOfOneSideAreFoundByTheFit) {
-  // Of seeds 1 to 40 it finds biceps and triceps in 39 persons, and biceps and brachioradialis in 37.
+  // With seeds 1 to 40 the fit finds biceps and triceps in 39 persons, and biceps and brachioradialis in 37.
   int opposed = 0, synergists = 0;
   constexpr int kPersons = 4;
   for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {

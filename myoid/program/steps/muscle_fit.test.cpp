@@ -19,15 +19,7 @@ using muscle::IsolatedModel;
 using muscle::IsolatedRecording;
 
 std::vector<IsolatedRecording> swings(const IsolatedModel& truth) {
-  std::vector<IsolatedRecording> list;
-  for (const double amplitude_m : {0.0008, 0.0012, 0.0016, 0.0022, 0.003}) {
-    IsolatedRecording r = test::swing(amplitude_m, "swing");
-    r.input.drive_is_excitation = true;
-    r.input.initial_activation = 0.01;
-    r.force_n = isolated_force(truth, r);
-    list.push_back(std::move(r));
-  }
-  return list;
+  return test::swings(truth, {0.0008, 0.0012, 0.0016, 0.0022, 0.003});
 }
 
 MuscleFitSettings settings_of(const std::vector<std::string>& names) {
