@@ -19,6 +19,7 @@ constexpr double kHighestPerCutoff = 1.2;  // highest frequency of W over the cu
 constexpr double kMostNoise = 3.3;         // times the expected power: ln kappa at two prior spreads
 constexpr double kAtOnce_s = 25.0;         // longest piece that is smoothed at once
 constexpr double kMargin_s = 1.0;          // overlap with each neighboring piece
+constexpr double kMostLost = 1.25;         // times the drive: the filter takes a few percent
 constexpr double kFade = 0.15;             // spread of the fade, over the period of the frequency grid
 constexpr double kLeastDrive = 1e-4;       // of the resting level, on which noise acts, too
 constexpr double kFloor = 0.01;            // of the resting level, over which the drive fades to zero
@@ -217,6 +218,7 @@ Eigen::Index bands(Eigen::Index frequencies) { return std::max<Eigen::Index>(1, 
 /// of the noise, at the middle of each kBand frequencies of the spectra.
 struct Smoothed {
   Eigen::VectorXd drive, error, noise;
+  double along = 0.0, size = 0.0;  ///< The numerator and the denominator of b (Drive).
 };
 Smoothed smooth(const Eigen::VectorXd& values,
                 double interval_s,
@@ -250,6 +252,10 @@ Smoothed smooth(const Eigen::VectorXd& values,
     result.error = windowed_power(of_drive, window, frequency, interval_s) -
                    known.reshaped(2, frequency.size()).colwise().sum().transpose();
     result.noise = windowed_power(of_noise, window.cwiseProduct(scale), frequency, interval_s);
+    const double passed = 2.0 * static_cast<double>(kBand) * error.step_hz() * interval_s * result.error.sum();
+    const Eigen::VectorXd behind = window.cwiseAbs2().cwiseProduct(result.drive);
+    result.along = behind.dot(values) - passed;
+    result.size = behind.dot(result.drive);
   }
   return result;
 }
@@ -281,12 +287,15 @@ Drive drive_behind(
   const auto margin = static_cast<Eigen::Index>(kMargin_s * rate_hz);
   const auto longest = static_cast<Eigen::Index>(kAtOnce_s * rate_hz);
   const Eigen::Index count = bands(spectra.drive.size());
+  double along = 0.0, size = 0.0;
   Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(count), noise_power = left_power;
   for (Eigen::Index first = 0; first < n; first += longest) {
     const Eigen::Index end = std::min(n, first + longest), from = std::max<Eigen::Index>(0, first - margin),
                        to = std::min(n, end + margin);
     const Smoothed part = smooth(values.segment(from, to - from), 1.0 / rate_hz, spectra, noise_sd, rest, error);
     drive.segment(first, end - first) = part.drive.segment(first - from, end - first);
+    along += part.along;
+    size += part.size;
     left_power += part.error;
     noise_power += part.noise;
   }
@@ -294,6 +303,7 @@ Drive drive_behind(
     const Eigen::Index at = std::min(i / kBand, count - 1);
     left[i] = spectra.level * std::clamp(left_power[at] / std::max(noise_power[at], 1e-300), 0.0, 1.0);
   }
+  if (size > 0.0) drive *= std::clamp(along / size, 1.0 / kMostLost, kMostLost);
   // The finer samples put the kinks at zero where the drive has them. With kinks at the samples, a
   // search for the delay would see the samples.
   const Eigen::VectorXd fine = Eigen::VectorXd::LinSpaced(kFiner * (n - 1) + 1, time[0], time[n - 1]);

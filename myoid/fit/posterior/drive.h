@@ -38,6 +38,13 @@ struct NoiseOverEnvelope {
 /// upper half of the envelope's band, where there is hardly a drive, but to at most 3.3 times the expected power. A
 /// model that takes u for the drive finds lags that do not exist, because a lag damps the noise of u, too. The
 /// remaining error has the spectrum (1 - W)^2 S + W^2 N. A constant envelope is its own drive.
+///
+/// The noise is larger in a burst than at rest, so that the filter takes more of a burst: one to five percent, by which
+/// muscles would be found too strong. The filtered envelope d is therefore multiplied by
+///
+///   b = (sum h^2 d u - sum h^2 E) / sum h^2 d^2,
+///
+/// h a Hann window and E the variance of d's error, which is the covariance of d with the noise of u.
 struct Drive {
   Envelope envelope;  ///< The drive as an envelope.
   /// Power of the drive's error over N, at the frequencies of `EnvelopeError`.
