@@ -2,6 +2,7 @@
 import dataclasses
 import json
 import pathlib
+import shlex
 import subprocess
 import sys
 import time
@@ -37,7 +38,10 @@ class Bench:
     said: str = ""  # by the last command, on stderr
 
     def run(self, *arguments):
-        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
+        command = [self.program, *map(str, arguments)]
+        with (self.folder / "commands.sh").open("a") as file:
+            file.write(shlex.join(command) + "\n")
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode not in (0, 4):
             sys.exit(f"{self.program} {arguments[0]} ended with {done.returncode}: {done.stderr}")
         self.said = done.stderr

@@ -3,10 +3,12 @@
 
 MYOID: the program. DATA: the folder of the recordings (examples/get_data); by default MYOID_DATA, or shared/data beside
 the checkout. A set whose recordings are absent is named and left out. --set: only these, of sets/. --out: a folder for
-scoreboard.md, data/scoreboard.csv and figures/scoreboard.svg; without it the table is printed. README.md says how to
-add a set or a tool.
+scoreboard.md, data/scoreboard.csv and figures/scoreboard.svg; without it the table is printed. --keep: a folder for the
+files of each set and commands.sh, the commands of the program that read them. README.md says how to add a set or a
+tool.
 """
 import argparse
+import contextlib
 import csv
 import importlib
 import io
@@ -33,15 +35,20 @@ def sets():
     return sorted(path.stem for path in (HERE / "sets").glob("*.py") if path.stem != "__init__")
 
 
-def judge(name, program, data):
+def judge(name, program, data, keep):
     """The rows of a set, the seconds that it took, and the folders of recordings that it lacks."""
     module = importlib.import_module(f"sets.{name}")
     missing = [part for part in module.NEEDS if not (data / part).is_dir()]
     if missing:
         return [], 0.0, missing
     clock = Clock()
-    with tempfile.TemporaryDirectory() as folder:
-        return list(module.rows(Bench(program, data, pathlib.Path(folder)))), clock.seconds(), []
+    with contextlib.ExitStack() as stack:
+        if keep is None:
+            folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        else:
+            folder = keep / name
+            folder.mkdir(parents=True)
+        return list(module.rows(Bench(program, data, folder))), clock.seconds(), []
 
 
 def number(row, value):
@@ -142,14 +149,18 @@ def main():
     parser.add_argument("data", metavar="DATA", nargs="?")
     parser.add_argument("--set", nargs="+", choices=sets(), default=sets())
     parser.add_argument("--out", metavar="FOLDER", type=pathlib.Path)
+    parser.add_argument("--keep", metavar="FOLDER", type=pathlib.Path)
     options = parser.parse_args()
+    for name in options.set:
+        if options.keep is not None and (options.keep / name).exists():
+            parser.error(f"{options.keep / name} is there already; name a new folder for --keep")
     if shutil.which(options.program) is None:
         parser.error(f"{options.program}: no program of this name can be started")
     data = data_folder([options.data] if options.data else [])
     found = {}
     for name in options.set:
         print(f"{name} ...", file=sys.stderr, flush=True)
-        found[name] = judge(name, options.program, data)
+        found[name] = judge(name, options.program, data, options.keep)
     lacking = sorted({part for _, _, missing in found.values() for part in missing})
     if lacking:
         print(f"not in {data}: {', '.join(lacking)}; examples/get_data brings what it can fetch", file=sys.stderr)
