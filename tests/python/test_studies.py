@@ -151,7 +151,8 @@ def test_review(tmp_path):
         pytest.skip("needs the shared recordings")
     found = myoid.review(data, out=tmp_path / "opinion", start=20, end=26)
     assert [row["calibration"] for row in found.torques] == [True, False]
-    assert all(row["left_out_r2"] > row["their_r2"] for row in found.torques)
+    # Their subject was fitted to the calibration's trial.
+    assert all(row["left_out_r2"] > row["their_r2"] for row in found.torques if not row["calibration"])
     assert {row["standing"] for row in found.numbers} <= {"agrees", "differs", "untold"}
     assert found.strengths and found.says and (tmp_path / "opinion/report.html").is_file()
 
