@@ -53,10 +53,9 @@ page::Section phases_section(const run::StudyResult& result) {
   page::Section section{.id = "phases", .heading = "Phases of the trials"};
   page::Table table{
       .id = "phases",
-      .title = "Rest, isometric contraction, warm-up, fatigue",
+      .title = "Rest, isometric contraction, fatigue",
       .caption =
-          "Found from change points of the torque per EMG and of the EMG's median frequency; both relative to the "
-          "trial's regular phase.",
+          "Fatigue: torque per EMG and the EMG's median frequency fall together; both relative to the fresh muscles.",
       .columns = {"trial", "phase", "from [s]", "to [s]", "torque per EMG", "median frequency", "fitted", "reason"}};
   page::Figure figure{.id = "phases_torque",
                       .title = "Trials of which a phase was left out",

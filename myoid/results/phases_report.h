@@ -5,7 +5,7 @@
 
 namespace myoid::results {
 
-/// Returns the section on warm-up, fatigue and rest: a table of all phases but whole regular
+/// Returns the section on fatigue and rest: a table of all phases but whole regular
 /// trials, and the torque of each trial with an excluded phase.
 [[nodiscard]] page::Section phases_section(const run::StudyResult& result);
 

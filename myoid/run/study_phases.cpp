@@ -119,7 +119,6 @@ std::vector<study::TrialPhases> study_phases(const FitSource& source,
     if (worth_a_fit) {
       fit::Prediction prediction = fit::predict(data, trial, fit.values, options.law);
       signals.predicted_nm = std::move(prediction.torque_nm);
-      signals.effort_nm = prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();
       signals.activation = std::move(prediction.activation);
       if (const TrialResult* found = result_of(source.trials, trial.name))
         signals.median_frequency_hz = frequency_of(source.scale, *found, 0.5 * study::phase_limits::kBlock_s);

@@ -8,9 +8,8 @@
 
 namespace myoid::run {
 
-/// Finds the phases of every trial that is fitted or predicted: `find_phases` on the
-/// torque that a first, robust fit of all trials predicts from the EMG (Huber's loss, one start, no
-/// intervals), and on the median frequency of the raw EMG where there is one. Trials that are too
+/// Finds the phases of every trial that is fitted or predicted: `find_phases` on the torque that a first, plain fit of
+/// all trials predicts from the EMG, and on the median frequency of the raw EMG where there is one. Trials that are too
 /// short to search get one phase; if all are, no fit is made. A trial whose joint's angle is unknown has no phases; if
 /// all are so, the result is empty.
 [[nodiscard]] std::vector<study::TrialPhases> study_phases(const FitSource& source,

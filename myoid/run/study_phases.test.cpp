@@ -142,7 +142,7 @@ TEST(StudyPhases, AShortTrialHasOnePhase) {
 
 std::vector<study::TrialPhases> phases_of_one_trial() {
   return {{"a",
-           {{.kind = study::PhaseKind::warm_up, .begin_s = 0.0, .end_s = 6.0},
+           {{.kind = study::PhaseKind::isometric, .begin_s = 0.0, .end_s = 6.0},
             {.kind = study::PhaseKind::regular, .begin_s = 6.0, .end_s = 40.0},
             {.kind = study::PhaseKind::fatigued, .begin_s = 40.0, .end_s = 60.0, .frequency = 0.85}}}};
 }
@@ -151,7 +151,7 @@ TEST(ExcludePhases, TakesWhatTheRuleNames) {
   fit::StudyData data;
   data.trials.resize(1);
   auto phases = phases_of_one_trial();
-  exclude_phases({study::PhaseKind::warm_up, study::PhaseKind::fatigued}, phases, data);
+  exclude_phases({study::PhaseKind::isometric, study::PhaseKind::fatigued}, phases, data);
   ASSERT_EQ(data.trials[0].excluded.size(), 2u);
   EXPECT_EQ(data.trials[0].excluded[1].begin_s, 40.0);
   EXPECT_TRUE(phases[0].phases[0].excluded);

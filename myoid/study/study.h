@@ -249,11 +249,11 @@ struct SharingSpec {
   bool operator==(const SharingSpec&) const = default;
 };
 
-/// The search for warm-up and fatigue.
+/// The search for fatigue.
 struct PhasesSpec {
   bool search = true;
   /// Phases that are not fitted.
-  std::vector<PhaseKind> exclude{PhaseKind::warm_up, PhaseKind::fatigued};
+  std::vector<PhaseKind> exclude{PhaseKind::fatigued};
   bool operator==(const PhasesSpec&) const = default;
 };
 

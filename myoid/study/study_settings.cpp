@@ -218,10 +218,10 @@ void visit(SharingSpec& sharing, SettingVisitor& v) {
 }
 
 void visit(PhasesSpec& phases, SettingVisitor& v) {
-  v.flag("search", phases.search, {.says = "Warm-up and fatigue are looked for."});
+  v.flag("search", phases.search, {.says = "Fatigue is looked for."});
   v.choices("exclude", phases.exclude,
             {.says = "The phases that are not fitted. Fatigue that no raw EMG confirms stays in.",
-             .words = choice_names(PhaseKind{}).first<5>()});  // all but `regular`
+             .words = choice_names(PhaseKind{}).first<3>()});  // all but `regular`
 }
 
 namespace {
@@ -361,7 +361,7 @@ void visit(Study& study, SettingVisitor& v) {
   v.table("load_cell", study.load_cell,
           {.says = "A load cell in something that the person holds; it acts in the trials that name a `load_cell`."});
   v.table("sharing", study.sharing, {.says = "Force sharing, for method `paper`."});
-  v.table("phases", study.phases, {.says = "Warm-up and fatigue."});
+  v.table("phases", study.phases, {.says = "Fatigue."});
   v.table("identify", study.identify, {.says = "The identification."});
   v.table("beliefs", study.beliefs, {.says = "What is believed about errors that residuals hardly show."});
   v.tables("muscle", study.muscles, {.says = "A muscle, or group, to identify."});

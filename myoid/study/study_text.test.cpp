@@ -114,7 +114,7 @@ exponent = 3
 reserve_nm = 0.5
 [phases]
 search = false
-exclude = ["rest", "changed"]
+exclude = ["rest", "isometric"]
 [identify]
 method = ["force", "torque"]
 muscles = ["BIC"]

@@ -72,7 +72,7 @@ struct TrialData : JointData {
   Eigen::MatrixXd force_n;             ///< n x m: from force sharing, for `paper` and `force`; may be empty.
   TimeSeries activation;               ///< Envelope of each EMG channel, 0..1, on its own clock.
   std::vector<JointData> more_joints;  ///< Further joints, which method `torque` fits too.
-  /// Stretches that are predicted, but neither fitted nor scored: warm-up, fatigue, exclusions of the study.
+  /// Stretches that are predicted, but neither fitted nor scored: fatigue, exclusions of the study.
   std::vector<Stretch> excluded;
 };
 

@@ -22,8 +22,6 @@ struct Scene {
   double gain_slope = 0.0;  ///< Its change per second.
   double frequency_hz = 80.0;
   double frequency_slope = 0.0;
-  double wasted = 0.0;    ///< Share of the effort that antagonists undo at the beginning ...
-  double fading_s = 8.0;  ///< ... and how it fades.
 };
 
 /// A recording by its script: torque noise of 4 % within a movement, 3 % of frequency per window.
@@ -32,7 +30,7 @@ PhaseSignals recording(const std::vector<Scene>& scenes, bool raw_emg = true, st
   const auto n = static_cast<Eigen::Index>(scenes.back().end_s * kRate_hz) + 1;
   PhaseSignals s;
   s.time_s = Eigen::VectorXd::LinSpaced(n, 0.0, scenes.back().end_s);
-  s.velocity_radps = s.torque_nm = s.predicted_nm = s.effort_nm = Eigen::VectorXd::Zero(n);
+  s.velocity_radps = s.torque_nm = s.predicted_nm = Eigen::VectorXd::Zero(n);
   s.activation = Eigen::MatrixXd::Zero(n, 2);
   Eigen::VectorXd frequency(n);
   std::size_t k = 0;
@@ -47,7 +45,6 @@ PhaseSignals recording(const std::vector<Scene>& scenes, bool raw_emg = true, st
     s.velocity_radps[i] = 2.0 * std::numbers::pi * scene.amplitude_rad * std::cos(phase);
     s.predicted_nm[i] = scene.amplitude_rad > 0.0 ? 10.0 + 5.0 * std::sin(phase) : 12.0 * scene.activation;
     s.torque_nm[i] = s.predicted_nm[i] * (scene.gain + scene.gain_slope * since + cycle_noise);
-    s.effort_nm[i] = s.predicted_nm[i] * (1.0 + scene.wasted * std::exp(-since / scene.fading_s));
     s.activation.row(i).setConstant(scene.activation);
     frequency[i] = scene.frequency_hz + scene.frequency_slope * since;
   }
@@ -81,65 +78,47 @@ TEST(FindPhases, OfARegularTrialThereIsOne) {
   EXPECT_EQ(single, 40);
 }
 
-TEST(FindPhases, FindsThePapersSequences) {
+TEST(FindPhases, FindsTheFatigueOfThePapersSequences) {
   // Isometric contraction, warm-up, the regular movement, and muscles that tire (its figures 8-10).
   const auto phases = find_phases(
       recording({{.end_s = 6.0, .amplitude_rad = 0.0},
                  {.end_s = 18.0, .gain = 1.3},
                  {.end_s = 60.0},
                  {.end_s = 90.0, .gain = 0.9, .gain_slope = -0.01, .frequency_hz = 74.0, .frequency_slope = -0.8}}));
-  ASSERT_EQ(kinds(phases),
-            (std::vector{PhaseKind::isometric, PhaseKind::warm_up, PhaseKind::regular, PhaseKind::fatigued}));
-  // A stop is seen half a second late or early (the window of the rate); a change to one block, and
-  // fatigue that begins gently to some.
+  ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::isometric, PhaseKind::regular, PhaseKind::fatigued}));
+  // A stop is seen half a second late or early (the window of the rate), and fatigue that begins gently some blocks.
   EXPECT_NEAR(phases[1].begin_s, 6.0, 0.6);
-  EXPECT_NEAR(phases[2].begin_s, 18.0, 2.1);
-  EXPECT_NEAR(phases[3].begin_s, 60.0, 6.1);
-  EXPECT_NEAR(*phases[1].gain, 1.3, 0.08);
-  EXPECT_LT(*phases[3].gain, 0.85);
-  EXPECT_LT(*phases[3].frequency, 0.88);
+  EXPECT_NEAR(phases[2].begin_s, 60.0, 6.1);
+  EXPECT_LT(*phases[2].gain, 0.85);
+  EXPECT_LT(*phases[2].frequency, 0.88);
   for (std::size_t i = 1; i < phases.size(); ++i) EXPECT_DOUBLE_EQ(phases[i].begin_s, phases[i - 1].end_s);
 }
 
 TEST(FindPhases, LessTorqueAtTheSameFrequencyIsNotCalledFatigue) {
   const std::vector<Scene> script{{.end_s = 40.0}, {.end_s = 60.0, .gain = 0.8}};
-  EXPECT_EQ(kinds(find_phases(recording(script))), (std::vector{PhaseKind::regular, PhaseKind::changed}));
-  // Without raw EMG the torque alone speaks, and the sentence says so.
+  EXPECT_EQ(kinds(find_phases(recording(script))), std::vector{PhaseKind::regular});
+  // Without raw EMG the torque alone speaks.
   const auto phases = find_phases(recording(script, false));
   ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::regular, PhaseKind::fatigued}));
   EXPECT_FALSE(phases[1].frequency);
-  EXPECT_NE(phases[1].reason.find("no raw EMG"), std::string::npos);
 }
 
-TEST(FindPhases, AnotherMovementIsNotAWarmUp) {
+TEST(FindPhases, AnotherMovementOrAnotherBeginningIsNoFatigue) {
   EXPECT_EQ(kinds(find_phases(recording({{.end_s = 16.0, .amplitude_rad = 0.3, .gain = 1.3}, {.end_s = 60.0}}))),
-            (std::vector{PhaseKind::changed, PhaseKind::regular}));
+            std::vector{PhaseKind::regular});
+  EXPECT_EQ(kinds(find_phases(recording({{.end_s = 4.75, .gain = 1.5}, {.end_s = 40.0}}))),
+            std::vector{PhaseKind::regular});
 }
 
-TEST(FindPhases, AWarmUpIsSeenByTheEffortEvenIfTheTorquePerEmgIsRegular) {
-  // ln 2 = 0.69 fades to 0.06 in 8 ln(11.5) = 20 s. Fadings of 6 and of 12 s are tried, by which it
-  // would be 15 or 29 s; windows are 2 s.
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const auto phases = find_phases(recording({{.end_s = 100.0, .wasted = 1.0}}, true, seed));
-    ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::warm_up, PhaseKind::regular})) << seed;
-    EXPECT_GT(phases[1].begin_s, 11.0) << seed;
-    EXPECT_LT(phases[1].begin_s, 36.0) << seed;
-  }
-}
-
-TEST(FindPhases, TheFirstCyclesAloneAreNoWarmUp) {
-  const auto phases = find_phases(recording({{.end_s = 4.75, .gain = 1.5}, {.end_s = 40.0}}));
-  EXPECT_EQ(kinds(phases), (std::vector{PhaseKind::changed, PhaseKind::regular}));
-}
-
-TEST(FindPhases, OfMusclesThatTireFromTheBeginningTheFreshOnesAreRegular) {
-  // Torque per EMG falls by 0.3 % each second: a tenth of what it was in the first 30 s in
-  // the mean is lost after 46 s; that segment may be half or twice as long.
+TEST(FindPhases, MusclesThatTireFromTheBeginningAreFatiguedWhereATenthIsLost) {
+  // Torque per EMG falls by 0.3 % each second: ln(1 - 0.003 t), which bends, has lost a tenth after 33 s; the straight
+  // trend through it some 10 to 18 s later.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto phases =
         find_phases(recording({{.end_s = 150.0, .gain_slope = -0.003, .frequency_slope = -0.25}}, true, seed));
     ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::regular, PhaseKind::fatigued})) << seed;
-    EXPECT_NEAR(phases[1].begin_s, 46.0, 25.0) << seed;
+    EXPECT_GT(phases[1].begin_s, 30.0) << seed;
+    EXPECT_LT(phases[1].begin_s, 52.0) << seed;
   }
 }
 

@@ -106,10 +106,6 @@ std::vector<Block> blocks_of(const PhaseSignals& s, const TrialStretch& stretch)
     const auto measured = s.torque_nm.segment(block.first, m);
     const double gain = measured.dot(predicted) / predicted.squaredNorm();
     if (gain > 0.0) block.gain = std::log(gain);
-    if (s.effort_nm.size() > 0) {
-      const double economy = measured.norm() / s.effort_nm.segment(block.first, m).norm();
-      if (std::isfinite(economy) && economy > 0.0) block.economy = std::log(economy);
-    }
     block.frequency = mean_log_frequency(s.median_frequency_hz, s.time_s[block.first], s.time_s[block.last - 1]);
     block.speed = std::max(kStill_radps, std::sqrt(s.velocity_radps.segment(block.first, m).squaredNorm() / count));
     block.torque = measured.norm() / std::sqrt(count);

@@ -22,9 +22,6 @@ struct Block {
   Eigen::Index first = 0, last = 0;  ///< Samples first .. last-1.
   /// ln of measured per predicted torque, by regression through the origin; NaN if not positive.
   double gain = std::numeric_limits<double>::quiet_NaN();
-  /// ln of the net torque per torque that the muscles make in all, against each other as well; NaN
-  /// if the latter is not known.
-  double economy = std::numeric_limits<double>::quiet_NaN();
   /// Mean over channels and windows of ln(median frequency / the channel's median).
   double frequency = std::numeric_limits<double>::quiet_NaN();
   double speed = 0.0;   ///< Root mean square, at least `kStill_radps`.

@@ -19,7 +19,6 @@ PhaseSignals swing(double frequency_hz) {
   s.velocity_radps = (2.0 * std::numbers::pi * frequency_hz * s.time_s.array()).cos();
   s.predicted_nm = 10.0 + 4.0 * s.velocity_radps.array();
   s.torque_nm = 0.5 * s.predicted_nm;
-  s.effort_nm = 2.0 * s.predicted_nm;
   s.activation = Eigen::MatrixXd::Constant(3001, 1, 0.2);
   return s;
 }
@@ -34,7 +33,6 @@ TEST(Blocks, AreWholeCyclesOfTwoSecondsOrMore) {
     const double cycles = 0.7 * s.time_s[blocks[b].first];
     EXPECT_NEAR(cycles - std::floor(cycles), 0.75, 0.02);
     EXPECT_NEAR(blocks[b].gain, std::log(0.5), 1e-12);
-    EXPECT_NEAR(blocks[b].economy, std::log(0.25), 1e-12);
   }
 }
 

@@ -16,20 +16,18 @@ namespace myoid::study {
 enum class PhaseKind {
   rest,       ///< Neither movement nor activation.
   isometric,  ///< Activation without movement.
-  warm_up,    ///< Before the regular phase, and the muscles give another torque for their EMG.
-  fatigued,   ///< Follows `regular`: less torque for equal EMG, and a lower frequency of the EMG.
-  changed,    ///< Differs from the regular phase, and neither warm-up nor fatigue explains it.
+  fatigued,   ///< Less torque for equal EMG, and a lower frequency of the EMG, than at the beginning.
   regular,    ///< The parameters are identified from it.
 };
-inline constexpr std::string_view kPhaseNames[] = {"rest", "isometric", "warm_up", "fatigued", "changed", "regular"};
+inline constexpr std::string_view kPhaseNames[] = {"rest", "isometric", "fatigued", "regular"};
 constexpr ChoiceNames choice_names(PhaseKind) { return kPhaseNames; }
 
 struct Phase {
   PhaseKind kind = PhaseKind::regular;
   double begin_s = 0.0, end_s = 0.0;
-  /// Torque measured per torque predicted from the EMG, as a fraction of the regular phase's.
+  /// Torque measured per torque predicted from the EMG, as a fraction of the fresh muscles'.
   std::optional<double> gain;
-  /// Median frequency of the EMG, as a fraction of the regular phase's.
+  /// Median frequency of the EMG, as a fraction of the fresh muscles'.
   std::optional<double> frequency;
   bool excluded = false;  ///< Excluded by the study's rule; set by the caller.
   std::string reason;     ///< A sentence.
@@ -39,10 +37,8 @@ struct Phase {
 struct PhaseSignals {
   Eigen::VectorXd time_s;
   Eigen::VectorXd velocity_radps;
-  Eigen::VectorXd torque_nm;     ///< Measured.
-  Eigen::VectorXd predicted_nm;  ///< From the EMG, with one set of parameters for the whole trial.
-  /// Sum of the magnitudes of the muscles' torques, from the EMG as `predicted_nm`; may be empty.
-  Eigen::VectorXd effort_nm;
+  Eigen::VectorXd torque_nm;       ///< Measured.
+  Eigen::VectorXd predicted_nm;    ///< From the EMG, with one set of parameters for the whole trial.
   Eigen::MatrixXd activation;      ///< n x channels, 0..1.
   TimeSeries median_frequency_hz;  ///< recording/signals/spectrum.h; may be empty, values may be NaN.
 };
@@ -53,20 +49,16 @@ struct TrialPhases {
   std::vector<Phase> phases;
 };
 
-/// Mean activation, rate, length and change from which a stretch counts as rest, movement or another phase.
+/// Mean activation, rate, length and change from which a stretch counts as rest, movement or fatigue.
 namespace phase_limits {
 inline constexpr double kStill_radps = 0.1;      ///< Root mean square of the rate over 1 s below which nothing moves.
 inline constexpr double kRestActivation = 0.03;  ///< Mean activation below which a still muscle rests.
 inline constexpr double kShortest_s = 1.5;       ///< Shortest rest and isometric phase.
 inline constexpr double kBlock_s = 2.0;          ///< Torque per EMG is measured per block: a cycle or more.
-inline constexpr double kGainChange = 0.10;      ///< Least relevant change of torque per EMG.
-/// Least relevant change before the regular phase: a change that fades is small on average, and leaving it out costs
-/// little.
-inline constexpr double kWarmUpChange = 0.06;
-inline constexpr double kFrequencyFall = 0.08;  ///< Smaller falls of the median frequency are none (8-10 %).
-inline constexpr double kSignificance = 4.0;    ///< Standard errors by which a phase differs from the regular one.
-inline constexpr double kFalseAlarm = 0.001;    ///< Chance that a trial begins with a warm-up that is none.
-/// Phases whose speed or torque differ by a larger factor are not compared: the law, not the muscle, may explain them.
+inline constexpr double kGainChange = 0.10;      ///< Smaller falls of torque per EMG are none.
+inline constexpr double kFrequencyFall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
+inline constexpr double kSignificance = 4.0;     ///< Standard errors of a fall.
+/// Blocks whose speed or torque differ by a larger factor are not compared: the law, not the muscle, may explain them.
 inline constexpr double kAlike = 1.6;
 }  // namespace phase_limits
 
