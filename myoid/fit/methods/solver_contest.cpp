@@ -19,8 +19,8 @@ using Search = std::function<math::LocalMinimum(const Eigen::VectorXd& start)>;
 /// One cost in the forms that the solvers need.
 struct Contestants {
   Search gauss_newton, levenberg_marquardt;
-  math::DirectSearchProblem cost;  ///< With the bounds of the fit.
-  Eigen::Index samples = 0;        ///< See find_basins.
+  math::CostFunction cost;
+  Eigen::Index samples = 0;  ///< See find_basins.
 };
 
 template <typename Found>
@@ -45,16 +45,12 @@ std::vector<Solver> solvers_of(const Contestants& who,
                                const ContestOptions& options,
                                const Progress& stop) {
   const auto simplex = [&](const Eigen::VectorXd& x) {
-    return end_of(math::nelder_mead(who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
+    return end_of(math::nelder_mead(who.cost, x, options.direct_evaluations, stop));
   };
   const auto annealing = [&, seed = options.seed](const Eigen::VectorXd& x) mutable {
-    // Costs in the starts' box span many powers of ten, and so does the temperature.
     return end_of(math::simulated_annealing(who.cost, x,
                                             {.seed = seed++,
                                              .max_evaluations = options.direct_evaluations,
-                                             .spread_cooling = 0.7,
-                                             .cycles = 10,
-                                             .adjustments = 1,
                                              .reach = box.upper - box.lower,
                                              .progress = stop}));
   };
@@ -121,7 +117,7 @@ SolverContest compare_paper_solvers(const StudyData& data,
       contest({.gauss_newton = [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
                .levenberg_marquardt =
                    [&](const Eigen::VectorXd& x) { return end_of(math::minimize(problem, x, {.progress = stop})); },
-               .cost = math::direct_search_problem(problem),
+               .cost = math::cost_of(problem),
                .samples = problem.residual_count},
               box, options);
   result.fit = samples.name();

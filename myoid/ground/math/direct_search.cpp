@@ -2,39 +2,16 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "myoid/ground/core/error.h"
-#include "myoid/ground/core/numbers.h"
 
 namespace myoid::inline ground::math {
 
-DirectSearchProblem direct_search_problem(const LeastSquaresProblem& problem) {
-  return {.cost =
-              [evaluate = problem.evaluate, n = problem.residual_count](const Eigen::VectorXd& x) {
-                Eigen::VectorXd r = Eigen::VectorXd::Zero(n);
-                evaluate(x, r, nullptr);
-                return 0.5 * r.squaredNorm();
-              },
-          .lower = problem.lower,
-          .upper = problem.upper};
-}
-
-CountedCost::CountedCost(const DirectSearchProblem& problem, Eigen::Index parameters)
-    : cost_(problem.cost), lower_(problem.lower), upper_(problem.upper) {
-  if (parameters == 0) throw InvalidInput("direct search: there is no free parameter");
-  if (lower_.size() == 0) lower_ = Eigen::VectorXd::Constant(parameters, -kInfinity);
-  if (upper_.size() == 0) upper_ = Eigen::VectorXd::Constant(parameters, kInfinity);
-  if (lower_.size() != parameters || upper_.size() != parameters) {
-    throw InvalidInput(fmt::format("direct search: {} lower and {} upper bounds for {} parameters", lower_.size(),
-                                   upper_.size(), parameters));
-  }
-  for (Eigen::Index j = 0; j < parameters; ++j) {
-    if (!(lower_[j] <= upper_[j])) {
-      throw InvalidInput(
-          fmt::format("direct search: parameter {} has the bounds [{}, {}]", j + 1, lower_[j], upper_[j]));
-    }
-  }
+CostFunction cost_of(const LeastSquaresProblem& problem) {
+  return [evaluate = problem.evaluate, n = problem.residual_count](const Eigen::VectorXd& x) {
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(n);
+    evaluate(x, r, nullptr);
+    return 0.5 * r.squaredNorm();
+  };
 }
 
 double CountedCost::operator()(const Eigen::VectorXd& x) {
@@ -43,6 +20,12 @@ double CountedCost::operator()(const Eigen::VectorXd& x) {
   return std::isfinite(cost) ? cost : std::numeric_limits<double>::infinity();
 }
 
-Eigen::VectorXd CountedCost::clipped(const Eigen::VectorXd& x) const { return x.cwiseMax(lower_).cwiseMin(upper_); }
+double CountedCost::at_start(const Eigen::VectorXd& start) {
+  if (start.size() == 0) throw InvalidInput("direct search: there is no free parameter");
+  if (!start.allFinite()) throw InvalidInput("direct search: the start is not finite");
+  const double cost = (*this)(start);
+  if (!std::isfinite(cost)) throw InvalidInput("direct search: no finite cost at the start");
+  return cost;
+}
 
 }  // namespace myoid::inline ground::math

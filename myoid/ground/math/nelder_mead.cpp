@@ -5,15 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "myoid/ground/core/error.h"
-
 namespace myoid::inline ground::math {
 namespace {
 
 constexpr double kStepTolerance = 1e-9, kCostTolerance = 1e-15, kRestartTolerance = 1e-10;
 constexpr int kMostRestarts = 10;
+constexpr double kFirstEdge = 0.1;  // share of |x_j|, of 1 at zero
 
 struct Vertex {
   Eigen::VectorXd x;
@@ -30,28 +27,20 @@ Coefficients coefficients(Eigen::Index parameters) {
   return {1.0, 1.0 + 2.0 / n, 0.75 - 0.5 / n, 1.0 - 1.0 / n};
 }
 
-Eigen::VectorXd first_edges(const CountedCost& cost, const Eigen::VectorXd& x, double share) {
-  Eigen::VectorXd edges(x.size());
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
-    const double span = cost.upper()[j] - cost.lower()[j];
-    edges[j] = share * (std::isfinite(span) ? span : x[j] != 0.0 ? std::abs(x[j]) : 1.0);
-  }
-  return edges;
+Eigen::VectorXd first_edges(const Eigen::VectorXd& x) {
+  return kFirstEdge * (x.array() != 0.0).select(x.array().abs(), 1.0).matrix();
 }
 
 class Simplex {
  public:
-  /// Builds a right-angled simplex at `corner`, with edges to the side of `sign`, or inward
-  /// at a bound.
+  /// Builds a right-angled simplex at `corner`, with edges to the side of `sign`.
   Simplex(CountedCost& cost, Vertex corner, const Eigen::VectorXd& edges, double sign) : cost_(cost) {
     vertices_.push_back(std::move(corner));
     const Eigen::VectorXd origin = vertices_.front().x;
     for (Eigen::Index j = 0; j < edges.size(); ++j) {
       Eigen::VectorXd x = origin;
       x[j] += sign * edges[j];
-      if (x[j] > cost.upper()[j] || x[j] < cost.lower()[j]) x[j] = origin[j] - sign * edges[j];
-      x = cost.clipped(x);
-      if (edges[j] > 0.0) vertices_.push_back({x, cost(x)});
+      vertices_.push_back({x, cost(x)});
     }
     sort();
   }
@@ -70,7 +59,6 @@ class Simplex {
 
   void move(const Coefficients& by) {
     const std::size_t last = vertices_.size() - 1;
-    if (last == 0) return;
     Eigen::VectorXd center = Eigen::VectorXd::Zero(best().x.size());
     for (std::size_t i = 0; i < last; ++i) center += vertices_[i].x / static_cast<double>(last);
     Vertex& worst = vertices_[last];
@@ -94,11 +82,7 @@ class Simplex {
   }
 
  private:
-  Vertex at(const Eigen::VectorXd& x) {
-    const Eigen::VectorXd inside = cost_.clipped(x);
-    const double cost = cost_(inside);
-    return {inside, cost};
-  }
+  Vertex at(const Eigen::VectorXd& x) { return {x, cost_(x)}; }
   void sort() {
     std::stable_sort(vertices_.begin(), vertices_.end(),
                      [](const Vertex& a, const Vertex& b) { return a.cost < b.cost; });
@@ -110,46 +94,28 @@ class Simplex {
 
 }  // namespace
 
-DirectSearchResult nelder_mead(const DirectSearchProblem& problem,
+DirectSearchResult nelder_mead(const CostFunction& function,
                                const Eigen::VectorXd& start,
-                               const NelderMeadOptions& options) {
-  CountedCost cost(problem, start.size());
-  if (!start.allFinite()) throw InvalidInput("nelder_mead: the start is not finite");
-  if (!(options.first_edge > 0.0)) {
-    throw InvalidInput(fmt::format("nelder_mead: first_edge is {}; it must be positive", options.first_edge));
-  }
+                               int max_evaluations,
+                               const Progress& progress) {
+  CountedCost cost(function);
   const Coefficients by = coefficients(start.size());
-  Vertex best{cost.clipped(start), 0.0};
-  best.cost = cost(best.x);
-  if (!std::isfinite(best.cost)) throw InvalidInput("nelder_mead: no finite cost at the start");
-
+  Vertex best{start, cost.at_start(start)};
   DirectSearchResult result;
-  Eigen::VectorXd edges = first_edges(cost, best.x, options.first_edge);
+  Eigen::VectorXd edges = first_edges(start);
   double sign = 1.0;
-  for (;; ++result.restarts) {
+  for (int restarts = 0;; ++restarts) {
     const double before = best.cost;
     Simplex simplex(cost, best, edges, sign);
-    while (!simplex.shrunk(edges) && cost.evaluations() < options.max_evaluations) {
-      options.progress.check();
+    while (!simplex.shrunk(edges) && cost.evaluations() < max_evaluations) {
+      progress.check();
       simplex.move(by);
-      ++result.iterations;
     }
     const bool shrunk = simplex.shrunk(edges);
     best = simplex.best();
-    if (!shrunk) {
-      result.termination = Termination::iteration_limit;
-      result.message = fmt::format("not converged after {} evaluations", cost.evaluations());
-      break;
-    }
-    const bool confirmed = result.restarts > 0 && before - best.cost <= kRestartTolerance * std::abs(before);
-    if (confirmed) {
-      result.termination = Termination::converged;
-      result.message = "a fresh simplex found nothing lower";
-      break;
-    }
-    if (result.restarts >= kMostRestarts) {
-      result.termination = Termination::iteration_limit;
-      result.message = fmt::format("still improving after {} restarts of the simplex", result.restarts);
+    const bool confirmed = restarts > 0 && before - best.cost <= kRestartTolerance * std::abs(before);
+    if (!shrunk || confirmed || restarts >= kMostRestarts) {
+      result.termination = shrunk && confirmed ? Termination::converged : Termination::iteration_limit;
       break;
     }
     sign = -sign;  // the next simplex points the other way
