@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,7 +10,7 @@
 #include "myoid/fit/measurement/study_data.h"
 #include "myoid/fit/methods/paper_case.h"
 #include "myoid/ground/core/progress.h"
-#include "myoid/ground/math/multistart.h"
+#include "myoid/ground/math/least_squares.h"
 
 namespace myoid::fit {
 
@@ -28,14 +30,22 @@ struct StartBox {
 /// Returns the root mean square of the unknowns' differences, in spreads.
 [[nodiscard]] double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const StartBox& box);
 
-/// Searches from the given start and Sobol points of the box, in parallel. Two ends are one basin if no unknown differs
-/// by more than 0.04 spreads. The cost has no weights: its variance over `samples` residuals scales it to chi-square.
-/// Throws Interrupted.
-[[nodiscard]] BasinTable find_basins(const math::LocalSearch& search,
-                                     const StartBox& box,
-                                     int starts,
-                                     Eigen::Index samples,
-                                     const Progress& progress = {});
+/// The end of one local search.
+struct LocalMinimum {
+  math::Termination termination = math::Termination::no_descent;
+  Eigen::VectorXd x;
+  double cost = std::numeric_limits<double>::infinity();  ///< Infinite: the start is outside the domain.
+  int evaluations = 0;
+};
+
+/// Descends from `start`. Called from several threads at once.
+using LocalSearch = std::function<LocalMinimum(const Eigen::VectorXd& start)>;
+
+/// Searches from the given start and Sobol points of the box, in parallel; the result does not depend on the number of
+/// threads. Two ends are one basin if no unknown differs by more than 0.04 spreads. The cost has no weights: its
+/// variance over `samples` residuals scales it to chi-square. Throws Interrupted.
+[[nodiscard]] BasinTable find_basins(
+    const LocalSearch& search, const StartBox& box, int starts, Eigen::Index samples, const Progress& progress = {});
 
 /// Returns the minima of the source paper's published criterion for one muscle in one branch.
 /// Empty if every number is held or the case is not fitted (PaperCase::obstacle).

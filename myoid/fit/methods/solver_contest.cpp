@@ -1,7 +1,6 @@
 #include "myoid/fit/methods/solver_contest.h"
 
 #include <chrono>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -14,22 +13,20 @@
 namespace myoid::fit {
 namespace {
 
-using Search = std::function<math::LocalMinimum(const Eigen::VectorXd& start)>;
-
 /// One cost in the forms that the solvers need.
 struct Contestants {
-  Search gauss_newton, levenberg_marquardt;
+  LocalSearch gauss_newton, levenberg_marquardt;
   math::CostFunction cost;
   Eigen::Index samples = 0;  ///< See find_basins.
 };
 
 template <typename Found>
-math::LocalMinimum end_of(const Found& found) {
+LocalMinimum end_of(const Found& found) {
   return {found.termination, found.x, found.cost, found.evaluations};
 }
 
 /// Searches; returns an end without a minimum if the cost is not finite at the start.
-math::LocalMinimum searched(const Search& search, const Eigen::VectorXd& start) {
+LocalMinimum searched(const LocalSearch& search, const Eigen::VectorXd& start) {
   try {
     return search(start);
   } catch (const InvalidInput&) {
@@ -37,7 +34,7 @@ math::LocalMinimum searched(const Search& search, const Eigen::VectorXd& start) 
   }
 }
 
-using Solver = std::pair<const char*, Search>;
+using Solver = std::pair<const char*, LocalSearch>;
 
 /// Returns the four solvers by name; they refer to the arguments.
 std::vector<Solver> solvers_of(const Contestants& who,
@@ -73,7 +70,7 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
       options.progress.check();
       options.progress.tell(static_cast<double>(ends.size()) / total, name);
       const auto begin = std::chrono::steady_clock::now();
-      math::LocalMinimum end = searched(search, starts[s]);
+      LocalMinimum end = searched(search, starts[s]);
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
       result.runs.push_back({.solver = name,
                              .start = static_cast<int>(s),
