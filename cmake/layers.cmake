@@ -53,7 +53,7 @@ set(MYOID_LAYER_page core files)
 set(MYOID_LAYER_phases core math)
 set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics forces measurement
     phases)
-set(MYOID_LAYER_intake core math files tables recording signals model osim kinematics dynamics forces study)
+set(MYOID_LAYER_intake core math files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model osim kinematics dynamics study
     intake)
 set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs measurement

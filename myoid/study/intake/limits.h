@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 namespace myoid::study {
 
 /// Limits hold for the model, its muscles and the weight of a person.
@@ -100,7 +97,8 @@ struct WeightLimits {
 };
 
 /// The thresholds of `check` and `run` for doubtful and wrong inputs and results.
-/// recording/signals/quality_limits.h has the thresholds of single channels. docs/guide/check.md prints both.
+/// recording/signals/quality_limits.h has the thresholds of single channels. docs/guide/check.md prints both
+/// (limits.test.cpp).
 struct PlausibilityLimits {
   ModelLimits model;
   EmgLimits emg;
@@ -125,15 +123,5 @@ struct GateLimits {
   double larger_fold = 1.5;       ///< Ratio of an error to the other folds' median.
 };
 inline constexpr GateLimits kGateLimits;
-
-/// A row of the tables in docs/guide/check.md.
-struct PlausibilityRow {
-  std::string what, level, limit;
-};
-[[nodiscard]] std::vector<PlausibilityRow> plausibility_rows(const PlausibilityLimits& limits = {});
-[[nodiscard]] std::vector<PlausibilityRow> gate_rows(const GateLimits& limits = {});
-
-/// Returns the rows as Markdown.
-[[nodiscard]] std::string markdown(const std::vector<PlausibilityRow>& rows);
 
 }  // namespace myoid::study
