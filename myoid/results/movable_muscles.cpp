@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "myoid/fit/intervals/log_covariance.h"
 #include "myoid/fit/measurement/parameter_fields.h"
 #include "myoid/ground/core/index.h"
 #include "myoid/page/typeset.h"
+#include "myoid/run/log_covariance.h"
 
 namespace myoid::results {
 namespace {
@@ -37,7 +37,7 @@ Eigen::MatrixXd draws_of(const IdentificationResult& fit,
     const std::size_t f = at(numbers[at(k)].field);
     const double found = fit.values.muscles[m][f];
     draws.row(k).setConstant(found);
-    const std::optional<Eigen::Index> row = fit::unknown_of(fit, muscles[m].name, fields[f]);
+    const std::optional<Eigen::Index> row = run::unknown_of(fit, muscles[m].name, fields[f]);
     if (!row || *row >= fit.draws.rows()) continue;
     const std::string& label = fit.free_parameters[at(*row)];
     const std::string first = label.substr(0, label.find_first_of("+."));
@@ -74,7 +74,7 @@ page::MovableMuscle movable(const IdentificationResult& fit,
                                .verdict = std::move(verdict)};
     muscle.numbers.push_back(std::move(number));
   }
-  const Eigen::MatrixXd covariance = fit::log_covariance(fit, setup.name, names);
+  const Eigen::MatrixXd covariance = run::log_covariance(fit, setup.name, names);
   const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
   muscle.correlation = Eigen::MatrixXd::Identity(sd.size(), sd.size());
   for (Eigen::Index i = 0; i < sd.size(); ++i) {

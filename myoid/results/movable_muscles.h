@@ -13,7 +13,7 @@ namespace myoid::results {
 /// - the law's numbers in the order of fit::MuscleField; the literature's are the means
 ///   of the priors, which know the recorded effort, else the starting values;
 /// - the sliders' ranges: half of the lesser of literature and estimate to 1.6 times the greater;
-/// - spread and correlation of the logarithms after the recording (fit::log_covariance);
+/// - spread and correlation of the logarithms after the recording (run::log_covariance);
 /// - the draws of a fit that has them.
 /// Precondition: the fit has values for each muscle.
 void add_movable_muscles(const fit::IdentificationResult& fit,

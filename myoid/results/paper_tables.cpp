@@ -134,13 +134,13 @@ std::vector<Table> paper_tables(const IdentificationResult& method) {
       std::move(searches)};
 }
 
-Table solver_table(const std::vector<fit::SolverContest>& contests) {
+Table solver_table(const std::vector<run::SolverContest>& contests) {
   Table table{.id = "solvers",
               .title = "Solvers of the published criterion: cost [N²], distance from the best minimum",
               .columns = {"fit", "solver", "start", "cost", "distance", "evaluations", "seconds", "termination"}};
   using ground::format_number;
-  for (const fit::SolverContest& contest : contests)
-    for (const fit::SolverRun& run : contest.runs)
+  for (const run::SolverContest& contest : contests)
+    for (const run::SolverRun& run : contest.runs)
       table.rows.push_back(page::text_row(
           {contest.fit, run.solver, fmt::format("{}", run.start), format_number(run.cost), format_number(run.distance),
            fmt::format("{}", run.evaluations), format_number(run.seconds), std::string(math::name(run.termination))}));

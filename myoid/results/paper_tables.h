@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "myoid/fit/intervals/result.h"
-#include "myoid/fit/methods/solver_contest.h"
 #include "myoid/page/report.h"
+#include "myoid/run/solver_contest.h"
 #include "myoid/run/study_fit.h"
 
 namespace myoid::results {
@@ -19,7 +19,7 @@ namespace myoid::results {
 [[nodiscard]] std::vector<page::Table> paper_tables(const fit::IdentificationResult& method);
 
 /// Returns the searches of the solvers that the study compares, with every digit: the content of solvers.csv.
-[[nodiscard]] page::Table solver_table(const std::vector<fit::SolverContest>& contests);
+[[nodiscard]] page::Table solver_table(const std::vector<run::SolverContest>& contests);
 
 /// Returns the section of the report, which is folded. `shared`: force sharing made the forces.
 [[nodiscard]] page::Section paper_section(const run::StudyFit& fit, bool shared);

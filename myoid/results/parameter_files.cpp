@@ -229,7 +229,7 @@ ordered_json phase_json(const std::string& trial, const study::Phase& phase) {
           {"reason", phase.reason}};
 }
 
-ordered_json resting_json(const fit::RestingJoint& joint) {
+ordered_json resting_json(const run::RestingJoint& joint) {
   return {{"joint", joint.joint},
           {"trials", joint.trials},
           {"lowest_rad", joint.torque.lowest_rad},

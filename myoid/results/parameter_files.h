@@ -6,8 +6,8 @@
 
 #include "myoid/fit/intervals/result.h"
 #include "myoid/fit/methods/cross_validation.h"
-#include "myoid/fit/methods/resting_torque.h"
 #include "myoid/ground/core/provenance.h"
+#include "myoid/run/resting_torque.h"
 #include "myoid/run/study_result.h"
 #include "myoid/study/phases/phases.h"
 
@@ -28,7 +28,7 @@ namespace myoid::results {
 /// The content of parameters.json beyond the estimates and the folds.
 struct ParameterContext {
   std::vector<study::TrialPhases> phases;
-  std::vector<fit::RestingJoint> resting;
+  std::vector<run::RestingJoint> resting;
   std::string left_out = "trial";  ///< Kind of a fold, if there are folds: trial, condition, block.
   std::string starting_values;     ///< Starting values from the literature, as a sentence; empty: none.
 };

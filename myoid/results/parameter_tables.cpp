@@ -68,8 +68,8 @@ Cell truth_cell(const run::StudyResult& result, const ParameterEstimate& e) {
 std::string measured_at_rest(const run::StudyResult& result) {
   constexpr double kDegrees = 180.0 / kPi;
   std::string text;
-  for (const fit::RestingJoint& joint : result.resting) {
-    const fit::RestingTorque& torque = joint.torque;
+  for (const run::RestingJoint& joint : result.resting) {
+    const run::RestingTorque& torque = joint.torque;
     text += fmt::format(
         " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. It is part of every "
         "torque predicted, and the joint's numbers here come on top of it.",

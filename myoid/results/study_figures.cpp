@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/fit/intervals/log_covariance.h"
 #include "myoid/ground/core/index.h"
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/run/log_covariance.h"
 #include "myoid/study/study_ids.h"
 
 namespace myoid::results {
@@ -144,7 +144,7 @@ Figure muscle_curves(const run::StudyResult& result, const IdentificationResult&
   const MuscleVersions of{.literature = setup.start,
                           .identified = method.muscles[m],
                           .truth = true_muscle(result, setup),
-                          .log_covariance = fit::log_covariance(method, setup.name, names)};
+                          .log_covariance = run::log_covariance(method, setup.name, names)};
   const VisitedRange range = visited(result.fit_input.data, m);
   Figure figure{"curves_" + setup.name,
                 fmt::format("{}: force-length and force-velocity relations", setup.name),

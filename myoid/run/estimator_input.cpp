@@ -20,7 +20,7 @@ namespace {
 
 /// Adds angle, speed and acceleration of a joint and its resting torque, as far as the angle is known.
 void add_motion(const body::JointMotion& motion,
-                const std::vector<fit::RestingJoint>& resting,
+                const std::vector<RestingJoint>& resting,
                 const std::string& name,
                 auto& joint) {
   joint.resting_nm = resting_torque_nm(resting, name, motion.q);
@@ -41,7 +41,7 @@ fit::TrialData trial_data(const study::Study& study,
                           const TrialResult& trial,
                           const TimeSeries& activation,
                           const std::vector<body::MuscleGroup>& groups,
-                          const std::vector<fit::RestingJoint>& resting) {
+                          const std::vector<RestingJoint>& resting) {
   fit::TrialData data;
   data.name = trial.spec.name;
   data.calibration = study.fits(spec);

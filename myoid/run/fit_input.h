@@ -7,9 +7,9 @@
 #include "myoid/body/model/body_model.h"
 #include "myoid/fit/measurement/options.h"
 #include "myoid/fit/measurement/study_data.h"
-#include "myoid/fit/methods/resting_torque.h"
 #include "myoid/ground/core/progress.h"
 #include "myoid/ground/core/time_series.h"
+#include "myoid/run/resting_torque.h"
 #include "myoid/run/trial_result.h"
 #include "myoid/study/intake/study_activation.h"
 #include "myoid/study/phases/phases.h"
@@ -22,7 +22,7 @@ struct FitSource {
   const study::Study& study;  ///< With the uses of the trials.
   const body::BodyModel& model;
   const std::vector<TrialResult>& trials;
-  const std::vector<fit::RestingJoint>& resting;
+  const std::vector<RestingJoint>& resting;
   std::vector<const TimeSeries*> activation;  ///< One per trial; empty series: no EMG.
   const study::EmgScale& scale;               ///< Scale of `activation`.
 };

@@ -11,8 +11,6 @@
 
 namespace myoid::run {
 
-using fit::RestingJoint;
-
 namespace {
 
 /// Returns the torque of all the joint's muscles together: sum of the largest |r| times F_max.
@@ -37,14 +35,14 @@ std::string too_strong(const study::Study& study, const body::BodyModel& model, 
     const std::string& name = coordinates[j];
     const Eigen::VectorXd torque = trial.muscle_torque->values().col(static_cast<Eigen::Index>(j));
     const double largest = torque.cwiseAbs().maxCoeff();
-    const double beside = fit::beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
+    const double beside = beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
     const double strength = strength_nm(study, model, trial, name);
     const double limit = study::kLimits.joints.resting_share * strength;
-    if (beside <= limit && largest <= limit + fit::kLargestWeight_nm) continue;
+    if (beside <= limit && largest <= limit + kLargestWeight_nm) continue;
     return fmt::format(
         "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than {:g} % of its muscles' strength ({:.0f} N m) "
         "and {:g} N m of weight: no relaxed joint resists that much; N mm, or the instrument's offset?",
-        name, largest, beside, 100.0 * study::kLimits.joints.resting_share, strength, fit::kLargestWeight_nm);
+        name, largest, beside, 100.0 * study::kLimits.joints.resting_share, strength, kLargestWeight_nm);
   }
   return {};
 }
@@ -106,7 +104,7 @@ RestingJoints resting_joints(const study::Study& study,
       torque = joined(torque, trial->muscle_torque->values().col(static_cast<Eigen::Index>(j)));
       joint.trials.push_back(trial->spec->name);
     }
-    const auto fit = fit::fit_resting_torque(angle, velocity, torque);
+    const auto fit = fit_resting_torque(angle, velocity, torque);
     if (!fit) continue;
     joint.torque = *fit;
     found.joints.push_back(std::move(joint));

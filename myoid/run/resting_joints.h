@@ -6,9 +6,9 @@
 
 #include "myoid/body/kinematics/muscle_kinematics.h"
 #include "myoid/body/model/body_model.h"
-#include "myoid/fit/methods/resting_torque.h"
 #include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
+#include "myoid/run/resting_torque.h"
 #include "myoid/study/study.h"
 
 namespace myoid::run {
@@ -26,7 +26,7 @@ struct RelaxedTrial {
 };
 
 struct RestingJoints {
-  std::vector<fit::RestingJoint> joints;
+  std::vector<RestingJoint> joints;
   std::vector<Remark> remarks;  ///< `where` is the trial.
 };
 
@@ -34,7 +34,7 @@ struct RestingJoints {
 /// all trials together, joint by joint. The muscles must be at rest. A trial is left out, with a
 /// warning of its own, if an EMG channel is on average above 2 % of its maximal contraction (5 % of
 /// its greatest EMG if there is none), if the torque beside a weight's
-/// (`fit::beside_weight`) exceeds a quarter of the capacity of the joint's muscles (sum of the largest |r|
+/// (`beside_weight`) exceeds a quarter of the capacity of the joint's muscles (sum of the largest |r|
 /// times F_max), or if the whole torque exceeds this quarter plus 25 N m of weight: no relaxed joint resists that much
 /// within its range. A trial without EMG counts as relaxed, with a note. A trial without measured torque is not used.
 [[nodiscard]] RestingJoints resting_joints(const study::Study& study,
@@ -43,7 +43,7 @@ struct RestingJoints {
 
 /// Returns the resting torque of a coordinate at the angles of `q`, one per sample; empty if it was not measured.
 /// Throws InvalidInput if it was and `q` lacks the angle.
-[[nodiscard]] Eigen::VectorXd resting_torque_nm(const std::vector<fit::RestingJoint>& joints,
+[[nodiscard]] Eigen::VectorXd resting_torque_nm(const std::vector<RestingJoint>& joints,
                                                 const std::string& coordinate,
                                                 const TimeSeries& q);
 

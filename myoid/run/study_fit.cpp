@@ -45,10 +45,10 @@ namespace {
 /// Compares the solvers of method `paper`, whose result is the last; their minima join its basins.
 void compare_solvers(
     std::optional<int> starts, const FitInput& input, std::uint64_t seed, const Progress& progress, StudyFit& found) {
-  fit::ContestOptions options{.seed = seed, .progress = progress};
+  ContestOptions options{.seed = seed, .progress = progress};
   options.starts = starts.value_or(options.starts);
-  found.contests = fit::solver_contests(input.data, options);
-  for (const fit::SolverContest& contest : found.contests) {
+  found.contests = solver_contests(input.data, options);
+  for (const SolverContest& contest : found.contests) {
     if (contest.runs.empty()) continue;
     found.methods.back().basins.push_back(contest.basins);
     found.methods.back().basins.back().fit = contest.fit + ", Levenberg-Marquardt";

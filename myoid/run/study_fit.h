@@ -8,10 +8,10 @@
 #include "myoid/fit/intervals/result.h"
 #include "myoid/fit/methods/exchanged_electrodes.h"
 #include "myoid/fit/methods/shifted_emg.h"
-#include "myoid/fit/methods/solver_contest.h"
 #include "myoid/ground/core/progress.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/informed_forces.h"
+#include "myoid/run/solver_contest.h"
 
 namespace myoid::run {
 
@@ -20,8 +20,8 @@ struct StudyFit {
   std::vector<fit::IdentificationResult> methods;
   /// Two channels that fit better with exchanged names.
   std::optional<fit::ExchangedElectrodes> exchanged;
-  std::optional<fit::ShiftedEmg> shifted;    ///< EMG on another clock than the torque.
-  std::vector<fit::SolverContest> contests;  ///< Solvers of method `paper`, if the study compares them.
+  std::optional<fit::ShiftedEmg> shifted;  ///< EMG on another clock than the torque.
+  std::vector<SolverContest> contests;     ///< Solvers of method `paper`, if the study compares them.
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
   std::vector<InformedForces> informed;

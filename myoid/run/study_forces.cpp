@@ -114,10 +114,10 @@ body::MuscleForces given_forces(const TimeSeries& given, const Eigen::VectorXd& 
   return forces;
 }
 
-std::vector<fit::RestingJoint> find_resting(const StudyInputs& inputs,
-                                            const study::StudyActivation& activation,
-                                            const std::vector<TrialMotion>& motion,
-                                            std::vector<TrialForces>& forces) {
+std::vector<RestingJoint> find_resting(const StudyInputs& inputs,
+                                       const study::StudyActivation& activation,
+                                       const std::vector<TrialMotion>& motion,
+                                       std::vector<TrialForces>& forces) {
   std::vector<RelaxedTrial> trials;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const study::TrialSpec& spec = inputs.source.study.trials[i];
@@ -171,7 +171,7 @@ body::MuscleForces shared_forces(const study::Study& study,
                                  const study::TrialInput& input,
                                  const TrialMotion& motion,
                                  const TrialForces& torques,
-                                 const std::vector<fit::RestingJoint>& resting,
+                                 const std::vector<RestingJoint>& resting,
                                  std::vector<Remark>& remarks) {
   const Eigen::VectorXd& time_s = motion.joints.q.time_s();
   if (input.given.forces) return given_forces(*input.given.forces, time_s);
@@ -218,7 +218,7 @@ StudyForces study_forces(const StudyInputs& inputs,
     // The passive trials give the resting torques, so in them the muscles share the whole torque.
     const bool passive = study.trials[i].use == study::Use::passive;
     trial.shared = shared_forces(study, inputs.trials[i], motion[i], trial,
-                                 passive ? std::vector<fit::RestingJoint>{} : found.resting, trial.remarks);
+                                 passive ? std::vector<RestingJoint>{} : found.resting, trial.remarks);
     progress.tell(++done / (2.0 * static_cast<double>(motion.size())), study.trials[i].name);
   });
   return found;

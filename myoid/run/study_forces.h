@@ -7,9 +7,9 @@
 #include "myoid/body/dynamics/ground_support.h"
 #include "myoid/body/forces/force_sharing.h"
 #include "myoid/body/kinematics/muscle_kinematics.h"
-#include "myoid/fit/methods/resting_torque.h"
 #include "myoid/ground/core/remark.h"
 #include "myoid/ground/core/time_series.h"
+#include "myoid/run/resting_torque.h"
 #include "myoid/run/study_inputs.h"
 #include "myoid/run/trial_motion.h"
 #include "myoid/study/intake/study_activation.h"
@@ -31,7 +31,7 @@ struct TrialForces {
 /// The forces of all trials, in the study's order.
 struct StudyForces {
   std::vector<TrialForces> trials;
-  std::vector<fit::RestingJoint> resting;  ///< Joints whose passive torque was measured.
+  std::vector<RestingJoint> resting;  ///< Joints whose passive torque was measured.
 };
 
 /// Computes inverse dynamics and muscle paths of one trial, without sharing. Columns that the trial gives are taken
@@ -49,7 +49,7 @@ struct StudyForces {
                                                const study::TrialInput& input,
                                                const TrialMotion& motion,
                                                const TrialForces& torques,
-                                               const std::vector<fit::RestingJoint>& resting,
+                                               const std::vector<RestingJoint>& resting,
                                                std::vector<Remark>& remarks);
 
 /// Computes the torques of all trials, then the resting joints from the passive ones, then, if

@@ -24,15 +24,15 @@ struct StageTime {
 
 /// All results of a run, stage by stage. The writers of files and reports receive this struct.
 struct StudyResult {
-  std::optional<double> start_s, end_s;    ///< As in RunOptions.
-  StudySource source;                      ///< read
-  std::vector<TrialResult> trials;         ///< read, activation, motion, forces; in the study's order.
-  study::EmgScale emg;                     ///< activation
-  std::vector<Remark> level_faults;        ///< findings: about EMG channels, over all trials.
-  std::vector<fit::RestingJoint> resting;  ///< forces
-  FitInput fit_input;                      ///< data
-  StudyFit fit;                            ///< fit
-  std::vector<fit::Fold> folds;            ///< validation
+  std::optional<double> start_s, end_s;  ///< As in RunOptions.
+  StudySource source;                    ///< read
+  std::vector<TrialResult> trials;       ///< read, activation, motion, forces; in the study's order.
+  study::EmgScale emg;                   ///< activation
+  std::vector<Remark> level_faults;      ///< findings: about EMG channels, over all trials.
+  std::vector<RestingJoint> resting;     ///< forces
+  FitInput fit_input;                    ///< data
+  StudyFit fit;                          ///< fit
+  std::vector<fit::Fold> folds;          ///< validation
   /// Movements that would determine more; empty without method torque, or if none is asked for.
   std::optional<DesignStudyResult> next;
   /// Not the same on another day and computer, and empty where results have to be.

@@ -1,4 +1,4 @@
-#include "myoid/fit/methods/solver_contest.h"
+#include "myoid/run/solver_contest.h"
 
 #include <chrono>
 #include <limits>
@@ -10,23 +10,23 @@
 #include "myoid/ground/math/nelder_mead.h"
 #include "myoid/ground/math/simulated_annealing.h"
 
-namespace myoid::fit {
+namespace myoid::run {
 namespace {
 
 /// One cost in the forms that the solvers need.
 struct Contestants {
-  LocalSearch gauss_newton, levenberg_marquardt;
+  fit::LocalSearch gauss_newton, levenberg_marquardt;
   math::CostFunction cost;
-  Eigen::Index samples = 0;  ///< See find_basins.
+  Eigen::Index samples = 0;  ///< See fit::find_basins.
 };
 
 template <typename Found>
-LocalMinimum end_of(const Found& found) {
+fit::LocalMinimum end_of(const Found& found) {
   return {found.termination, found.x, found.cost, found.evaluations};
 }
 
 /// Searches; returns an end without a minimum if the cost is not finite at the start.
-LocalMinimum searched(const LocalSearch& search, const Eigen::VectorXd& start) {
+fit::LocalMinimum searched(const fit::LocalSearch& search, const Eigen::VectorXd& start) {
   try {
     return search(start);
   } catch (const InvalidInput&) {
@@ -34,11 +34,11 @@ LocalMinimum searched(const LocalSearch& search, const Eigen::VectorXd& start) {
   }
 }
 
-using Solver = std::pair<const char*, LocalSearch>;
+using Solver = std::pair<const char*, fit::LocalSearch>;
 
 /// Returns the four solvers by name; they refer to the arguments.
 std::vector<Solver> solvers_of(const Contestants& who,
-                               const StartBox& box,
+                               const fit::StartBox& box,
                                const ContestOptions& options,
                                const Progress& stop) {
   const auto simplex = [&](const Eigen::VectorXd& x) {
@@ -57,8 +57,8 @@ std::vector<Solver> solvers_of(const Contestants& who,
           {"simulated_annealing", annealing}};
 }
 
-SolverContest contest(const Contestants& who, const StartBox& box, const ContestOptions& options) {
-  const std::vector<Eigen::VectorXd> starts = starts_in(box, options.starts);
+SolverContest contest(const Contestants& who, const fit::StartBox& box, const ContestOptions& options) {
+  const std::vector<Eigen::VectorXd> starts = fit::starts_in(box, options.starts);
   const Progress stop{{}, options.progress.stop};
   const std::vector<Solver> solvers = solvers_of(who, box, options, stop);
   SolverContest result;
@@ -70,7 +70,7 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
       options.progress.check();
       options.progress.tell(static_cast<double>(ends.size()) / total, name);
       const auto begin = std::chrono::steady_clock::now();
-      LocalMinimum end = searched(search, starts[s]);
+      fit::LocalMinimum end = searched(search, starts[s]);
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
       result.runs.push_back({.solver = name,
                              .start = static_cast<int>(s),
@@ -82,8 +82,8 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
     }
   }
   options.progress.tell(static_cast<double>(ends.size()) / total, "searching from many starts");
-  result.basins = find_basins([&](const Eigen::VectorXd& x) { return searched(who.levenberg_marquardt, x); }, box,
-                              options.basin_starts, who.samples, stop);
+  result.basins = fit::find_basins([&](const Eigen::VectorXd& x) { return searched(who.levenberg_marquardt, x); }, box,
+                                   options.basin_starts, who.samples, stop);
 
   Eigen::VectorXd best = box.given;
   result.best_cost = std::numeric_limits<double>::infinity();
@@ -92,36 +92,36 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
     result.best_cost = cost;
     best = x;
   };
-  for (const BasinRow& basin : result.basins.basins) take(basin.cost, basin.x);
+  for (const fit::BasinRow& basin : result.basins.basins) take(basin.cost, basin.x);
   for (std::size_t i = 0; i < ends.size(); ++i) take(result.runs[i].cost, ends[i]);
-  for (std::size_t i = 0; i < ends.size(); ++i) result.runs[i].distance = distance(ends[i], best, box);
+  for (std::size_t i = 0; i < ends.size(); ++i) result.runs[i].distance = fit::distance(ends[i], best, box);
   return result;
 }
 
 }  // namespace
 
-SolverContest compare_paper_solvers(const StudyData& data,
+SolverContest compare_paper_solvers(const fit::StudyData& data,
                                     std::size_t muscle,
                                     bool shortening,
                                     const ContestOptions& options) {
-  const PaperCase samples = paper_case(data, muscle, shortening);
-  const StartBox box = start_box(samples, data.muscles[muscle]);
+  const fit::PaperCase samples = fit::paper_case(data, muscle, shortening);
+  const fit::StartBox box = fit::start_box(samples, data.muscles[muscle]);
   const auto p = box.given.size();
   if (p == 0 || static_cast<Eigen::Index>(samples.samples.size()) < p) return {.fit = samples.name()};
   const math::LeastSquaresProblem problem = samples.problem();
   const Progress stop{{}, options.progress.stop};
-  SolverContest result =
-      contest({.gauss_newton = [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
-               .levenberg_marquardt =
-                   [&](const Eigen::VectorXd& x) { return end_of(math::minimize(problem, x, {.progress = stop})); },
-               .cost = math::cost_of(problem),
-               .samples = problem.residual_count},
-              box, options);
+  SolverContest result = contest(
+      {.gauss_newton = [&](const Eigen::VectorXd& x) { return end_of(fit::search_as_published(samples, x, stop)); },
+       .levenberg_marquardt =
+           [&](const Eigen::VectorXd& x) { return end_of(math::minimize(problem, x, {.progress = stop})); },
+       .cost = math::cost_of(problem),
+       .samples = problem.residual_count},
+      box, options);
   result.fit = samples.name();
   return result;
 }
 
-std::vector<SolverContest> solver_contests(const StudyData& data, const ContestOptions& options) {
+std::vector<SolverContest> solver_contests(const fit::StudyData& data, const ContestOptions& options) {
   std::vector<SolverContest> contests;
   const auto total = static_cast<double>(2 * data.muscles.size());
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
@@ -137,4 +137,4 @@ std::vector<SolverContest> solver_contests(const StudyData& data, const ContestO
   return contests;
 }
 
-}  // namespace myoid::fit
+}  // namespace myoid::run

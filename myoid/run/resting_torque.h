@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace myoid::fit {
+namespace myoid::run {
 
 /// The measured torque of a joint while its muscles are at rest. It comes from ligaments, skin and stretched fibers,
 /// from the weight of limb and instrument (a dynamometer's plate and lever) if the model does not include it, and from
@@ -54,4 +54,4 @@ struct RestingJoint {
                                                               const Eigen::VectorXd& velocity_radps,
                                                               const Eigen::VectorXd& torque_nm);
 
-}  // namespace myoid::fit
+}  // namespace myoid::run

@@ -1,4 +1,4 @@
-#include "myoid/fit/methods/resting_torque.h"
+#include "myoid/run/resting_torque.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "myoid/fit/beliefs/beliefs.h"
 #include "myoid/ground/math/decompositions.h"
 
-namespace myoid::fit {
+namespace myoid::run {
 namespace {
 
 constexpr int kHighestDegree = 5;
@@ -45,12 +45,12 @@ double position(const RestingTorque& torque, double angle_rad) {
 Eigen::Vector3d nearest_sine(const Eigen::VectorXd& angle_rad, const Eigen::VectorXd& torque_nm) {
   if (angle_rad.maxCoeff() - angle_rad.minCoeff() < kWeightRange_rad) return {torque_nm.mean(), 0.0, 0.0};
   const Eigen::Index n = angle_rad.size();
-  const double weight = std::sqrt(kIndependent / static_cast<double>(n)) / beliefs::kRestingTissue.sd;
+  const double weight = std::sqrt(kIndependent / static_cast<double>(n)) / fit::beliefs::kRestingTissue.sd;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + 2, 3);
   columns.col(0).head(n).setConstant(weight);
   columns.col(1).head(n) = weight * angle_rad.array().sin();
   columns.col(2).head(n) = weight * angle_rad.array().cos();
-  columns(n, 1) = columns(n + 1, 2) = 1.0 / beliefs::kRestingWeight.sd;
+  columns(n, 1) = columns(n + 1, 2) = 1.0 / fit::beliefs::kRestingWeight.sd;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 2);
   right.head(n) = weight * torque_nm;
   return math::nearest_solution(columns, right);
@@ -105,4 +105,4 @@ std::optional<RestingTorque> fit_resting_torque(const Eigen::VectorXd& angle_rad
   return result;
 }
 
-}  // namespace myoid::fit
+}  // namespace myoid::run

@@ -1,4 +1,4 @@
-#include "myoid/fit/methods/resting_torque.h"
+#include "myoid/run/resting_torque.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 
 #include "tests/support/data_folder.h"
 
-namespace myoid::fit {
+namespace myoid::run {
 namespace {
 
 /// A joint moved from `low` to `high` and back, n samples.
@@ -182,4 +182,4 @@ TEST(RestingTorque, TheResidualIsTheRootMeanSquareOfWhatIsLeft) {
 }
 
 }  // namespace
-}  // namespace myoid::fit
+}  // namespace myoid::run

@@ -1,19 +1,19 @@
-#include "myoid/fit/intervals/log_covariance.h"
+#include "myoid/run/log_covariance.h"
 
 #include <gtest/gtest.h>
 
-namespace myoid::fit {
+namespace myoid::run {
 namespace {
 
 TEST(LogCovariance, TakesReportedSpreadsAndTheCorrelationOfTheFit) {
-  IdentificationResult fit;
+  fit::IdentificationResult fit;
   fit.free_parameters = {"BRA.optimal_fiber_length", "BIC.optimal_fiber_length", "TRI+BIC.max_isometric_force"};
   fit.covariance = Eigen::Matrix3d::Identity();
   fit.covariance(1, 1) = 4.0;
   fit.covariance(2, 2) = 9.0;
   fit.covariance(1, 2) = fit.covariance(2, 1) = 3.0;  // a correlation of 3 / (2 * 3)
   const auto add = [&](const char* name, double estimate, double error) {
-    ParameterEstimate e;
+    fit::ParameterEstimate e;
     e.muscle = "BIC";
     e.parameter = name;
     e.estimate = estimate;
@@ -35,4 +35,4 @@ TEST(LogCovariance, TakesReportedSpreadsAndTheCorrelationOfTheFit) {
 }
 
 }  // namespace
-}  // namespace myoid::fit
+}  // namespace myoid::run

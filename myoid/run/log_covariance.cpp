@@ -1,13 +1,13 @@
-#include "myoid/fit/intervals/log_covariance.h"
+#include "myoid/run/log_covariance.h"
 
 #include <cmath>
 
-namespace myoid::fit {
+namespace myoid::run {
 namespace {
 
 /// Returns the reported standard error over the estimate; 0 without one.
-double relative_error(const IdentificationResult& method, std::string_view muscle, std::string_view parameter) {
-  for (const ParameterEstimate& e : method.estimates) {
+double relative_error(const fit::IdentificationResult& method, std::string_view muscle, std::string_view parameter) {
+  for (const fit::ParameterEstimate& e : method.estimates) {
     if (e.muscle == muscle && e.parameter == parameter && e.std_error && e.estimate != 0.0)
       return *e.std_error / std::abs(e.estimate);
   }
@@ -16,7 +16,7 @@ double relative_error(const IdentificationResult& method, std::string_view muscl
 
 }  // namespace
 
-std::optional<Eigen::Index> unknown_of(const IdentificationResult& method,
+std::optional<Eigen::Index> unknown_of(const fit::IdentificationResult& method,
                                        std::string_view muscle,
                                        std::string_view parameter) {
   for (std::size_t k = 0; k < method.free_parameters.size(); ++k) {
@@ -34,7 +34,7 @@ std::optional<Eigen::Index> unknown_of(const IdentificationResult& method,
   return std::nullopt;
 }
 
-Eigen::MatrixXd log_covariance(const IdentificationResult& method,
+Eigen::MatrixXd log_covariance(const fit::IdentificationResult& method,
                                const std::string& muscle,
                                const std::vector<std::string>& names) {
   const auto n = static_cast<Eigen::Index>(names.size());
@@ -57,4 +57,4 @@ Eigen::MatrixXd log_covariance(const IdentificationResult& method,
   return covariance;
 }
 
-}  // namespace myoid::fit
+}  // namespace myoid::run

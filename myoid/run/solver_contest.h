@@ -8,7 +8,7 @@
 #include "myoid/fit/methods/basins.h"
 #include "myoid/ground/core/progress.h"
 
-namespace myoid::fit {
+namespace myoid::run {
 
 /// One search by one solver from one start.
 struct SolverRun {
@@ -26,7 +26,7 @@ struct SolverContest {
   std::string fit;  ///< PaperCase::name
   std::vector<SolverRun> runs;
   double best_cost = 0.0;
-  BasinTable basins;  ///< Minima found by Levenberg-Marquardt.
+  fit::BasinTable basins;  ///< Minima found by Levenberg-Marquardt.
 };
 
 struct ContestOptions {
@@ -41,12 +41,12 @@ struct ContestOptions {
 /// branch (paper_case.h), without weights, priors or bounds, from the same starts. Gauss-Newton takes the paper's plain
 /// steps; annealing begins with steps as wide as the box of the starts. Costs are in N^2. No runs if the branch has
 /// fewer samples than unknowns, or all numbers are held. Throws Interrupted.
-[[nodiscard]] SolverContest compare_paper_solvers(const StudyData& data,
+[[nodiscard]] SolverContest compare_paper_solvers(const fit::StudyData& data,
                                                   std::size_t muscle,
                                                   bool shortening,
                                                   const ContestOptions& options = {});
 
 /// Runs every solver on all fits of method `paper`. Throws Interrupted.
-[[nodiscard]] std::vector<SolverContest> solver_contests(const StudyData& data, const ContestOptions& options);
+[[nodiscard]] std::vector<SolverContest> solver_contests(const fit::StudyData& data, const ContestOptions& options);
 
-}  // namespace myoid::fit
+}  // namespace myoid::run

@@ -1,4 +1,4 @@
-#include "myoid/fit/methods/solver_contest.h"
+#include "myoid/run/solver_contest.h"
 
 #include <atomic>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "tests/support/elbow_study.h"
 
-namespace myoid::fit {
+namespace myoid::run {
 namespace {
 
 using test::elbow_study;
@@ -22,7 +22,7 @@ ElbowStudy noisy_forces() {
   test::StudyNoise noise(3);
   for (std::size_t k = 0; k < 4; ++k)
     study.data.muscles[k].start.max_isometric_force_n = study.truth[k].max_isometric_force_n;
-  for (TrialData& trial : study.data.trials) {
+  for (fit::TrialData& trial : study.data.trials) {
     for (Eigen::Index k = 0; k < 4; ++k) trial.force_n.col(k) += 2.0 * noise.band(trial.time_s.size(), 6.0, 100.0);
   }
   return study;
@@ -30,7 +30,7 @@ ElbowStudy noisy_forces() {
 
 TEST(SolverContest, GaussNewtonOfThePublishedMethodIsTheMethodItself) {
   const ElbowStudy study = noisy_forces();
-  const IdentificationResult paper = identify_paper(study.data, {.muscles = {"BIC"}});
+  const fit::IdentificationResult paper = fit::identify_paper(study.data, {.muscles = {"BIC"}});
   const SolverContest c = compare_paper_solvers(study.data, 0, true, {.starts = 1, .direct_evaluations = 3000});
   ASSERT_EQ(c.runs.size(), 4U);
   ASSERT_EQ(c.runs[0].solver, "gauss_newton");
@@ -39,7 +39,7 @@ TEST(SolverContest, GaussNewtonOfThePublishedMethodIsTheMethodItself) {
   // the samples of this branch.
   double cost = 0.0;
   for (std::size_t t = 0; t < study.data.trials.size(); ++t) {
-    const TrialData& trial = study.data.trials[t];
+    const fit::TrialData& trial = study.data.trials[t];
     for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
       if (trial.velocity_mps(i, 0) <= 0.0)
         cost += 0.5 * std::pow(paper.trials[t].force_fit_n(i, 0) - trial.force_n(i, 0), 2);
@@ -93,4 +93,4 @@ TEST(SolverContest, TellsItsProgressAndStopsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace myoid::fit
+}  // namespace myoid::run
