@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/fit/intervals/score.h"
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/methods/cross_validation.h"
 #include "myoid/fit/methods/prediction.h"
@@ -20,7 +19,6 @@
 namespace myoid::fit {
 namespace {
 
-constexpr double kCutoff_hz = 1.5;
 constexpr double kFar = 2.0;           // standard deviations of a muscle's number
 constexpr std::size_t kMostPairs = 4;  // that are tried
 
@@ -51,50 +49,6 @@ std::string ExchangedElectrodes::sentence() const {
       "with '{}' and '{}' exchanged the recording is 10^{:.0f} times as probable: were the electrodes plugged in or "
       "labelled the wrong way round?",
       first, second, log_odds / std::numbers::ln10);
-}
-
-LabelFit fit_of_labels(const StudyData& data, double lead_s) {
-  std::vector<muscle::HillParameters<double>> literature;
-  for (const MuscleSetup& setup : data.muscles) literature.push_back(setup.start);
-  std::vector<std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>>> trials;  // measured and predicted, by joint
-  double product = 0.0, square = 0.0, sum = 0.0, total = 0.0, count = 0.0;
-  for (const TrialData& whole : data.trials) {
-    if (!whole.calibration) continue;
-    trials.emplace_back();
-    for (std::size_t j = 0; j < joint_count(whole); ++j) {
-      const TrialData trial = of_joint(whole, j);
-      const std::vector<Eigen::Index> rows = included_rows(trial);
-      if (rows.empty()) continue;
-      // No electrode shows the resting torque of the joint.
-      const Eigen::VectorXd resting = resting_torque_nm(trial);
-      const Eigen::VectorXd torque = predict(data, trial, literature, lead_s).torque_nm - resting;
-      const auto& [measured, predicted] =
-          trials.back().emplace_back(below(trial.time_s, trial.torque_nm - resting, kCutoff_hz)(rows),
-                                     below(trial.time_s, torque, kCutoff_hz)(rows));
-      product += predicted.dot(measured);
-      square += predicted.squaredNorm();
-      sum += measured.sum();
-      total += measured.squaredNorm();
-      count += static_cast<double>(rows.size());
-    }
-  }
-  LabelFit fit;
-  if (!(count > 0.0)) return fit;
-  const double gain = square > 0.0 ? std::max(0.0, product / square) : 0.0;
-  total -= sum * sum / count;  // about the mean
-  double errors = 0.0;
-  for (const auto& trial : trials) {
-    double of_trial = 0.0, samples = 0.0;
-    for (const auto& [measured, predicted] : trial) {
-      of_trial += (measured - gain * predicted).squaredNorm();
-      samples += static_cast<double>(measured.size());
-    }
-    errors += of_trial;
-    fit.trial_rms_nm.push_back(samples > 0.0 ? std::sqrt(of_trial / samples) : 0.0);
-  }
-  fit.rms_nm = std::sqrt(errors / count);
-  fit.r2 = total > 0.0 ? 1.0 - errors / total : 0.0;
-  return fit;
 }
 
 std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data,

@@ -10,17 +10,6 @@
 
 namespace myoid::fit {
 
-/// Error of the literature's muscles in the torque of a study's calibration trials, with one best
-/// gain, both sides below 1.5 Hz, all joints together.
-struct LabelFit {
-  double rms_nm = 0.0;
-  double r2 = 0.0;                   ///< 1 - SSE/SST about the mean of all trials.
-  std::vector<double> trial_rms_nm;  ///< One per calibration trial.
-};
-
-/// Returns the fit with the EMG `lead_s` before the torque.
-[[nodiscard]] LabelFit fit_of_labels(const StudyData& data, double lead_s);
-
 /// Two EMG channels whose exchange makes the recording far more probable.
 struct ExchangedElectrodes {
   std::string first, second;

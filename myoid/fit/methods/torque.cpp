@@ -7,7 +7,7 @@
 
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/measurement/told_by_motion.h"
-#include "myoid/fit/methods/late_emg.h"
+#include "myoid/fit/methods/emg_clock.h"
 #include "myoid/fit/methods/plain_fit.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/posterior/drive.h"

@@ -30,7 +30,7 @@ namespace myoid::fit {
                                                                    const EstimatorOptions& options = {});
 
 /// Returns the caps that the data themselves put on a fit's verdicts, and warns of each in the result: motion alone
-/// tells the torque (told_by_motion_alone, VerdictRules::motion_alone), or the EMG is late (late_emg.h).
+/// tells the torque (told_by_motion_alone, VerdictRules::motion_alone), or the EMG is late (emg_clock.h).
 [[nodiscard]] std::vector<VerdictCap> caps_of_torque(const StudyData& data,
                                                      const EstimatorOptions& options,
                                                      IdentificationResult& result);
