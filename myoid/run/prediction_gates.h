@@ -35,6 +35,11 @@ struct Explained {
 /// Returns the explained share of the trials that are left out in turn.
 [[nodiscard]] Explained explained(const std::vector<fit::Fold>& folds);
 
+/// Returns a sentence with the numbers if left-out trials are predicted much worse than fitted
+/// ones, otherwise an empty text. Samples of one movement share the model's error, which more
+/// samples of it do not average out: the fit then follows this error, away from the priors.
+[[nodiscard]] std::string generalises_badly(const std::vector<fit::Fold>& folds);
+
 /// A left-out trial with a prediction error that chance does not explain.
 struct OutlyingFold {
   std::string trial, joint;

@@ -165,6 +165,23 @@ TEST(OutlyingFolds, AHeavierTrialThatIsPredictedAsWellIsNone) {
   EXPECT_TRUE(outlying_folds(folds).empty());
 }
 
+TEST(GeneralisesBadly, FitsThatDoNotReachBeyondWhatTheySawAreNamed) {
+  const auto fold = [](const char* name, double seen_nm, double unseen_nm) {
+    Fold f;
+    f.trial = name;
+    f.measured_nm = 4.0 * Eigen::VectorXd::LinSpaced(500, 0.0, 40.0).array().sin();
+    f.fitted = {.n = 1.0, .sse = seen_nm * seen_nm};
+    f.identified = {.n = 1.0, .sse = unseen_nm * unseen_nm};
+    return f;
+  };
+  EXPECT_EQ(generalises_badly({fold("a", 1.0, 1.1), fold("b", 1.0, 1.2)}), "");
+  // Twice as bad, but still most of the torque.
+  EXPECT_EQ(generalises_badly({fold("a", 0.2, 0.6), fold("b", 0.2, 0.6)}), "");
+  const std::string text = generalises_badly({fold("a", 1.0, 2.5), fold("fast", 1.0, 4.0)});
+  EXPECT_NE(text.find("most in 'fast'"), std::string::npos) << text;
+  EXPECT_EQ(generalises_badly({}), "");
+}
+
 TEST(FoldGates, FailWhereTrialsLeftOutArePredictedWorseThanByTheirMean) {
   const char* name = "Predicts torque it has not seen";
   EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 0.5), fold("b", 3.0, 0.6)}), name), GateStatus::pass);

@@ -6,6 +6,7 @@
 #include "myoid/fit/methods/force.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/methods/torque.h"
+#include "myoid/run/prediction_gates.h"
 
 namespace myoid::run {
 namespace {
@@ -69,7 +70,7 @@ StudyValidation study_validation(const FitSource& source,
   (void)fit::splits(input.data, how, &why_not);
   if (!why_not.empty())
     found.remarks.push_back({.says = "nothing was left out of the fit to be predicted: " + why_not});
-  if (std::string bad = fit::generalises_badly(found.folds); !bad.empty())
+  if (std::string bad = generalises_badly(found.folds); !bad.empty())
     found.remarks.push_back({.code = RemarkCode::not_predicted, .says = std::move(bad)});
   return found;
 }

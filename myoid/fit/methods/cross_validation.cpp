@@ -6,7 +6,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/fit/measurement/muscle_activation.h"
@@ -320,43 +319,6 @@ UnseenEffort unseen_effort(const StudyData& data) {
     if (seen > 0.0 && unseen > found.ratio * seen) found = {muscle.emg_channel, unseen / seen};
   }
   return found;
-}
-
-std::string generalises_badly(const std::vector<Fold>& folds) {
-  constexpr double kWorse = 2.0;     // times the error of the fitted trials
-  constexpr double kExplains = 0.5;  // share of the squares from which a prediction is good enough
-  double seen = 0.0, unseen = 0.0, spread = 0.0, worst = 0.0, count = 0.0;
-  std::string where;
-  for (const Fold& f : folds) {
-    const auto n = static_cast<double>(f.measured_nm.size());
-    if (!(f.fitted.rmse_nm() > 0.0) || !std::isfinite(f.identified.rmse_nm()) || n < 2.0) continue;
-    seen += n * std::pow(f.fitted.rmse_nm(), 2);
-    unseen += n * std::pow(f.identified.rmse_nm(), 2);
-    spread += (f.measured_nm.array() - f.measured_nm.mean()).square().sum();
-    count += n;
-    if (f.identified.rmse_nm() / f.fitted.rmse_nm() <= worst) continue;
-    worst = f.identified.rmse_nm() / f.fitted.rmse_nm();
-    where = f.trial;
-  }
-  const bool bad = count > 0.0 && unseen > kWorse * kWorse * seen && unseen > (1.0 - kExplains) * spread;
-  if (!bad) return "";
-  return fmt::format(
-      "left-out data are predicted {:.1f} times worse than fitted data ({:.3g} N m rms instead of {:.3g}; most in "
-      "'{}'). The samples of one movement share the model's error, and many of them pull the numbers along with this "
-      "error, away from the priors. Record other movements (angles, speeds, loads) rather than more of the same, and "
-      "trust neither numbers nor predictions beyond the movements that were fitted",
-      std::sqrt(unseen / seen), std::sqrt(unseen / count), std::sqrt(seen / count), where);
-}
-
-std::string beyond_what_was_fitted(const std::vector<Fold>& folds) {
-  constexpr double kBadly = 0.5, kFar = 1.5;
-  constexpr std::size_t kNamed = 3;
-  std::vector<std::string> found;
-  for (const Fold& f : folds) {
-    if (f.unseen.ratio >= kFar && f.identified.r2() < kBadly && found.size() < kNamed)
-      found.push_back(fmt::format("'{}': {} {:.1f} times", f.trial, f.unseen.channel, f.unseen.ratio));
-  }
-  return fmt::format("{}", fmt::join(found, ", "));
 }
 
 EstimatorOptions of_a_fold(EstimatorOptions options) {

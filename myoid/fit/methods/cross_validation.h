@@ -73,15 +73,6 @@ using SplitFit = std::function<IdentificationResult(StudyData& data, EstimatorOp
                                                const EstimatorOptions& options,
                                                const CrossValidationOptions& how = {});
 
-/// Returns a sentence with the numbers if left-out trials are predicted much worse than fitted
-/// ones, otherwise an empty text. Samples of one movement share the model's error, which more
-/// samples of it do not average out: the fit then follows this error, away from the priors.
-[[nodiscard]] std::string generalises_badly(const std::vector<Fold>& folds);
-
-/// Names the folds that are predicted badly (R2 below 0.5) and whose EMG reaches at least 1.5 times
-/// that of the fitted trials: "'fast': biceps 2.8 times". Empty if there are none.
-[[nodiscard]] std::string beyond_what_was_fitted(const std::vector<Fold>& folds);
-
 /// Returns the options of a fold's fit: the reported fit's without intervals, tables and progress.
 [[nodiscard]] EstimatorOptions of_a_fold(EstimatorOptions options);
 
