@@ -99,6 +99,8 @@ std::string without_width(Finding finding, const NumberFacts& facts) {
   }
 }
 
+bool exclude_each_other(const Reading& a, const Reading& b) { return a.high < b.low || b.high < a.low; }
+
 /// The finding about the person's interval, of a fit that may be judged by its widths.
 Finding of_person(const NumberFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
@@ -113,14 +115,14 @@ Finding of_person(const NumberFacts& facts) {
   if (facts.at_range_end) return Finding::range_ends;
   if (facts.fit.given_strength) return Finding::given_strength;
   if (facts.contraction && *facts.contraction < rules.half_shrinkage) return Finding::half_the_prior;
-  if (facts.person.high < facts.given.low || facts.given.high < facts.person.low) return Finding::readings_apart;
+  if (exclude_each_other(facts.person, facts.given)) return Finding::readings_apart;
   return facts.contradiction.empty() ? Finding::narrow : Finding::contradicted;
 }
 
 /// Returns true if the number is narrow with geometry and sensors exact, and by the recording, not by its prior.
 bool narrow_if_given(const NumberFacts& facts) {
   constexpr const VerdictRules& rules = kVerdictRules;
-  if (facts.fit.one_reading) return false;
+  if (facts.fit.one_reading || exclude_each_other(facts.person, facts.given)) return false;
   const double half = half_width(facts, facts.given);
   const bool told = !facts.contraction_given || *facts.contraction_given >= rules.half_shrinkage;
   return half > 0.0 && half <= identified_half(facts) && told && facts.fit.model_error <= rules.model_error &&
@@ -207,13 +209,10 @@ std::string reason_of(Finding finding, const NumberFacts& facts) {
   if (is_far(facts)) text += fmt::format("; {:.1f} standard deviations away from its prior", *facts.prior_distance);
   if (finding == Finding::impossible) text = facts.impossible + "; " + text;
   if (finding == Finding::given_strength)
-    text =
-        "if F_max is the value at which it was held: its error goes into every other number, and method force finds "
-        "it along with them; " +
-        text;
+    text = "if F_max is the value at which it was held, whose error goes into every other number; " + text;
   if (finding == Finding::narrow_if_given) text = "compare sessions of this person by it, but not persons: " + text;
-  if (finding == Finding::readings_apart)
-    text = "the person's interval and the one given geometry and sensors exclude each other; " + text;
+  if (exclude_each_other(facts.person, facts.given))
+    text = "the person's interval excludes the one given geometry and sensors: these are not as assumed; " + text;
   if (finding == Finding::narrow_and_far)
     text = "a simplification of the model, or the EMG, may be what is fitted; " + text;
   if (finding == Finding::range_ends)

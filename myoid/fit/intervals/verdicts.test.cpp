@@ -133,6 +133,17 @@ TEST(Verdicts, ReadingsThatExcludeEachOtherIdentifyNothing) {
   facts.given.high = 1450.0;
   EXPECT_EQ(finding(facts), Finding::readings_apart);
   EXPECT_EQ(verdict_of(Finding::readings_apart), Verdict::weak);
+  // An optimal fiber length of a person of 104 to 139 mm that is narrow as 81 to 86 mm with exact geometry.
+  NumberFacts fiber = good();
+  fiber.person = {.value = 0.120, .low = 0.104, .high = 0.139};
+  fiber.given = {.value = 0.0835, .low = 0.081, .high = 0.086};
+  EXPECT_EQ(verdict_of(finding(fiber)), Verdict::weak);
+  fiber.given = {.value = 0.1065, .low = 0.103, .high = 0.110};
+  EXPECT_EQ(finding(fiber), Finding::narrow_if_given);
+  // Not told by the recording, whatever the other reading says.
+  fiber.given = {.value = 0.0835, .low = 0.081, .high = 0.086};
+  fiber.contraction = 0.1;
+  EXPECT_EQ(finding(fiber), Finding::as_the_prior);
 }
 
 TEST(Verdicts, WhatThePriorSaysIsNotIdentified) {
