@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/page/tables.h"
 #include "myoid/page/typeset.h"
@@ -46,6 +47,10 @@ Light light_of(const std::vector<Gate>& gates) {
   }
   std::ranges::copy_if(gates, std::back_inserter(light.reasons),
                        [&](const Gate& gate) { return gate.status == light.status; });
+  std::vector<std::string> cautions;
+  for (const Gate& gate : gates)
+    if (gate.status == GateStatus::warn && light.status == GateStatus::fail) cautions.push_back(gate.name);
+  if (!cautions.empty()) light.besides = fmt::format("Besides, these ask for caution: {}.", fmt::join(cautions, "; "));
   return light;
 }
 
@@ -57,9 +62,10 @@ std::string light_html(const std::vector<Gate>& gates) {
     reasons += fmt::format("<li>{}{}</li>", typeset(gate.name), gate.value.empty() ? "" : ": " + typeset(gate.value));
   return fmt::format(
       "<div class=\"light {}\"><svg width=\"40\" height=\"40\" viewBox=\"0 0 40 40\" "
-      "aria-hidden=\"true\">{}</svg><div><p><b>{}.</b> {} (<a href=\"#quality\">all</a>){}</p>{}</div></div>\n",
+      "aria-hidden=\"true\">{}</svg><div><p><b>{}.</b> {} (<a href=\"#quality\">all</a>){}</p>{}{}</div></div>\n",
       name(light.status), shape(light.status), light.head, light.answered, light.leads_to,
-      reasons.empty() ? "" : "<ul>" + reasons + "</ul>");
+      reasons.empty() ? "" : "<ul>" + reasons + "</ul>",
+      light.besides.empty() ? "" : "<p>" + typeset(light.besides) + "</p>");
 }
 
 }  // namespace myoid::page

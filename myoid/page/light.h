@@ -14,6 +14,7 @@ struct Light {
   std::string answered;                  ///< "11 of 13 questions about the recording and the fit are answered well"
   std::string leads_to;                  ///< "; these ask for caution:", or "." if nothing does.
   std::vector<Gate> reasons;             ///< The gates of this status; none for pass.
+  std::string besides;                   ///< Beside failures, the gates that ask for caution by name; or empty.
 };
 
 /// Returns the light of at least one gate.

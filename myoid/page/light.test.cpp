@@ -17,6 +17,8 @@ TEST(Light, HasTheColorAndTheShapeOfTheWorstAnswer) {
   EXPECT_THAT(light_html({good, doubtful}), HasSubstr("<li>EMG is clean: 3 found</li>"));
   EXPECT_THAT(light_html({good, doubtful, bad}), HasSubstr("<ul><li>Fit converged: no</li></ul>"));
   EXPECT_THAT(light_html({good, doubtful, bad}), HasSubstr("1 of 3 questions"));
+  EXPECT_THAT(light_html({good, doubtful, bad}), HasSubstr(doubtful.name));
+  EXPECT_EQ(light_of({good, doubtful}).besides, "");
 }
 
 }  // namespace

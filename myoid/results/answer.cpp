@@ -154,8 +154,10 @@ std::string light_lines(const std::vector<page::Gate>& gates, std::size_t width)
   std::string text = wrapped(fmt::format("{}. {}{}", light.head, light.answered, light.leads_to), width);
   for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i)
     text += reason_lines(light.reasons[i], width);
-  if (light.reasons.size() > kMostReasons) text += fmt::format("- and {} more\n", light.reasons.size() - kMostReasons);
-  return text;
+  std::vector<std::string> others;  // by name, so that nothing that colors the page is hidden
+  for (std::size_t i = kMostReasons; i < light.reasons.size(); ++i) others.push_back(light.reasons[i].name);
+  if (!others.empty()) text += wrapped(fmt::format("- and {}", fmt::join(others, "; ")), width);
+  return light.besides.empty() ? text : text + wrapped(light.besides, width);
 }
 
 std::string row_lines(const std::vector<AnswerRow>& rows, std::size_t width) {

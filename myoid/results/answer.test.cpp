@@ -1,6 +1,7 @@
 #include "myoid/results/answer.h"
 
 #include <algorithm>
+#include <regex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -104,14 +105,16 @@ TEST(AnswerText, HasAtMost24LinesOfTheWidth) {
   std::vector<page::Gate> gates;
   for (int g = 0; g < 12; ++g)
     gates.push_back({.name = "Question " + std::to_string(g),
-                     .status = page::GateStatus::fail,
+                     .status = g < 8 ? page::GateStatus::fail : page::GateStatus::warn,
                      .value = std::string(150, 'v'),
                      .threshold = "less"});
   for (const std::size_t width : {40, 80, 110}) {
     const std::string text = answer_text(result, gates, width);
     EXPECT_LE(std::ranges::count(text, '\n'), 24) << text;
     EXPECT_THAT(text, HasSubstr("Do not use the numbers."));
-    EXPECT_THAT(text, HasSubstr("- and 8 more"));
+    // A name may be broken between its words.
+    for (const page::Gate& gate : gates)
+      EXPECT_THAT(std::regex_replace(text, std::regex(R"(\s+)"), " "), HasSubstr(gate.name)) << text;
     EXPECT_THAT(text, HasSubstr("First mend"));
     if (width < 80) continue;
     for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)

@@ -139,21 +139,24 @@ std::optional<Gate> support_gate(const StudyResult& result) {
 
 /// Returns the warnings of `check`: faults of channels, and remarks on files that may make numbers wrong.
 Gate recordings_gate(const StudyResult& result) {
-  std::map<std::string, std::vector<std::string>> places;  // by kind of fault
+  std::map<std::string, std::map<std::string, std::set<std::string>>> places;  // by kind of fault and channel
   std::size_t grave = 0;
   for (const Remark& fault : all_faults(result)) {
     if (fault.severity != Severity::warning) continue;
     ++grave;
-    std::vector<std::string>& of = places[page::spelled(name(fault.code))];
-    const std::string place = fault.where.empty() ? fault.about : fmt::format("{} in {}", fault.about, fault.where);
-    if (std::ranges::find(of, place) == of.end()) of.push_back(place);
+    std::set<std::string>& trials = places[page::spelled(name(fault.code))][fault.about];
+    if (!fault.where.empty()) trials.insert(fault.where);
   }
   std::vector<std::string> kinds;
-  for (auto& [kind, of] : places) {
-    constexpr std::size_t kMost = 3;
-    const std::string more = of.size() > kMost ? fmt::format(" and {} more", of.size() - kMost) : "";
-    if (of.size() > kMost) of.resize(kMost);
-    kinds.push_back(fmt::format("{}: {}{}", kind, fmt::join(of, ", "), more));
+  for (const auto& [kind, channels] : places) {
+    // Every channel is named: its numbers are capped. Of many trials the count will do.
+    constexpr std::size_t kMostTrials = 3;
+    std::vector<std::string> of;
+    for (const auto& [channel, trials] : channels)
+      of.push_back(trials.empty()                 ? channel
+                   : trials.size() <= kMostTrials ? fmt::format("{} in {}", channel, fmt::join(trials, " and "))
+                                                  : fmt::format("{} in {}", channel, counted(trials.size(), "trial")));
+    kinds.push_back(fmt::format("{}: {}", kind, fmt::join(of, ", ")));
   }
   std::size_t warnings = 0;
   std::vector<std::string> trials;
@@ -379,13 +382,15 @@ page::Section recordings_section(const StudyResult& result) {
     return section;
   }
   sort_by_severity(faults);
-  constexpr std::size_t kMost = 40;
+  // Warnings color the page: none is left out.
+  const auto grave = static_cast<std::size_t>(std::ranges::count(faults, Severity::warning, &Remark::severity));
+  const std::size_t most = std::max<std::size_t>(40, grave);
   page::Table table{"recordings",
                     "Faults of the recordings",
                     "As recorded, before repairs. The limits stand in the guide to `myoid check`.",
                     {"level", "trial", "time", "what was found", "what to do"},
                     std::move(warnings)};
-  for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) {
+  for (std::size_t i = 0; i < std::min(faults.size(), most); ++i) {
     const Remark& f = faults[i];
     const Stretch when = f.when.value_or(Stretch{});
     table.rows.push_back(
@@ -396,8 +401,8 @@ page::Section recordings_section(const StudyResult& result) {
          {f.remedy}});
   }
   section.tables.push_back(std::move(table));
-  if (faults.size() > kMost) {
-    section.paragraphs.push_back(fmt::format("{} more stand in run.json.", faults.size() - kMost));
+  if (faults.size() > most) {
+    section.paragraphs.push_back(fmt::format("{} more notes stand in run.json.", faults.size() - most));
   }
   return section;
 }

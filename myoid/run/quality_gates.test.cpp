@@ -84,7 +84,7 @@ TEST(QualityGates, AFaultNamesItsChannelAndTrial) {
   }
   for (const Gate& gate : quality_gates(result)) {
     if (gate.name == "Recordings without faults") {
-      EXPECT_EQ(gate.value, "4 found, EMG hum: BIC in slow, BRA in slow, BRD in slow and 1 more");
+      EXPECT_EQ(gate.value, "4 found, EMG hum: BIC in slow, BRA in slow, BRD in slow, TRI in slow");
     }
   }
 }
