@@ -1,7 +1,9 @@
 #include "myoid/program/steps/muscle.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,9 +12,10 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/provenance.h"
 #include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/file_format.h"
 #include "myoid/program/steps/check_options.h"
 #include "myoid/program/steps/muscle_input.h"
-#include "myoid/recording/tables/storage_writer.h"
+#include "myoid/recording/tables/series_file.h"
 
 namespace myoid::program {
 namespace {
@@ -35,6 +38,21 @@ std::vector<muscle::LawSet> law_sets(const std::vector<std::string>& words) {
   return sets;
 }
 
+/// A measurement may have gaps: samples without a force are no part of it.
+ColumnChoice measured_column(const MuscleOptions& o) {
+  return {"--measured-column", o.measured_column, Gaps::left_out};
+}
+
+/// Throws InvalidInput for a name that says another format than the file would have.
+void require_ending(const char* option, const std::string& path, std::string_view ending) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  const bool is_device = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  if (path.empty() || is_device || extension_of(path) == ending) return;
+  throw InvalidInput(fmt::format("{} {}: expected a name that ends in {}, since with --fit this file is {}", option,
+                                 path, ending, ending == ".csv" ? "a table of parameters" : "a muscle"));
+}
+
 void refuse_contradictions(const MuscleOptions& o) {
   if (o.activation.empty() == o.excitation.empty()) {
     throw InvalidInput("give the drive once: --activation or --excitation, a number or a file");
@@ -53,6 +71,10 @@ void refuse_contradictions(const MuscleOptions& o) {
   if (o.scales.size() != 1 && o.scales.size() != o.lengths.size()) {
     throw InvalidInput(fmt::format("--scale: {} numbers for {} files of --length; give one, or one each",
                                    o.scales.size(), o.lengths.size()));
+  }
+  if (!o.fit.empty()) {
+    require_ending("--out", o.out, ".csv");
+    require_ending("--fitted", o.fitted, ".toml");
   }
   (void)law_sets(o.laws);  // before the recordings are read
 }
@@ -86,7 +108,7 @@ ImposedLength simulate_muscle(const MuscleOptions& o, const muscle::MuscleFile& 
   options.progress = o.call.progress;
   std::optional<Column> measured;
   if (!o.measured.empty()) {
-    measured = read_column(o.measured.front(), {"--measured-column", o.measured_column}, remarks);
+    measured = read_column(o.measured.front(), measured_column(o), remarks);
     options.output_time_s = measured->time_s;
   }
   ImposedLength result{simulate_isolated_muscle(unit, input, options), std::nullopt};
@@ -106,7 +128,7 @@ std::vector<IsolatedRecording> read_recordings(const MuscleOptions& o,
                                                Remarks& remarks) {
   std::vector<IsolatedRecording> recordings;
   for (std::size_t i = 0; i < o.lengths.size(); ++i) {
-    const Column force = read_column(o.measured[i], {"--measured-column", o.measured_column}, remarks);
+    const Column force = read_column(o.measured[i], measured_column(o), remarks);
     recordings.push_back({o.measured[i], read_experiment(o, i, file, remarks), force.time_s, force.values});
   }
   return recordings;
@@ -222,8 +244,8 @@ MuscleResult muscle(const MuscleOptions& options) {
 
 void write_muscle(const MuscleResult& result, const std::filesystem::path& path) {
   if (result.simulated) {
-    recording::write_storage(path, result.simulated->simulated.series,
-                             {.title = result.name, .comments = {"myoid " + std::string(version()), result.command}});
+    recording::write_series(path, result.simulated->simulated.series, result.name,
+                            {"myoid " + std::string(version()), result.command});
     return;
   }
   std::string csv = "left_out,parameter,unit,start,estimate,std_error,at_bound,scatter,ci_low,ci_high,verdict\n";

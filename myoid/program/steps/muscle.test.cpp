@@ -55,6 +55,61 @@ TEST(MuscleFunction, ComparesWithWhatItWroteAndFindsNoError) {
   EXPECT_NEAR(second.simulated->comparison->error_n, series.column("tendon_force").mean(), 1e-6);
 }
 
+TEST(MuscleFunction, LeavesSamplesWithoutAForceOut) {
+  const test::TemporaryFolder folder;
+  MuscleOptions options = swing(folder);
+  const TimeSeries series = muscle(options).simulated->simulated.series;
+  std::string force = "time,force\n";
+  Eigen::Index gaps = 0;
+  for (Eigen::Index i = 0; i < series.sample_count(); ++i) {
+    const bool gap = i % 10 == 5;
+    gaps += gap ? 1 : 0;
+    force += fmt::format("{:.9f},{}\n", series.time_s()[i],
+                         gap ? "NaN" : fmt::format("{:.9f}", series.column("tendon_force")[i]));
+  }
+  write_file(folder / "gaps.csv", force);
+  options.measured = {folder / "gaps.csv"};
+  const MuscleResult compared = muscle(options);
+  ASSERT_TRUE(compared.simulated->comparison);
+  EXPECT_EQ(compared.simulated->comparison->samples, series.sample_count() - gaps);
+  EXPECT_NEAR(compared.simulated->comparison->error_n, 0.0, 1e-6);
+  EXPECT_GT(compared.remarks.size(), 1U);  // the gaps, and a drive that ends early
+  // The fit finds the strength that made the force.
+  options.fit = {"max_isometric_force"};
+  const MuscleResult fitted = muscle(options);
+  const muscle::IsolatedEstimate& strength = fitted.fit->all.estimates[0];
+  EXPECT_NEAR(strength.value, strength.start, 1e-3 * strength.start);
+  write_file(folder / "none.csv", "time,force\n0,NaN\n0.1,NaN\n");
+  options.measured = {folder / "none.csv"};
+  EXPECT_THROW((void)muscle(options), ReadError);
+}
+
+TEST(MuscleFunction, RefusesANameOfAnotherFormat) {
+  const test::TemporaryFolder folder;
+  MuscleOptions options = swing(folder);
+  options.measured = {folder / "missing.csv"};
+  options.fit = {"max_isometric_force"};
+  // A file that is missing is a ReadError; names are refused before.
+  const auto is_refused_early = [&] {
+    try {
+      (void)muscle(options);
+    } catch (const ReadError&) {
+      return false;
+    } catch (const InvalidInput&) {
+      return true;
+    }
+    return false;
+  };
+  options.out = folder / "fit.sto";
+  EXPECT_TRUE(is_refused_early());
+  options.out = folder / "fit.csv";
+  EXPECT_FALSE(is_refused_early());
+  options.fitted = folder / "muscle.csv";
+  EXPECT_TRUE(is_refused_early());
+  options.fitted = folder / "muscle.toml";
+  EXPECT_FALSE(is_refused_early());
+}
+
 TEST(MuscleFunction, HearsOfTheDriveAlthoughTheLengthIsRefusedLater) {
   const test::TemporaryFolder folder;
   MuscleOptions options = swing(folder);

@@ -1,5 +1,9 @@
 #include "myoid/program/steps/muscle_input.h"
 
+#include <cmath>
+#include <iterator>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
@@ -19,6 +23,17 @@ Column within_call(Column column, const Call& call) {
   column.time_s = part.time_s();
   column.values = part.values().col(0);
   return column;
+}
+
+/// Returns the samples that have a number, and tells of the others.
+Column without_gaps(const std::string& path, const Column& column, Remarks& remarks) {
+  std::vector<Eigen::Index> told;
+  for (Eigen::Index i = 0; i < column.values.size(); ++i)
+    if (std::isfinite(column.values[i])) told.push_back(i);
+  if (told.empty()) throw ReadError(path, 0, fmt::format("column '{}' has no number", column.name));
+  remarks.warn(fmt::format("{}: {} of {} samples of '{}' have no number and are left out", path,
+                           column.values.size() - std::ssize(told), column.values.size(), column.name));
+  return {column.time_s(told), column.values(told), column.name};
 }
 
 void check_length(const Eigen::VectorXd& length_m, const muscle::MuscleFile& file, const std::string& path) {
@@ -73,10 +88,10 @@ Column read_column(const std::string& path, const ColumnChoice& choice, Remarks&
   }
   const Eigen::Index at = wanted.empty() ? 0 : *series.find(wanted);
   Column column{series.time_s(), series.values().col(at), series.channels()[static_cast<std::size_t>(at)].name};
-  if (!column.values.allFinite()) {
+  if (column.values.allFinite()) return column;
+  if (choice.gaps == Gaps::refused)
     throw ReadError(path, 0, fmt::format("column '{}' has gaps: fill them first", column.name));
-  }
-  return column;
+  return without_gaps(path, column, remarks);
 }
 
 muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& o,

@@ -14,13 +14,17 @@ struct Column {
   std::string name;
 };
 
+/// Samples without a number: none may be, or a remark counts them and they are left out.
+enum class Gaps { refused, left_out };
+
 /// The column that an option names; an empty name is the file's only column.
 struct ColumnChoice {
   std::string option, name;
+  Gaps gaps = Gaps::refused;
 };
 
-/// Returns the only column of a file, or the one of this name. Throws ReadError if the column is
-/// missing, is one of several, or has gaps.
+/// Returns the only column of a file, or the one of this name. Throws ReadError if the column is missing, is one of
+/// several, has gaps that are refused, or no number at all.
 [[nodiscard]] Column read_column(const std::string& path, const ColumnChoice& choice, Remarks& remarks);
 
 /// Reads the experiment of the length file `index`, over the call's time. Throws InvalidInput for
