@@ -15,6 +15,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/given_trials.h"
+#include "myoid/run/next_recording.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/stage_store.h"
 #include "myoid/run/study_fit.h"
@@ -112,37 +113,6 @@ std::vector<TrialResult> joined(const study::Study& study,
   }
   require_one(trials);
   return trials;
-}
-
-/// Returns movements that would determine more than this recording; without a dynamometer the
-/// movements use the laboratory's masses. Empty if the fit is no basis for a design, or no model can move; a run that
-/// plans nothing for another reason keeps its numbers, and a remark says why.
-std::optional<DesignStudyResult> next_recording(const StudySource& source,
-                                                const StudyFit& fit,
-                                                const Progress& progress,
-                                                std::vector<Remark>& remarks) {
-  const study::Study& study = source.study;
-  if (study.model.is_none()) return std::nullopt;
-  DesignStudyOptions options;
-  options.choice.movements = study.identify.next_movements;
-  options.catalogue.dynamometer = false;
-  std::vector<double> masses{0.0};
-  for (const study::TrialSpec& trial : study.trials) {
-    const double held_kg = trial.held_mass_kg.value_or(0.0);
-    if (std::ranges::find(masses, held_kg) == masses.end()) masses.push_back(held_kg);
-  }
-  if (masses.size() > 1) options.catalogue.held_masses_kg = masses;
-  options.progress.stop = progress.stop;
-  if (const IdentificationResult* torque = torque_of(fit)) {
-    if (torque->termination != math::Termination::converged || !torque->covariance.allFinite()) return std::nullopt;
-    options.earlier = earlier_run(*torque);
-  }
-  try {
-    return design_study(study, *source.model, options);
-  } catch (const InvalidInput& error) {
-    remarks.push_back({.says = fmt::format("no next recording is planned: {}", error.what())});
-    return std::nullopt;
-  }
 }
 
 StudyInputs read_stage(const study::Study& whole, const RunOptions& options, Stages& stages) {
