@@ -186,7 +186,8 @@ Use guessed_use(const std::string& stem) {
   for (const std::string& word : words_of(stem)) {
     if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return Use::mvc;
     if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical") return Use::static_pose;
-    if (word == "passive" || word == "pas" || word == "relaxed") return Use::passive;
+    if (word == "passive" || word == "pas" || word == "rest" || word == "resting" || word.starts_with("relax"))
+      return Use::passive;
   }
   return Use::calibration;
 }

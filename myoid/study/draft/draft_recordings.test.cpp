@@ -31,6 +31,8 @@ TEST(GuessedUse, IsWhatAWordOfTheNameSays) {
   EXPECT_EQ(guessed_use("static_1"), Use::static_pose);
   EXPECT_EQ(guessed_use("relaxed_elbow"), Use::passive);
   EXPECT_EQ(guessed_use("pas_-10"), Use::passive);
+  EXPECT_EQ(guessed_use("rest_2"), Use::passive);
+  EXPECT_EQ(guessed_use("arrest"), Use::calibration);
   EXPECT_EQ(guessed_use("subject_1_mvt_random"), Use::calibration);
 }
 

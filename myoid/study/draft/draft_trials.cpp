@@ -163,18 +163,21 @@ class TrialWriter {
         fmt::format("{}; '{}' gives motion and torque only; use = \"passive\" if the muscles were at rest", why, stem));
   }
 
-  /// Writes a maximal contraction if the name says so, otherwise a question.
+  /// Writes a maximal contraction if the name says so, otherwise a question, of relaxed muscles if the name says that.
   void emg_trial(const FoundRecording& f) {
-    const bool mvc = guessed_use(f.stem) == Use::mvc;
+    const Use guessed = guessed_use(f.stem);
+    const bool mvc = guessed == Use::mvc, passive = guessed == Use::passive;
     if (!mvc)
       out_.todo(fmt::format(
-          "'{}' has EMG and no motion: give it markers or motion; or take the # away if it is a maximal contraction",
-          f.path.filename().string()));
+          "'{}' has EMG and no motion: {}", f.path.filename().string(),
+          passive ? "relaxed muscles tell the joint's resting torque where motion and external_torque are measured; "
+                    "give these and take the # away, or delete the lines"
+                  : "give it markers or motion; or take the # away if it is a maximal contraction"));
     const std::string remark = mvc ? "" : "# ";
     out_.line(remark + "[[trial]]");
     out_.line(remark + "name = " + toml_text(unique(f.stem)));
     out_.line(remark + "emg = " + toml_text(around_.relative(f.path)));
-    out_.line(remark + "use = \"mvc\"");
+    out_.line(remark + "use = " + toml_text(std::string(choice_name(passive ? Use::passive : Use::mvc))));
     out_.line("");
   }
 

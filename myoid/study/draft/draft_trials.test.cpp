@@ -105,6 +105,15 @@ TEST(DraftTrials, TakeTheTorqueOfTheMotionsOwnFileAndNoneOfAnotherTrial) {
   EXPECT_THAT(out.toml, HasSubstr("# external_torque = \"turn_id.csv\"\n\n"));
 }
 
+TEST(DraftTrials, OfferRelaxedMusclesAsPassiveAndNotAsAMaximalContraction) {
+  std::vector<FoundRecording> files{found("pas_10.sto", false, true), found("push.sto", false, true)};
+  DraftText out;
+  draft_trials(files, {.own_model = true, .relative = [](const std::filesystem::path& path) { return path.string(); }},
+               out);
+  EXPECT_THAT(out.toml, HasSubstr("# emg = \"pas_10.sto\"\n# use = \"passive\""));
+  EXPECT_THAT(out.toml, HasSubstr("# emg = \"push.sto\"\n# use = \"mvc\""));
+}
+
 TEST(DraftTrials, TakeTheKindOfEmgOfMostMovementsAndSayWhichKindTheOthersHave) {
   std::vector<FoundRecording> files{found("bend.mot", true, false),      found("bend_emg.sto", false, true),
                                     found("stretch.mot", true, false),   found("stretch_emg.sto", false, true),
