@@ -420,7 +420,7 @@ class TrialCheck {
       if (signs.reversed < kDoubtful || signs.reversed < signs.as_given + kClearly) continue;
       const std::string found = fmt::format(
           "with the starting values the muscles' torque goes against that of {} (r = {:.2f}); are the signs of the "
-          "moment arms (r = -dl/dq) or of the torque reversed?",
+          "moment arms (r = -dl/dq) or of the torque reversed, or the electrodes of opposite muscles exchanged?",
           files_.torques, r);
       if (r < kAgainst) fail(files_.moment_arms[j], found);
       remark(files_.moment_arms[j], found);

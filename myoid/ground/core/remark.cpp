@@ -126,10 +126,11 @@ std::string_view name(Severity severity) {
 std::string_view name(RemarkCode code) { return kNames.at(static_cast<std::size_t>(code)); }
 
 std::string sentence(const Remark& remark) {
-  constexpr std::size_t kNamed = 4;
+  // Every place of an error must be mended.
+  const std::size_t most = remark.severity == Severity::error ? remark.likewise.size() : 4;
   std::string text = remark.says;
   if (!remark.remedy.empty()) text += "; " + remark.remedy;
-  const std::size_t named = std::min(kNamed, remark.likewise.size());
+  const std::size_t named = std::min(most, remark.likewise.size());
   if (named == 0) return text;
   const auto end = remark.likewise.begin() + static_cast<std::ptrdiff_t>(named);
   text += fmt::format(" (likewise in {}", fmt::join(remark.likewise.begin(), end, ", "));

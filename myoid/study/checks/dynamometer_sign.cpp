@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/body/dynamics/joint_capacity.h"
 #include "myoid/body/dynamics/torque_plausibility.h"
 #include "myoid/body/model/kinematic_tree.h"
 #include "myoid/body/model/path_survey.h"
 #include "myoid/recording/signals/resample.h"
-#include "myoid/study/checks/trial_plausibility.h"
+#include "myoid/study/checks/relaxed_joint.h"
 #include "myoid/study/intake/limits.h"
 #include "myoid/study/study_model.h"
 
@@ -52,45 +55,187 @@ double weight_nm(const body::BodyModel& model, const std::string& coordinate) {
   return sum;
 }
 
-/// Sums for the cosine between the muscles' torque and the torque they must provide.
-struct Products {
-  double both = 0.0, pull = 0.0, need = 0.0;
-  void add(const Products& other) {
-    both += other.both;
-    pull += other.pull;
-    need += other.need;
-  }
-  [[nodiscard]] double cosine() const {
-    const double size = std::sqrt(pull * need);
-    return size > 0.0 ? both / size : 0.0;
+/// Channels of a study's muscles and the torque of each at its largest EMG [N m].
+struct Pulls {
+  std::vector<std::string> channels;
+  Eigen::VectorXd strength_nm;
+
+  /// Returns the strengths of the muscles of one direction together, and those of the other.
+  [[nodiscard]] body::JointCapacity together() const {
+    return {.positive_nm = strength_nm.cwiseMax(0.0).sum(), .negative_nm = -strength_nm.cwiseMin(0.0).sum()};
   }
 };
 
-std::optional<Products> compare(const Study& study,
-                                const EffortTrial& trial,
-                                const std::map<std::string, double>& largest,
-                                const Eigen::VectorXd& strength_nm,
-                                const Eigen::VectorXd& torque_nm) {
+Pulls pulls_on(const Study& study, const body::BodyModel& model, const std::string& coordinate) {
+  const Eigen::VectorXd of_muscles = strengths_nm(study, model, coordinate);
+  Pulls pulls;
+  std::vector<double> strengths;
+  for (std::size_t k = 0; k < study.muscles.size(); ++k) {
+    const auto known = std::ranges::find(pulls.channels, study.muscles[k].emg);
+    const auto at = static_cast<std::size_t>(known - pulls.channels.begin());
+    if (known == pulls.channels.end()) {
+      pulls.channels.push_back(study.muscles[k].emg);
+      strengths.push_back(0.0);
+    }
+    strengths[at] += of_muscles[static_cast<Eigen::Index>(k)];
+  }
+  pulls.strength_nm = Eigen::Map<Eigen::VectorXd>(strengths.data(), std::ssize(strengths));
+  return pulls;
+}
+
+/// Sums over samples, from which the cosine between the muscles' torque and the torque they must provide follows for
+/// any strengths of the channels.
+struct Sums {
+  Eigen::MatrixXd emg;   ///< Products of the channels' relative EMG.
+  Eigen::VectorXd need;  ///< Products of it with the necessary torque.
+  double square = 0.0;   ///< Square of that torque.
+
+  [[nodiscard]] double cosine(const Eigen::VectorXd& strength_nm) const {
+    const double size = std::sqrt(strength_nm.dot(emg * strength_nm) * square);
+    return size > 0.0 ? strength_nm.dot(need) / size : 0.0;
+  }
+};
+
+/// A trial whose torque and EMG tell a sign.
+struct ToldTrial {
+  const EffortTrial* trial = nullptr;
+  Sums sums;
+  bool strong = false;  ///< Its torque is beyond weight, inertia and a light touch.
+};
+
+/// Sums where the torque is large and a muscle is active; empty: nowhere.
+std::optional<Sums> sums_of(const EffortTrial& trial,
+                            const Pulls& pulls,
+                            const std::map<std::string, double>& largest,
+                            const Eigen::VectorXd& torque_nm) {
   const Eigen::VectorXd& t = trial.external_torque->time_s();
   const TimeSeries a = recording::resample(trial.envelopes, t);
   const double from_s = trial.envelopes.time_s()[0];
   const double to_s = trial.envelopes.time_s()[trial.envelopes.sample_count() - 1];
   const double enough = kLimits.joints.dynamometer_torque * body::usual_peak(torque_nm);
-  Products sums;
-  double most = 0.0;
+  const auto n = static_cast<Eigen::Index>(pulls.channels.size());
+  Sums sums{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  Eigen::VectorXd relative(n);
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     if (t[i] < from_s || t[i] > to_s || std::abs(torque_nm[i]) < enough) continue;
-    double pull = 0.0;
-    for (std::size_t k = 0; k < study.muscles.size(); ++k) {
-      const std::string& channel = study.muscles[k].emg;
-      const double relative = a.values()(i, a.index(channel)) / std::max(largest.at(channel), 1e-300);
-      most = std::max(most, relative);
-      pull += relative * strength_nm[static_cast<Eigen::Index>(k)];
+    for (Eigen::Index c = 0; c < n; ++c) {
+      const std::string& channel = pulls.channels[static_cast<std::size_t>(c)];
+      relative[c] = a.values()(i, a.index(channel)) / std::max(largest.at(channel), 1e-300);
     }
-    sums.add({-pull * torque_nm[i], pull * pull, torque_nm[i] * torque_nm[i]});
+    if (relative.maxCoeff() < kLimits.joints.active) continue;
+    sums.emg += relative * relative.transpose();
+    sums.need -= relative * torque_nm[i];
+    sums.square += torque_nm[i] * torque_nm[i];
   }
-  if (most < kLimits.joints.active) return std::nullopt;
-  return sums;
+  return sums.square > 0.0 ? std::optional(std::move(sums)) : std::nullopt;
+}
+
+/// Returns the trials of a joint that tell a sign. Torques that the study's muscles cannot make are those of others.
+std::vector<ToldTrial> told_trials(const std::vector<EffortTrial>& trials,
+                                   const std::string& coordinate,
+                                   const Pulls& pulls,
+                                   const std::map<std::string, double>& largest,
+                                   double weight_nm) {
+  const body::JointCapacity muscles = pulls.together();
+  const double weaker_nm = muscles.positive_nm > 0.0 && muscles.negative_nm > 0.0
+                               ? std::min(muscles.positive_nm, muscles.negative_nm)
+                               : muscles.isometric_nm();
+  const double least_nm =
+      std::max(kLimits.joints.dynamometer_share * weaker_nm, kLimits.joints.dynamometer_weights * weight_nm);
+  std::vector<ToldTrial> told;
+  for (const EffortTrial& trial : trials) {
+    if (trial.external_torque == nullptr || trial.envelopes.empty() || trial.spec->use == Use::passive) continue;
+    const auto column = trial.external_torque->find(coordinate + "_moment");
+    if (!column) continue;
+    const Eigen::VectorXd torque = trial.external_torque->values().col(*column);
+    const double peak_nm = body::usual_peak(torque);
+    if (peak_nm > muscles.greatest_nm()) continue;
+    if (auto sums = sums_of(trial, pulls, largest, torque))
+      told.push_back({&trial, std::move(*sums), peak_nm >= least_nm});
+  }
+  return told;
+}
+
+/// A trial with cosine c has odds of exp(6 c) for a right sign: the cosines of right signs are spread as exp(3 c), with
+/// a mean of 0.67.
+constexpr double kOddsOfCosine = 6.0;
+
+/// Returns the log-odds, over the trials that are strong, of a right sign to a reversed one.
+double log_odds(const std::vector<ToldTrial>& told, const Eigen::VectorXd& strength_nm) {
+  double sum = 0.0;
+  for (const ToldTrial& one : told)
+    if (one.strong) sum += kOddsOfCosine * one.sums.cosine(strength_nm);
+  return sum;
+}
+
+/// Two channels of opposite muscles whose exchange makes the torques agree best.
+struct Exchange {
+  std::string first, second;
+  double log_odds = 0.0;
+};
+
+std::optional<Exchange> best_exchange(const std::vector<ToldTrial>& told, const Pulls& pulls) {
+  std::optional<Exchange> best;
+  for (std::size_t a = 0; a < pulls.channels.size(); ++a) {
+    for (std::size_t b = a + 1; b < pulls.channels.size(); ++b) {
+      Eigen::VectorXd exchanged = pulls.strength_nm;
+      std::swap(exchanged[static_cast<Eigen::Index>(a)], exchanged[static_cast<Eigen::Index>(b)]);
+      if (!(exchanged[static_cast<Eigen::Index>(a)] * exchanged[static_cast<Eigen::Index>(b)] < 0.0)) continue;
+      const double odds = log_odds(told, exchanged);
+      if (!best || odds > best->log_odds) best = Exchange{pulls.channels[a], pulls.channels[b], odds};
+    }
+  }
+  return best;
+}
+
+/// Returns what to do about torques of the wrong sign, with both explanations where the trials do not tell them apart.
+std::string remedy_for(const std::string& coordinate,
+                       double right_log_odds,
+                       const std::optional<Exchange>& exchange,
+                       const RelaxedJoint& rest) {
+  const std::string reversed = fmt::format(
+      "if {0}_moment is the person's torque on the dynamometer, negate it{1}: external_torque is the torque of the "
+      "surroundings on the body, positive in the coordinate's direction",
+      coordinate, rest.resists() ? fmt::format(" and {}, since the relaxed joint resists only so", coordinate) : "");
+  constexpr double kCertain = kLimits.joints.certain_log_odds;
+  // The sign that is reversed has the opposite odds. A joint that yields at rest has a wrong sign, whatever the EMG.
+  const double for_exchange = !exchange || rest.yields() ? -2.0 * kCertain : exchange->log_odds + right_log_odds;
+  if (for_exchange < -kCertain) return reversed;
+  const std::string exchanged =
+      fmt::format("if the electrodes of {} and {} are exchanged, exchange these two names in [[muscle]] emg",
+                  exchange->first, exchange->second);
+  if (for_exchange > kCertain) return exchanged;
+  return fmt::format("{}; {}. The recording does not tell which", reversed, exchanged);
+}
+
+/// Names the trials whose torque acts with the active muscles: those that say so alone or, where the strong trials
+/// together are certain, all of that sign.
+std::vector<Remark> reversed_torques(const std::vector<ToldTrial>& told,
+                                     const Pulls& pulls,
+                                     const std::string& coordinate,
+                                     const RelaxedJoint& rest) {
+  const auto cosine = [&](const ToldTrial& one) { return one.sums.cosine(pulls.strength_nm); };
+  const double odds = log_odds(told, pulls.strength_nm);
+  const bool one_sign = std::ranges::all_of(told, [&](const auto& one) { return !one.strong || cosine(one) < 0.0; });
+  const auto strong = static_cast<double>(std::ranges::count_if(told, &ToldTrial::strong));
+  const bool certain = one_sign && (odds < -kLimits.joints.certain_log_odds ||
+                                    odds < kOddsOfCosine * kLimits.joints.certainly_reversed * strong);
+  const std::string remedy = remedy_for(coordinate, odds, best_exchange(told, pulls), rest);
+  std::vector<Remark> found;
+  for (const ToldTrial& one : told) {
+    const bool named = certain ? cosine(one) < 0.0 : one.strong && cosine(one) < kLimits.joints.reversed;
+    if (!named) continue;
+    found.push_back(
+        {.code = RemarkCode::dynamometer_sign,
+         .severity = certain ? Severity::error : Severity::warning,
+         .where = one.trial->spec->name,
+         .about = coordinate,
+         .says = fmt::format("{}: the torque on {} acts in the direction of the active muscles (cosine with "
+                             "their necessary torque {:.2f}, expected above 0)",
+                             one.trial->spec->external_torque->filename().string(), coordinate, cosine(one)),
+         .remedy = remedy});
+  }
+  return found;
 }
 
 }  // namespace
@@ -108,38 +253,17 @@ std::vector<Remark> dynamometer_signs(const Study& study,
       value = std::max(value, trial.envelopes.values().col(c).maxCoeff());
     }
   }
-  for (const auto& [name, capacity] : joint_capacities(study, model)) {
-    const Eigen::VectorXd strength = strengths_nm(study, model, name);
-    const double least_nm = std::max(kLimits.joints.dynamometer_share * capacity.isometric_nm(),
-                                     kLimits.joints.dynamometer_weights * weight_nm(model, name));
-    Products all;
-    std::size_t told = 0;
-    std::vector<std::pair<const EffortTrial*, double>> against;
-    for (const EffortTrial& trial : trials) {
-      if (trial.external_torque == nullptr || trial.envelopes.empty() || trial.spec->use == Use::passive) continue;
-      const auto column = trial.external_torque->find(name + "_moment");
-      if (!column) continue;
-      const Eigen::VectorXd torque = trial.external_torque->values().col(*column);
-      if (body::usual_peak(torque) < least_nm) continue;
-      const auto sums = compare(study, trial, largest, strength, torque);
-      if (!sums) continue;
-      ++told;
-      all.add(*sums);
-      if (sums->cosine() < kLimits.joints.reversed) against.emplace_back(&trial, sums->cosine());
-    }
-    const bool certain = !against.empty() && against.size() == told && all.cosine() < kLimits.joints.certainly_reversed;
-    for (const auto& [trial, cosine] : against) {
-      found.push_back(
-          {.code = RemarkCode::dynamometer_sign,
-           .severity = certain ? Severity::error : Severity::warning,
-           .where = trial->spec->name,
-           .about = name,
-           .says = fmt::format(
-               "{}: the torque on {} acts in the direction of the active muscles (cosine with their necessary torque "
-               "{:.2f}, expected above 0): is its sign reversed? external_torque is the torque of the surroundings on "
-               "the body, positive in the coordinate's direction: is it the person's torque on the dynamometer?",
-               trial->spec->external_torque->filename().string(), name, cosine)});
-    }
+  for (const std::string& name : study_coordinates(study.model)) {
+    const auto index = model.find_coordinate(name);
+    if (!index || model.coordinates[static_cast<std::size_t>(*index)].motion == body::MotionType::translational)
+      continue;
+    const Pulls pulls = pulls_on(study, model, name);
+    const double limb_nm = weight_nm(model, name);
+    const std::vector<ToldTrial> told = told_trials(trials, name, pulls, largest, limb_nm);
+    const RelaxedJoint rest = relaxed_joint(trials, name, limb_nm);
+    std::vector<Remark> of_joint = reversed_torques(told, pulls, name, rest);
+    if (of_joint.empty()) of_joint = yielding_joint(rest, name, log_odds(told, pulls.strength_nm));
+    std::ranges::move(of_joint, std::back_inserter(found));
   }
   return found;
 }

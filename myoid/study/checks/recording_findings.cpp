@@ -33,9 +33,10 @@ RecordingFindings recording_findings(const Study& study,
     found.levels = recording::check_emg_levels(envelopes_of(study, emg_of(inputs), activation, false).trials);
   std::vector<EffortTrial> efforts;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (activation.trials[i].activation.empty()) continue;
     const auto& torque = inputs[i].external_torque;
-    efforts.push_back({&study.trials[i], torque ? &*torque : nullptr, activation.trials[i].activation});
+    const auto& motion = inputs[i].motion;
+    efforts.push_back(
+        {&study.trials[i], torque ? &*torque : nullptr, activation.trials[i].activation, motion ? &*motion : nullptr});
   }
   found.dynamometers = grouped(dynamometer_signs(study, model, efforts));
   return found;

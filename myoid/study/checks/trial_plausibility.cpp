@@ -7,6 +7,7 @@
 
 #include "myoid/body/dynamics/torque_plausibility.h"
 #include "myoid/body/kinematics/motion_plausibility.h"
+#include "myoid/body/kinematics/people_range.h"
 #include "myoid/body/model/kinematic_tree.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/study/intake/limits.h"
@@ -18,6 +19,24 @@ namespace {
 constexpr double kBeyond_rad = kLimits.joints.angle_beyond_deg * kDegree;
 
 std::string whole_degrees(double angle_rad) { return fmt::format("{:.0f}", angle_rad / kDegree); }
+
+/// The angles that a coordinate may have, with a margin.
+struct AngleRange {
+  double lower_rad = 0.0, upper_rad = 0.0;
+  bool of_people = false;  ///< Narrower than the model's.
+
+  [[nodiscard]] bool holds(double low_rad, double high_rad) const {
+    return low_rad >= lower_rad && high_rad <= upper_rad;
+  }
+};
+
+/// Returns the model's range or, where that reaches beyond people's at both ends and so tells no convention, people's.
+AngleRange angle_range(const body::Coordinate& c) {
+  const auto people = body::people_range(c.name, c.lower, c.upper);
+  if (people && c.lower < people->low_rad && people->high_rad < c.upper)
+    return {people->low_rad, people->high_rad, true};
+  return {c.lower - kBeyond_rad, c.upper + kBeyond_rad};
+}
 
 void check_angles(const Study& study,
                   const body::BodyModel& model,
@@ -31,24 +50,31 @@ void check_angles(const Study& study,
     if (!column || !index) continue;
     const body::Coordinate& c = model.coordinates[static_cast<std::size_t>(*index)];
     if (c.motion == body::MotionType::translational || !(c.upper - c.lower > kBeyond_rad)) continue;
+    const AngleRange range = angle_range(c);
+    const double lower = range.lower_rad, upper = range.upper_rad;
     const auto q = motion.values().col(*column).array();
-    const auto outside = (q < c.lower - kBeyond_rad || q > c.upper + kBeyond_rad).count();
+    const auto outside = (q < lower || q > upper).count();
     if (outside == 0) continue;
     const double share = static_cast<double>(outside) / static_cast<double>(q.size());
-    const double far = std::max(c.lower - q.minCoeff(), q.maxCoeff() - c.upper);
+    if (range.of_people && share < kLimits.joints.beyond_people_share) continue;
+    // The farther end of the margin is the range's.
+    const double far = std::max(lower - q.minCoeff(), q.maxCoeff() - upper) + kBeyond_rad;
     // A coordinate that is outside most of the time follows another convention.
-    const bool wrong = share > kLimits.joints.angle_share && c.clamped;
-    const bool negated = (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
+    const bool wrong = share > kLimits.joints.angle_share && c.clamped && !range.of_people;
+    const bool negated = range.holds(-q.maxCoeff(), -q.minCoeff());
     findings.push_back(
         {.code = RemarkCode::angle_outside_range,
          .severity = wrong ? Severity::error : Severity::warning,
          .where = where,
          .about = name,
          .says = fmt::format(
-             "{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % of the samples "
-             "lie outside, by up to {} deg, where its muscle paths mean nothing; {}",
-             name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()), whole_degrees(c.lower),
-             whole_degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share, whole_degrees(far),
+             "{} goes from {} to {} deg, but {} {} to {} deg{}: {:.0f} % of the samples lie outside, by up to {} "
+             "deg{}; "
+             "{}",
+             name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()),
+             range.of_people ? "people's joints reach" : "the model's range is", whole_degrees(lower + kBeyond_rad),
+             whole_degrees(upper - kBeyond_rad), c.clamped || range.of_people ? "" : " (not clamped)", 100.0 * share,
+             whole_degrees(far), range.of_people ? "" : ", where its muscle paths mean nothing",
              negated ? "is its sign the opposite of the model's?" : "is its zero or sign another than the model's?")});
   }
 }

@@ -55,6 +55,30 @@ TEST(Implausible, TorqueInNewtonMillimetersIsAnErrorWithTheRemedy) {
   }
 }
 
+TEST(Implausible, AnglesBeyondPeoplesAreAWarningWhereTheModelsRangeTellsNoConvention) {
+  Elbow ankle;
+  body::Coordinate& c =
+      ankle.model.coordinates[static_cast<std::size_t>(ankle.model.coordinate_index("elbow_flexion"))];
+  c.name = "ankle_angle_r";
+  ankle.study.model.coordinate = c.name;
+  const auto found_for = [&](double from_deg, double to_deg, double model_deg) {
+    c.lower = -model_deg * kDegree;
+    c.upper = model_deg * kDegree;
+    TimeSeries turned = angle(from_deg, to_deg);
+    ankle.input.motion = TimeSeries(turned.time_s(), {{c.name, Unit::radian}}, turned.values());
+    std::vector<Remark> found = ankle.findings();
+    std::erase_if(found, [](const Remark& r) { return r.code != RemarkCode::angle_outside_range; });
+    return found;
+  };
+  // An ankle reaches 20 degrees of dorsiflexion and 50 of plantar flexion, and some people 10 more.
+  EXPECT_TRUE(found_for(-36.0, 5.0, 90.0).empty());
+  const std::vector<Remark> reversed = found_for(-5.0, 36.0, 90.0);
+  ASSERT_EQ(reversed.size(), 1U);
+  EXPECT_EQ(reversed[0].severity, Severity::warning);
+  // A model of a narrower range has its own convention.
+  EXPECT_TRUE(found_for(-5.0, 36.0, 40.0).empty());
+}
+
 TEST(Implausible, CoordinatesThatTheMotionLacksAreNamed) {
   Elbow elbow;
   elbow.input.motion = angle(10.0, 100.0);

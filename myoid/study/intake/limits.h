@@ -40,15 +40,22 @@ struct ClockLimits {
 struct JointLimits {
   double angle_beyond_deg = 10.0;  ///< Joints go some degrees beyond an author's range.
   double angle_share = 0.5;        ///< Share of samples outside that means another convention.
+  /// Joints of a study bend farther than this in some trial, unless they hold still within the range.
+  double least_angle_deg = 3.5, least_angle_range_deg = 0.2;
+  double beyond_people_share = 0.02;  ///< Share of samples beyond the angles that people reach.
   /// People do four lifts in a row with 90 % of the load of a single lift (Brzycki 1993), and a
   /// single lift with the muscles' force at its worst angle, some 80 % of the best.
   double lift_share = 0.75;
   /// Dynamometers: cosine of the muscles' pull and the torque of the surroundings.
   double reversed = -0.5, certainly_reversed = -0.8;
-  /// A torque below this share of the muscles' strength is not checked.
+  double certain_log_odds = 6.907755;  ///< Odds of a thousand.
+  double follows_at_rest = 0.8;        ///< Correlation of torque and angle of a relaxed joint.
+  /// A torque below this share of the strength of the study's weaker muscles is not checked.
   double dynamometer_share = 0.1;
   /// A torque below this multiple of the limb's weight is not checked.
   double dynamometer_weights = 4.0;
+  /// A torque that stays below this share of the joint's strength in every effort is in another unit.
+  double least_torque_share = 0.004;
   double dynamometer_torque = 0.5;  ///< Share of a trial's largest torque.
   double active = 0.1;              ///< Share of a channel's largest value.
   /// Passive trials: share of the maximal contraction or, without one, of the largest value.

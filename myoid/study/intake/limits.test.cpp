@@ -70,8 +70,7 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
                               percent(l.model.other_mass), percent(l.model.other_height))});
   rows.push_back({"", "note", "the study gives no mass"});
   rows.push_back({"lengths of the model", "error",
-                  fmt::format("two neighboring segments have their origins more than {:g} m apart: mm, cm? No command "
-                              "that computes takes such a model",
+                  fmt::format("two neighboring segments have their origins more than {:g} m apart: mm, cm?",
                               body::kLongestSegment_m)});
   rows.push_back(
       {"markers in another unit", "error",
@@ -83,11 +82,8 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
        fmt::format("a channel goes below zero by more than {:g} % of its maximum", percent(l.emg.below_zero))});
   rows.push_back(
       {"slow raw EMG", "warning", fmt::format("fewer than {:g} samples a second", l.emg.slowest_raw_emg_hz)});
-  rows.push_back(
-      {"EMG beyond any electrode", "error",
-       fmt::format(
-           "beyond {:g} V, which is too large even for a converter's counts; beyond 10 V a fault of its channel",
-           l.emg.no_converter_v)});
+  rows.push_back({"EMG beyond any electrode", "error",
+                  fmt::format("beyond {:g} V; beyond 10 V a fault of its channel", l.emg.no_converter_v)});
   rows.push_back(
       {"activations in percent", "error",
        fmt::format("`kind = \"activation\"`, and above {:g} for {:g} s or longer; a shorter spike is a warning",
@@ -111,7 +107,7 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
   rows.push_back(
       {"", "warning",
        fmt::format("more than {:g} s lack: not fitted without EMG, left out without loads", l.clocks.uncovered_s)});
-  rows.push_back({"EMG and motion whose lengths have the ratio 2, 3, 4, 5 or 10, within a tolerance", "error",
+  rows.push_back({"EMG and motion whose lengths have the ratio 2, 3, 4, 5 or 10", "error",
                   fmt::format("within {:g} %, and the EMG is shorter, or both end within {:g} % of each other at the "
                               "corrected rate: a wrong rate",
                               percent(l.clocks.same_factor), percent(l.clocks.ends_together))});
@@ -141,17 +137,21 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
                               percent(l.joints.angle_share)),
                   fmt::format("{:g} degrees beyond, where muscle paths mean nothing. Sign, zero or another coordinate?",
                               l.joints.angle_beyond_deg)});
+  rows.push_back(
+      {"angles beyond people's", "warning",
+       fmt::format("{:g} degrees beyond the joint's published range (AAOS 1965) in {:g} % of the samples, where "
+                   "the model's range is wider at both ends",
+                   l.joints.angle_beyond_deg, percent(l.joints.beyond_people_share))});
   rows.push_back({"a motion that is too fast", "error",
                   fmt::format("an angle is faster than {:.0f} deg/s (a length: {:g} m/s) in {:g} % of the time: the "
                               "clock or the unit is another",
                               kMotion.fastest_radps / kDegree, kMotion.fastest_mps, percent(kMotion.share))});
-  rows.push_back(
-      {"coordinates that the motion lacks", "warning", "they rest at their default; locked ones are left out"});
+  rows.push_back({"coordinates that the motion lacks", "warning",
+                  "on which the trial depends: they rest at their default; locked ones are left out"});
   rows.push_back({"markers that do not determine a joint of the study", "error",
                   "in three frames that show most markers, the model's markers would be as near at another angle"});
-  rows.push_back(
-      {"windows of `exclude`", "note; warning",
-       "the times that are left out of fit, scores and activation 1; a warning if one lies outside of the trial"});
+  rows.push_back({"windows of `exclude`", "note; warning",
+                  "times left out of fit, scores and activation 1; a warning outside of the trial"});
   rows.push_back({"an angle that jumps", "warning",
                   fmt::format("faster than {:.0f} deg/s (a length: {:g} m/s) and {:g} times its 95th percentile, for "
                               "less than {:g} s above half of that peak",
@@ -159,18 +159,29 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
 }
 
 void add_efforts(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
-  rows.push_back({"a dynamometer that pushes with the active muscles", "error if in all trials, warning if in some",
-                  fmt::format("where `external_torque` is largest, cosine between muscles' torque and its opposite "
-                              "below {:g} over all, below {:g} in a trial",
-                              l.joints.certainly_reversed, l.joints.reversed)});
-  rows.push_back({"", "",
-                  "muscles' torque: F_max times moment arm times EMG over its largest. `external_torque` must be that "
-                  "of the surroundings on the body"});
+  rows.push_back(
+      {"a dynamometer that pushes with the active muscles", "error if no trial contradicts, else warning",
+       fmt::format(
+           "cosine between the muscles' torque and the opposite of `external_torque`: mean below {:g}, or odds of "
+           "{:.0f}, over all trials; below {:g} in one",
+           l.joints.certainly_reversed, std::exp(l.joints.certain_log_odds), l.joints.reversed)});
+  rows.push_back({"", "", "muscles' torque: F_max times moment arm times EMG over its largest"});
   rows.push_back({"", "not checked",
-                  fmt::format("torques below {:g} % of the trial's largest, {:g} % of the strength or {:g} times the "
-                              "limb's weight; EMG below {:g} %; passive trials",
+                  fmt::format("torques below {:g} % of the trial's largest, {:g} % of weaker muscles or {:g} "
+                              "times the limb's weight; EMG below {:g} %; passive trials",
                               percent(l.joints.dynamometer_torque), percent(l.joints.dynamometer_share),
                               l.joints.dynamometer_weights, percent(l.joints.active))});
+  rows.push_back(
+      {"a relaxed joint that yields", "warning",
+       fmt::format(
+           "`external_torque` falls as the angle rises: correlation below {:g}, by {:g} times the limb's weight",
+           -l.joints.follows_at_rest, l.joints.dynamometer_weights)});
+  rows.push_back({"radians called degrees", "warning",
+                  fmt::format("an angle below {:g} degrees in all trials that changes by more than {:g}",
+                              l.joints.least_angle_deg, l.joints.least_angle_range_deg)});
+  rows.push_back(
+      {"a torque of another unit", "warning",
+       fmt::format("in every effort below {:g} % of the joint's strength", percent(l.joints.least_torque_share))});
   rows.push_back(
       {"a passive trial that is not at rest", "warning: not taken for the resting torque",
        fmt::format(
