@@ -25,8 +25,8 @@ std::string check_angle_unit(const std::filesystem::path& path, bool says_degree
   }
   if (!says_degrees && largest_rad > 4.0 * kPi) {
     throw ReadError(path, 0,
-                    "column '{}' reaches {:.4g} although the header says inDegrees=no: these are degrees, "
-                    "not radians; write inDegrees=yes into the header",
+                    "column '{}' reaches {:.4g} although the header says radians: these are degrees; say so there "
+                    "(inDegrees=yes, or [deg] behind the name in a table)",
                     largest_name, largest_rad);
   }
   // A small joint may move little, but over a whole motion some joint exceeds 3.5 degrees. A posture that is held sways
@@ -34,8 +34,9 @@ std::string check_angle_unit(const std::filesystem::path& path, bool says_degree
   const bool moves = widest_rad > 0.2 * kDegree || (widest_rad > 0.02 * kDegree && widest_rad > 0.3 * largest_rad);
   if (says_degrees && largest_rad < 3.5 * kDegree && moves) {
     return fmt::format(
-        "no angle reaches 3.5 degrees (the largest is '{}') although the header says inDegrees=yes; if these are "
-        "radians, write inDegrees=no",
+        "no angle reaches 3.5 degrees (the largest is '{}') although the header says degrees; if these are radians, "
+        "say "
+        "so there (inDegrees=no, or [rad] behind the name in a table)",
         largest_name);
   }
   return {};

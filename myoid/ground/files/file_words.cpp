@@ -7,6 +7,94 @@
 
 namespace myoid::inline ground {
 
+namespace {
+
+constexpr double kFootPound = 0.3048 * 4.4482216152605;  // foot times pound-force [N m]
+struct Word {
+  std::string_view text;
+  ScaledUnit unit;
+};
+constexpr std::array kWords = {
+    Word{"nt", {Unit::newton, 1.0}},
+    Word{"newton", {Unit::newton, 1.0}},
+    Word{"ntm", {Unit::newton_meter, 1.0}},
+    Word{"ntmm", {Unit::newton_meter, 1e-3}},
+    Word{"nm", {Unit::newton_meter, 1.0}},
+    Word{"nmm", {Unit::newton_meter, 1e-3}},
+    Word{"n-m", {Unit::newton_meter, 1.0}},
+    Word{"n-mm", {Unit::newton_meter, 1e-3}},
+    Word{"n*m", {Unit::newton_meter, 1.0}},
+    Word{"n*mm", {Unit::newton_meter, 1e-3}},
+    Word{"n.m", {Unit::newton_meter, 1.0}},
+    Word{"newton-meters", {Unit::newton_meter, 1.0}},
+    Word{"ft-lb", {Unit::newton_meter, kFootPound}},
+    Word{"ft-lbs", {Unit::newton_meter, kFootPound}},
+    Word{"ft.lbs", {Unit::newton_meter, kFootPound}},
+    Word{"ftlbs", {Unit::newton_meter, kFootPound}},
+    Word{"ft*lbf", {Unit::newton_meter, kFootPound}},
+    Word{"in-lb", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"in-lbs", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"n/m", {Unit::newton_per_meter, 1.0}},
+    Word{"ncm", {Unit::newton_meter, 1e-2}},
+    Word{"n-cm", {Unit::newton_meter, 1e-2}},
+    Word{"n*cm", {Unit::newton_meter, 1e-2}},
+    Word{"n.cm", {Unit::newton_meter, 1e-2}},
+    Word{"n·cm", {Unit::newton_meter, 1e-2}},
+    Word{"n·mm", {Unit::newton_meter, 1e-3}},
+    Word{"n·m", {Unit::newton_meter, 1.0}},
+    Word{"n\u22c5m", {Unit::newton_meter, 1.0}},    // dot operator
+    Word{"n\u22c5mm", {Unit::newton_meter, 1e-3}},  // dot operator
+    Word{"n.mm", {Unit::newton_meter, 1e-3}},
+    Word{"n_m", {Unit::newton_meter, 1.0}},
+    Word{"newtonmeter", {Unit::newton_meter, 1.0}},
+    Word{"newtonmeters", {Unit::newton_meter, 1.0}},
+    Word{"newtonmetres", {Unit::newton_meter, 1.0}},
+    Word{"mnm", {Unit::newton_meter, 1e-3}},
+    Word{"knm", {Unit::newton_meter, 1e3}},
+    Word{"kn-m", {Unit::newton_meter, 1e3}},
+    Word{"kn*m", {Unit::newton_meter, 1e3}},
+    Word{"kn.m", {Unit::newton_meter, 1e3}},
+    Word{"lb-ft", {Unit::newton_meter, kFootPound}},
+    Word{"lbft", {Unit::newton_meter, kFootPound}},
+    Word{"lbf-ft", {Unit::newton_meter, kFootPound}},
+    Word{"lbf*ft", {Unit::newton_meter, kFootPound}},
+    Word{"ftlb", {Unit::newton_meter, kFootPound}},
+    Word{"lb-in", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"inlb", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"kgfm", {Unit::newton_meter, kStandardGravity}},
+    Word{"kgf*m", {Unit::newton_meter, kStandardGravity}},
+    Word{"kpm", {Unit::newton_meter, kStandardGravity}},
+    Word{"mrad", {Unit::radian, 1e-3}},
+    Word{"degs", {Unit::radian, kDegree}},
+    Word{"g", {Unit::meter_per_second2, kStandardGravity}},
+    Word{"mg", {Unit::meter_per_second2, 1e-3 * kStandardGravity}},
+    Word{"m/s2", {Unit::meter_per_second2, 1.0}},
+    Word{"m/s/s", {Unit::meter_per_second2, 1.0}},
+    Word{"mm/s2", {Unit::meter_per_second2, 1e-3}},
+    Word{"mm/s^2", {Unit::meter_per_second2, 1e-3}},
+    Word{"rad/s2", {Unit::radian_per_second2, 1.0}},
+    Word{"m/s²", {Unit::meter_per_second2, 1.0}},
+    Word{"deg/sec", {Unit::radian_per_second, kDegree}},
+    Word{"deg/s", {Unit::radian_per_second, kDegree}},
+    Word{"degrees/sec", {Unit::radian_per_second, kDegree}},
+    Word{"degrees/s", {Unit::radian_per_second, kDegree}},
+    Word{"°/s", {Unit::radian_per_second, kDegree}},
+    Word{"dps", {Unit::radian_per_second, kDegree}},
+    Word{"v", {Unit::volt, 1.0}},
+    Word{"volts", {Unit::volt, 1.0}},
+    Word{"uv", {Unit::volt, 1e-6}},
+    Word{"millivolt", {Unit::volt, 1e-3}},
+    Word{"microvolt", {Unit::volt, 1e-6}},
+    Word{"msec", {Unit::second, 1e-3}},
+    Word{"msecs", {Unit::second, 1e-3}},
+    Word{"millisec", {Unit::second, 1e-3}},
+    Word{"secs", {Unit::second, 1.0}},
+    Word{"inches", {Unit::meter, 0.0254}},
+    Word{"inch", {Unit::meter, 0.0254}},
+};
+
+}  // namespace
+
 std::string to_utf8(std::string_view bytes) {
   std::string text;
   const bool utf8 = is_utf8(bytes);
@@ -32,59 +120,6 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
   for (const char c : text) {
     if (c != ' ' && c != '\0') word += small_letter(c);
   }
-  constexpr double kFootPound = 0.3048 * 4.4482216152605;  // foot times pound-force [N m]
-  struct Word {
-    std::string_view text;
-    ScaledUnit unit;
-  };
-  constexpr std::array kWords = {
-      Word{"nt", {Unit::newton, 1.0}},
-      Word{"newton", {Unit::newton, 1.0}},
-      Word{"ntm", {Unit::newton_meter, 1.0}},
-      Word{"ntmm", {Unit::newton_meter, 1e-3}},
-      Word{"nm", {Unit::newton_meter, 1.0}},
-      Word{"nmm", {Unit::newton_meter, 1e-3}},
-      Word{"n-m", {Unit::newton_meter, 1.0}},
-      Word{"n-mm", {Unit::newton_meter, 1e-3}},
-      Word{"n*m", {Unit::newton_meter, 1.0}},
-      Word{"n*mm", {Unit::newton_meter, 1e-3}},
-      Word{"n.m", {Unit::newton_meter, 1.0}},
-      Word{"newton-meters", {Unit::newton_meter, 1.0}},
-      Word{"ft-lb", {Unit::newton_meter, kFootPound}},
-      Word{"ft-lbs", {Unit::newton_meter, kFootPound}},
-      Word{"ft.lbs", {Unit::newton_meter, kFootPound}},
-      Word{"ftlbs", {Unit::newton_meter, kFootPound}},
-      Word{"ft*lbf", {Unit::newton_meter, kFootPound}},
-      Word{"in-lb", {Unit::newton_meter, kFootPound / 12.0}},
-      Word{"in-lbs", {Unit::newton_meter, kFootPound / 12.0}},
-      Word{"n/m", {Unit::newton_per_meter, 1.0}},
-      Word{"ncm", {Unit::newton_meter, 1e-2}},
-      Word{"g", {Unit::meter_per_second2, kStandardGravity}},
-      Word{"mg", {Unit::meter_per_second2, 1e-3 * kStandardGravity}},
-      Word{"m/s2", {Unit::meter_per_second2, 1.0}},
-      Word{"m/s/s", {Unit::meter_per_second2, 1.0}},
-      Word{"mm/s2", {Unit::meter_per_second2, 1e-3}},
-      Word{"mm/s^2", {Unit::meter_per_second2, 1e-3}},
-      Word{"rad/s2", {Unit::radian_per_second2, 1.0}},
-      Word{"m/s²", {Unit::meter_per_second2, 1.0}},
-      Word{"deg/sec", {Unit::radian_per_second, kDegree}},
-      Word{"deg/s", {Unit::radian_per_second, kDegree}},
-      Word{"degrees/sec", {Unit::radian_per_second, kDegree}},
-      Word{"degrees/s", {Unit::radian_per_second, kDegree}},
-      Word{"°/s", {Unit::radian_per_second, kDegree}},
-      Word{"dps", {Unit::radian_per_second, kDegree}},
-      Word{"v", {Unit::volt, 1.0}},
-      Word{"volts", {Unit::volt, 1.0}},
-      Word{"uv", {Unit::volt, 1e-6}},
-      Word{"millivolt", {Unit::volt, 1e-3}},
-      Word{"microvolt", {Unit::volt, 1e-6}},
-      Word{"msec", {Unit::second, 1e-3}},
-      Word{"msecs", {Unit::second, 1e-3}},
-      Word{"millisec", {Unit::second, 1e-3}},
-      Word{"secs", {Unit::second, 1.0}},
-      Word{"inches", {Unit::meter, 0.0254}},
-      Word{"inch", {Unit::meter, 0.0254}},
-  };
   // "mV" and "MV", "N" and "n" differ by case; in capitals or small letters only, the usual unit is meant.
   if (word == "mv") return ScaledUnit{Unit::volt, 1e-3};
   for (const Word& entry : kWords) {

@@ -435,6 +435,16 @@ TEST(C3d, TextOfUnknownOriginBecomesUtf8) {
             "a b");
   EXPECT_EQ(parse_file_unit("\xB5V")->to_si, 1e-6);
   EXPECT_EQ(parse_file_unit("ntmm")->unit, Unit::newton_meter);
+  // A N m is 1000 N mm, 100 N cm, a thousandth of a kN m.
+  for (const auto& [word, to_si] : {std::pair{"Nmm", 1e-3},
+                                    {"N·mm", 1e-3},
+                                    {"N.cm", 1e-2},
+                                    {"kNm", 1e3},
+                                    {"N\u22c5m", 1.0},
+                                    {"kgf*m", kStandardGravity}}) {
+    ASSERT_TRUE(parse_file_unit(word)) << word;
+    EXPECT_EQ(*parse_file_unit(word), (ScaledUnit{Unit::newton_meter, to_si})) << word;
+  }
   EXPECT_FALSE(parse_file_unit("d.u."));
 }
 

@@ -15,7 +15,7 @@ namespace myoid::recording {
 SeriesFile read_series(const std::filesystem::path& path) {
   if (format_of(path) == FileFormat::text_table) {
     CsvSeries file = parse_emg_table(read_text_file(path), path);
-    return {std::move(file.data), std::move(file.repairs)};
+    return {std::move(file.data), std::move(file.repairs), std::move(file.to_si)};
   }
   Storage file = read_storage(path);
   return {std::move(file.data), std::move(file.repairs)};

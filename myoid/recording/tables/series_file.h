@@ -13,6 +13,7 @@ namespace myoid::recording {
 struct SeriesFile {
   TimeSeries data;
   std::vector<Repair> repairs;
+  std::vector<double> to_si = {};  ///< Of a table, for each column: the factor of the unit that is written, 0: none.
 };
 
 /// Reads a series from a table (.csv, .tsv, .txt) or a storage file (any other name), in the file's

@@ -263,17 +263,15 @@ class TableSeries {
       const TableChannel& c = channels_[clock.channels[k]];
       channels.push_back({c.name, c.unit ? c.unit->unit : Unit::dimensionless});
       group.has_unit.push_back(c.unit.has_value());
+      if (first_clock_) series_.to_si.push_back(c.unit ? c.unit->to_si : 0.0);
       const auto column = static_cast<Eigen::Index>(k);
       if (!all) values.col(column) = numbers_.values.col(c.column).head(samples);
       if (c.unit && c.unit->to_si != 1.0) values.col(column) *= c.unit->to_si;
     }
     group.data = TimeSeries(clock.time_s.head(samples), std::move(channels), std::move(values));
-    if (first_clock_) {
-      static_cast<ClockedChannels&>(series_) = std::move(group);
-      first_clock_ = false;
-    } else {
-      series_.other_clocks.push_back(std::move(group));
-    }
+    ClockedChannels& place = first_clock_ ? series_ : series_.other_clocks.emplace_back();
+    place = std::move(group);
+    first_clock_ = false;
   }
 
   void state_clocks() {

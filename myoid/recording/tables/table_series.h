@@ -24,6 +24,7 @@ struct CsvSeries : ClockedChannels {
   std::vector<Repair> repairs;
   std::vector<ClockedChannels> other_clocks;
   std::vector<Event> events;  ///< The cells of columns of remarks, with the column's name.
+  std::vector<double> to_si;  ///< Of a table, for each channel of `data`: the factor of its written unit, 0: none.
 };
 
 /// Returns the clock with the most channels called EMG; ties go to the clock with the most channels in volts, then to

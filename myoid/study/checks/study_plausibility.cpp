@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "myoid/body/dynamics/ground_support.h"
+#include "myoid/body/dynamics/torque_plausibility.h"
 #include "myoid/body/model/model_plausibility.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/study/checks/contact_table.h"
 #include "myoid/study/checks/determined_joint.h"
 #include "myoid/study/checks/excluded_times.h"
@@ -79,15 +81,79 @@ std::vector<Remark> of_the_model(const Study& study, const body::BodyModel& mode
   return found;
 }
 
+/// Finds a joint whose measured torque stays far below its muscles in every effort: another unit than the header's.
+std::vector<Remark> small_torques(const Capacities& capacities, const std::map<std::string, double>& peaks_nm) {
+  std::vector<Remark> found;
+  for (const auto& [name, peak_nm] : peaks_nm) {
+    const double least_nm = kLimits.joints.least_torque_share * capacities.at(name).isometric_nm();
+    if (!(peak_nm > 0.0) || peak_nm >= least_nm) continue;
+    found.push_back({.code = RemarkCode::unit_doubtful,
+                     .severity = Severity::warning,
+                     .where = "study",
+                     .about = name,
+                     .value = peak_nm,
+                     .says = fmt::format("the measured torque on {} is at most {:.2g} N m in every trial, and the "
+                                         "muscles of the model make {:.3g} N m: are its numbers in a larger unit than "
+                                         "the header of external_torque says",
+                                         name, peak_nm, capacities.at(name).isometric_nm()),
+                     .remedy = "write the unit of the numbers in the header, as in '" + name + "_moment [N m]'"});
+  }
+  return found;
+}
+
+/// Finds a joint of which no motion of the study reaches an angle that people bend to, although it moves: radians that
+/// are called degrees.
+std::vector<Remark> small_angles(const std::map<std::string, AngleSpan>& angles) {
+  std::vector<Remark> found;
+  for (const auto& [name, span] : angles) {
+    const double largest_deg = std::max(span.greatest_rad, -span.least_rad) / kDegree;
+    const double range_deg = (span.greatest_rad - span.least_rad) / kDegree;
+    if (largest_deg >= kLimits.joints.least_angle_deg || range_deg < kLimits.joints.least_angle_range_deg) continue;
+    found.push_back({.code = RemarkCode::unit_doubtful,
+                     .severity = Severity::warning,
+                     .where = "study",
+                     .about = name,
+                     .value = largest_deg,
+                     .says = fmt::format("{} goes from {:.2g} to {:.2g} degrees over all trials: are these the radians "
+                                         "of {:.0f} to {:.0f} degrees, under a header that says degrees",
+                                         name, span.least_rad / kDegree, span.greatest_rad / kDegree,
+                                         span.least_rad / kDegree / kDegree, span.greatest_rad / kDegree / kDegree),
+                     .remedy = "then write " + name + " [rad] into the headers (of a .mot inDegrees=no)"});
+  }
+  return found;
+}
+
 }  // namespace
 
 StudyPlausibility::StudyPlausibility(const Study& study, const body::BodyModel& model)
     : study_(&study), model_(&model), capacities_(joint_capacities(study, model)) {}
 
+void StudyPlausibility::remember_extremes(const TrialSpec& trial, const TrialInput& input) {
+  if (input.external_torque && trial.use != Use::passive && trial.use != Use::static_pose) {
+    for (const auto& [name, capacity] : capacities_) {
+      if (const auto column = input.external_torque->find(name + "_moment")) {
+        double& peak_nm = torque_peaks_nm_[name];
+        peak_nm = std::max(peak_nm, body::usual_peak(input.external_torque->values().col(*column)));
+      }
+    }
+  }
+  const bool is_doubted =
+      std::ranges::find(input.remarks, RemarkCode::unit_doubtful, &Remark::code) != input.remarks.end();
+  for (const std::string& name : study_coordinates(study_->model)) {
+    const auto column = input.motion ? input.motion->find(name) : std::nullopt;
+    if (!column || is_doubted || input.motion->channels()[static_cast<std::size_t>(*column)].unit != Unit::radian)
+      continue;
+    AngleSpan& span = angles_[name];
+    span.least_rad = std::min(span.least_rad, input.motion->values().col(*column).minCoeff());
+    span.greatest_rad = std::max(span.greatest_rad, input.motion->values().col(*column).maxCoeff());
+  }
+}
+
 void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input) {
   prints_.push_back(print_of(trial, input));
   const std::vector<TrialLengths> lengths = lengths_of(trial, input);
   std::ranges::copy(lengths, std::back_inserter(lengths_));
+  remember_extremes(trial, input);
   if (input.markers) sizes_.push_back(size_of(*model_, trial.name, *input.markers));
   if (input.emg) {
     for (const MuscleSpec& muscle : study_->muscles) {
@@ -147,8 +213,9 @@ std::vector<Remark> StudyPlausibility::findings() const {
     }
   }
   if (auto sizes = unlike_sizes(sizes_)) found.push_back(std::move(*sizes));
-  for (std::vector<Remark> more : {shared_muscles(*study_), unlike_stated_bodies(*study_), same,
-                                   grouped(unlike_lengths(lengths_)), of_the_model(*study_, *model_)})
+  for (std::vector<Remark> more :
+       {shared_muscles(*study_), unlike_stated_bodies(*study_), same, small_torques(capacities_, torque_peaks_nm_),
+        small_angles(angles_), grouped(unlike_lengths(lengths_)), of_the_model(*study_, *model_)})
     std::ranges::move(more, std::back_inserter(found));
   return found;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "myoid/body/model/body_model.h"
@@ -12,6 +14,11 @@
 #include "myoid/study/study.h"
 
 namespace myoid::study {
+
+/// The least and the greatest angle of a coordinate [rad].
+struct AngleSpan {
+  double least_rad = 1e300, greatest_rad = -1e300;
+};
 
 /// Checks the trials of a study one by one, then all of them together. `check` reports the
 /// findings; `run` stops at errors and reports warnings.
@@ -28,6 +35,8 @@ class StudyPlausibility {
   [[nodiscard]] const std::vector<Stretch>& foreign_times() const { return foreign_times_; }
 
  private:
+  void remember_extremes(const TrialSpec& trial, const TrialInput& input);
+
   const Study* study_;
   const body::BodyModel* model_;
   Capacities capacities_;
@@ -36,7 +45,9 @@ class StudyPlausibility {
   std::vector<TrialPrint> prints_;
   std::vector<TrialLengths> lengths_;
   std::vector<TrialSize> sizes_;
-  double largest_emg_ = 0.0;  ///< Over all trials.
+  std::map<std::string, double> torque_peaks_nm_;  ///< Of `external_torque` over all efforts, by coordinate.
+  std::map<std::string, AngleSpan> angles_;        ///< Least and greatest of `motion` over all trials, by coordinate.
+  double largest_emg_ = 0.0;                       ///< Over all trials.
 };
 
 /// Runs all these checks: throws InvalidInput for the first error and adds the warnings to the trials'. Where a trial

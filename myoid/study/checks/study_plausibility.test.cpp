@@ -66,6 +66,41 @@ TEST(RequirePlausible, RefusesOneEmgInTwoTrialsAndNamesBoth) {
   }
 }
 
+TEST(StudyPlausibility, RadiansThatAreCalledDegreesAreDoubtedOverAllTrials) {
+  const auto doubts = [](double first_deg, double second_deg) {
+    TwoTrials two;
+    StudyPlausibility plausibility(two.study, two.model);
+    for (std::size_t i = 0; i < 2; ++i) {
+      two.inputs[i].motion = elbow_motion(i == 0 ? first_deg : second_deg);
+      plausibility.look_at(two.study.trials[i], two.inputs[i]);
+    }
+    return std::ranges::count(plausibility.findings(), RemarkCode::unit_doubtful, &Remark::code);
+  };
+  EXPECT_EQ(doubts(70.0, 80.0), 0);
+  EXPECT_EQ(doubts(70.0 * kDegree, 80.0 * kDegree), 1);
+  EXPECT_EQ(doubts(1.0, 80.0), 0);  // a trial that is held near 0
+  EXPECT_EQ(doubts(0.1, 0.1), 0);   // a joint that is held
+}
+
+TEST(StudyPlausibility, ATorqueThatStaysFarBelowTheMusclesIsOfAnotherUnit) {
+  const auto doubts = [](double peak_nm) {
+    TwoTrials two;
+    StudyPlausibility plausibility(two.study, two.model);
+    for (std::size_t i = 0; i < 2; ++i) {
+      two.study.trials[i].external_torque = "push.csv";
+      const Eigen::VectorXd& time = two.inputs[i].motion->time_s();
+      two.inputs[i].external_torque = TimeSeries(time, {{"elbow_flexion_moment", Unit::newton_meter}},
+                                                 Eigen::MatrixXd(peak_nm * (2.0 * time.array()).sin()));
+      plausibility.look_at(two.study.trials[i], two.inputs[i]);
+    }
+    return std::ranges::count(plausibility.findings(), RemarkCode::unit_doubtful, &Remark::code);
+  };
+  EXPECT_EQ(doubts(40.0), 0);
+  EXPECT_EQ(doubts(2.0), 0);   // a light touch
+  EXPECT_EQ(doubts(0.04), 1);  // N m called N mm
+  EXPECT_EQ(doubts(0.0), 0);   // a dynamometer that was off
+}
+
 TEST(StudyPlausibility, WhatSeveralTrialsHaveAlikeIsSaidOnce) {
   TwoTrials two;
   StudyPlausibility plausibility(two.study, two.model);

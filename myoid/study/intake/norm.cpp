@@ -10,6 +10,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/units.h"
+#include "myoid/ground/files/file_words.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/tables/csv_reader.h"
 
@@ -82,16 +83,17 @@ Eigen::VectorXd read_percent(const NormTable& table) {
 /// Returns the factor from the unit of a column to deg or N m.
 double factor_of(const NormTable& table, const std::string& name, bool torque, const Study& study) {
   const std::string& unit = table.unit(name);
+  if (unit.empty()) return 1.0;
+  const auto known = parse_file_unit(unit);
   if (torque) {
-    if (unit.empty() || unit == "N m" || unit == "Nm" || unit == "N.m") return 1.0;
+    if (known && known->unit == Unit::newton_meter) return known->to_si;
     if (unit == "N m/kg" || unit == "Nm/kg" || unit == "N.m/kg") {
       if (study.subject.mass_kg) return *study.subject.mass_kg;
       table.refuse_header(
           fmt::format("column '{}' is in {}; give the person's mass: mass_kg in [subject]", name, unit));
     }
   } else {
-    if (unit.empty() || unit == "deg") return 1.0;
-    if (unit == "rad") return 1.0 / kDegree;
+    if (known && known->unit == Unit::radian) return known->to_si / kDegree;
   }
   table.refuse_header(
       fmt::format("column '{}' is in '{}'; expected {}", name, unit, torque ? "N m or N m/kg" : "deg or rad"));

@@ -13,6 +13,7 @@
 #include "myoid/ground/math/spline.h"
 #include "myoid/recording/signals/clock_gaps.h"
 #include "myoid/recording/tables/series_file.h"
+#include "myoid/study/intake/column_unit.h"
 #include "myoid/study/intake/emg_cover.h"
 #include "myoid/study/intake/limits.h"
 
@@ -131,12 +132,9 @@ class GivenReader {
     recording::SeriesFile file = recording::read_series(path);
     add_repairs(path, file.repairs, input_.remarks);
     std::vector<Channel> channels = file.data.channels();
-    for (Channel& channel : channels) {
-      if (channel.unit != unit && channel.unit != Unit::dimensionless)
-        throw ReadError(path, 0,
-                        fmt::format("column '{}' is in {}, expected {}; correct the unit in the header", channel.name,
-                                    symbol(channel.unit), symbol(unit)));
-      channel.unit = unit;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      require_unit(path, file, static_cast<Eigen::Index>(c), unit);
+      channels[c].unit = unit;
     }
     return {file.data.time_s(), std::move(channels), file.data.values()};
   }

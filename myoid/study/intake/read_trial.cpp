@@ -15,6 +15,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
+#include "myoid/study/intake/column_unit.h"
 #include "myoid/study/intake/emg_cover.h"
 #include "myoid/study/intake/read_given.h"
 #include "myoid/study/intake/trial_emg.h"
@@ -44,7 +45,7 @@ void require_files(const TrialSpec& trial) {
   for (const std::filesystem::path& path : trial.given.moment_arms) require("moment_arms", path);
 }
 
-/// Angles of a file, and whether its header says that they are in degrees.
+/// Angles of a file, and whether its header says that some are in degrees.
 struct AngleFile {
   TimeSeries angles;
   bool says_degrees = false;
@@ -54,6 +55,7 @@ struct AngleFile {
 /// `is_angle` takes a column's name and whether it is the only one. Throws ReadError for an angle of a table in another
 /// unit or in none.
 AngleFile read_angles(const std::filesystem::path& path,
+                      const std::vector<std::string>& coordinates,
                       const std::function<bool(const std::string&, bool)>& is_angle,
                       std::vector<Remark>& remarks) {
   if (format_of(path) != FileFormat::text_table) {
@@ -64,6 +66,7 @@ AngleFile read_angles(const std::filesystem::path& path,
   }
   recording::SeriesFile file = recording::read_series(path);
   add_repairs(path, file.repairs, remarks);
+  for (const std::string& name : coordinates) require_known_unit(path, file, name);
   for (const Channel& channel : file.data.channels()) {
     if (is_angle(channel.name, file.data.channel_count() == 1) && channel.unit != Unit::radian)
       throw ReadError(
@@ -71,7 +74,11 @@ AngleFile read_angles(const std::filesystem::path& path,
           fmt::format("column '{}' is in {}, expected an angle; write its unit in the header, as in '{} [deg]'",
                       channel.name, symbol(channel.unit), channel.name));
   }
-  return {std::move(file.data)};
+  bool says_degrees = false;
+  for (Eigen::Index c = 0; c < file.data.channel_count(); ++c)
+    says_degrees |=
+        file.data.channels()[static_cast<std::size_t>(c)].unit == Unit::radian && written_factor(file, c) == kDegree;
+  return {std::move(file.data), says_degrees};
 }
 
 TimeSeries read_motion(const Study& study,
@@ -85,12 +92,14 @@ TimeSeries read_motion(const Study& study,
     return (one_joint && alone) ||
            (index && model.coordinates[static_cast<std::size_t>(*index)].motion == body::MotionType::rotational);
   };
-  auto [motion, says_degrees] = read_angles(path, is_angle, input.remarks);
+  auto [motion, says_degrees] = read_angles(path, study_coordinates(study.model), is_angle, input.remarks);
   const bool only = one_joint && motion.channel_count() == 1;
   if (only) motion = {motion.time_s(), {{model.coordinates[0].name, Unit::radian}}, motion.values()};
   bool any = false;
   for (const Channel& channel : motion.channels()) any |= model.find_coordinate(channel.name).has_value();
-  if (const std::string doubt = check_angle_unit(path, says_degrees, motion); !doubt.empty())
+  // A dynamometer's table may hold one angle, near 0: the trials of a study are judged together.
+  const std::string doubt = check_angle_unit(path, says_degrees, motion);
+  if (!doubt.empty() && format_of(path) != FileFormat::text_table)
     warn(input, RemarkCode::unit_doubtful, fmt::format("{}: {}", path.filename().string(), doubt));
   if (!any)
     throw ReadError(
@@ -125,20 +134,26 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   std::vector<std::string> there;
   for (const std::string& name : study_coordinates(study.model)) {
     columns.push_back({name + "_moment", Unit::newton_meter});
+    require_known_unit(*trial.external_torque, file, columns.back().name);
     if (file.data.find(columns.back().name)) there.push_back(columns.back().name);
   }
   if (there.empty()) {
     throw ReadError(*trial.external_torque, 0,
                     fmt::format("no column '{}' [N m]; found {}", columns[0].name, channel_names(file.data)));
   }
+  for (const std::string& name : there) {
+    const Eigen::Index column = file.data.index(name);
+    require_unit(*trial.external_torque, file, column, Unit::newton_meter);
+    const double to_si = written_factor(file, column);
+    if (to_si != 1.0)
+      remarks.push_back(
+          {.code = RemarkCode::reading,
+           .severity = Severity::note,
+           .about = name,
+           .says = fmt::format("column '{}' is not in N m: by its unit its numbers times {:.6g} are", name, to_si)});
+  }
   // A dynamometer acts on one joint only.
   const TimeSeries found = file.data.select(there);
-  for (const Channel& channel : found.channels()) {
-    if (channel.unit != Unit::newton_meter && channel.unit != Unit::dimensionless)
-      throw ReadError(*trial.external_torque, 0,
-                      fmt::format("column '{}' is in {}, expected N m; correct the unit in the header", channel.name,
-                                  symbol(channel.unit)));
-  }
   Eigen::MatrixXd torque = Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (const auto column = found.find(columns[i].name))

@@ -103,6 +103,26 @@ TEST(ReadTrialParts, ATorqueMayBeATableInItsOwnUnit) {
             std::string::npos);
 }
 
+TEST(ReadTrialParts, ATorqueInAShareIsRefusedAndAUnitThatIsNotSIIsSaid) {
+  WrittenTrial trial(0.01, 4.99);
+  trial.spec.external_torque = trial.folder / "torque.csv";
+  const auto read = [&](const std::string& unit) {
+    std::string table = "time,elbow_flexion_moment [" + unit + "]\n";
+    for (int i = 0; i <= 500; ++i) table += fmt::format("{:.2f},{:.1f}\n", 0.01 * i, -0.1 * i);
+    write_file(*trial.spec.external_torque, table);
+    const TrialInput input = read_trial_parts(arm_study(), trial.spec, arm()).front().input;
+    return std::pair(input.external_torque->values()(200, 0),
+                     std::ranges::count(input.remarks, RemarkCode::reading, &Remark::code));
+  };
+  EXPECT_THROW((void)read("%"), ReadError);
+  EXPECT_THROW((void)read("Nm/kg"), ReadError);
+  const auto [torque_nm, remarks] = read("Nm");
+  EXPECT_NEAR(torque_nm, -20.0, 1e-12);
+  const auto [torque_of_knm, remarks_of_knm] = read("kNm");
+  EXPECT_NEAR(torque_of_knm, -20000.0, 1e-9);
+  EXPECT_EQ(remarks_of_knm, remarks + 1);
+}
+
 // A dynamometer's export: angle and torque are columns of one table, the angle in degrees.
 TEST(ReadTrialParts, AnAngleMayBeAColumnOfTheTableOfTheTorque) {
   WrittenTrial trial(0.01, 4.99);
