@@ -75,21 +75,26 @@ std::optional<Remark> too_fast(const TimeSeries& motion, const Stretch& within) 
   return found;
 }
 
-std::optional<Remark> absent_coordinates(const body::BodyModel& model, const TimeSeries& motion) {
+std::optional<Remark> absent_coordinates(const body::BodyModel& model,
+                                         const TimeSeries& motion,
+                                         const std::vector<std::string>& needed) {
   std::vector<std::string> resting;
   std::string first;
   for (const body::Coordinate& coordinate : model.coordinates) {
     if (coordinate.locked || motion.find(coordinate.name)) continue;
+    if (!needed.empty() && std::ranges::find(needed, coordinate.name) == needed.end()) continue;
     if (first.empty()) first = coordinate.name;
-    resting.push_back(fmt::format("'{}' at {:.4g} {}", coordinate.name, coordinate.default_value,
-                                  symbol(coordinate_unit(coordinate, 0))));
+    resting.push_back(coordinate.default_value == 0.0
+                          ? coordinate.name
+                          : fmt::format("{} at {:.4g} {}", coordinate.name, coordinate.default_value,
+                                        symbol(coordinate_unit(coordinate, 0))));
   }
   if (resting.empty()) return std::nullopt;
   return Remark{.code = RemarkCode::coordinate_absent,
                 .about = resting.size() > 1 ? fmt::format("{} and {} more", first, resting.size() - 1) : first,
                 .value = static_cast<double>(resting.size()),
-                .says = fmt::format("{} not in the motion; resting: {}", counted(resting.size(), "coordinate"),
-                                    fmt::join(resting, ", "))};
+                .says = fmt::format("{} not in the motion, held at 0 or as said: {}",
+                                    counted(resting.size(), "coordinate"), fmt::join(resting, ", "))};
 }
 
 }  // namespace
@@ -115,13 +120,16 @@ std::vector<Remark> implausible_motion(const TimeSeries& motion, const Stretch& 
   return found;
 }
 
-std::vector<Remark> implausible_motion(const body::BodyModel& model, const TimeSeries& motion, const Stretch& within) {
+std::vector<Remark> implausible_motion(const body::BodyModel& model,
+                                       const TimeSeries& motion,
+                                       const Stretch& within,
+                                       const std::vector<std::string>& needed) {
   std::vector<std::string> coordinates;
   for (const Channel& channel : motion.channels()) {
     if (model.find_coordinate(channel.name)) coordinates.push_back(channel.name);
   }
   std::vector<Remark> found = implausible_motion(motion.select(coordinates), within);
-  if (auto absent = absent_coordinates(model, motion)) found.push_back(std::move(*absent));
+  if (auto absent = absent_coordinates(model, motion, needed)) found.push_back(std::move(*absent));
   return found;
 }
 

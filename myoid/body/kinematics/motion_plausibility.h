@@ -32,9 +32,10 @@ inline constexpr MotionLimits kMotionLimits;
 [[nodiscard]] std::vector<Remark> implausible_motion(const TimeSeries& motion, const Stretch& within = {-1e300, 1e300});
 
 /// The same of a motion of a model, and a warning that names the coordinates of the model that the motion lacks, but
-/// for locked ones: they rest at their default.
+/// for locked ones: they rest at their default. Of `needed` coordinates only these are missed; empty: all.
 [[nodiscard]] std::vector<Remark> implausible_motion(const body::BodyModel& model,
                                                      const TimeSeries& motion,
-                                                     const Stretch& within = {-1e300, 1e300});
+                                                     const Stretch& within = {-1e300, 1e300},
+                                                     const std::vector<std::string>& needed = {});
 
 }  // namespace myoid::body

@@ -10,6 +10,7 @@
 #include "myoid/body/kinematics/people_range.h"
 #include "myoid/body/model/kinematic_tree.h"
 #include "myoid/ground/core/units.h"
+#include "myoid/study/checks/needed_coordinates.h"
 #include "myoid/study/intake/limits.h"
 #include "myoid/study/trial_up.h"
 
@@ -221,7 +222,8 @@ std::vector<Remark> implausible(const Study& study,
   }
   if (input.motion && !study.model.is_none()) check_angles(study, model, *input.motion, trial.name, findings);
   if (input.motion && input.motion->channel_count() > 0) {
-    for (Remark& remark : body::implausible_motion(model, *input.motion)) {
+    const std::vector<std::string> needed = needed_coordinates(study, model, trial);
+    for (Remark& remark : body::implausible_motion(model, *input.motion, {-1e300, 1e300}, needed)) {
       remark.where = trial.name;
       // Beside given lengths only the joint's own torque depends on the angles.
       if (trial.given.lengths) remark.severity = std::max(remark.severity, Severity::warning);
