@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "myoid/fit/intervals/result.h"
-#include "myoid/fit/methods/exchanged_electrodes.h"
 #include "myoid/fit/methods/emg_clock.h"
+#include "myoid/fit/methods/exchanged_electrodes.h"
 #include "myoid/ground/core/progress.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/informed_forces.h"
