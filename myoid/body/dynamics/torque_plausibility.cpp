@@ -29,11 +29,12 @@ std::string too_much_torque(const std::string& coordinate,
                             const std::string& what_it_is,
                             TorqueSource source) {
   if (!(peak_nm > greatest_nm)) return {};
-  const char* remedy =
-      source == TorqueSource::computed
-          ? ""
-          : (peak_nm < 1000.0 * greatest_nm ? "; is it in N mm? Divide by 1000 (Myoid's torques are in N m)"
-                                            : "; correct its unit (N m)");
+  const char* remedy = source == TorqueSource::computed
+                           ? ""
+                           : (peak_nm < 1000.0 * greatest_nm
+                                  ? "; is it in N mm? Divide by 1000, or correct the unit in its column's name "
+                                    "(Myoid's torques are in N m)"
+                                  : "; correct its unit (N m)");
   return fmt::format(
       "{} reaches {:.4g} N m at {}, beyond what the strongest person's muscles and weight do there "
       "in this model, {:.3g} N m{}",
