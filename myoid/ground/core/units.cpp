@@ -35,6 +35,7 @@ constexpr std::array kExactWords = {
     UnitWord{"deg/s", {Unit::radian_per_second, kDegree}},
     UnitWord{"N", {Unit::newton, 1.0}},
     UnitWord{"kN", {Unit::newton, 1e3}},
+    UnitWord{"mN", {Unit::newton, 1e-3}},
     UnitWord{"kgf", {Unit::newton, 9.80665}},  // standard gravity, exactly
     UnitWord{"kp", {Unit::newton, 9.80665}},
     UnitWord{"lbf", {Unit::newton, 4.4482216152605}},  // 0.45359237 kg times standard gravity

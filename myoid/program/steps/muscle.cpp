@@ -40,7 +40,7 @@ std::vector<muscle::LawSet> law_sets(const std::vector<std::string>& words) {
 
 /// A measurement may have gaps: samples without a force are no part of it.
 ColumnChoice measured_column(const MuscleOptions& o) {
-  return {"--measured-column", o.measured_column, Gaps::left_out};
+  return {"--measured-column", o.measured_column, Unit::newton, Gaps::left_out};
 }
 
 /// Throws InvalidInput for a name that says another format than the file would have.

@@ -121,6 +121,15 @@ TEST(MuscleFunction, HearsOfTheDriveAlthoughTheLengthIsRefusedLater) {
   EXPECT_THAT(heard[0], HasSubstr("0.4 s"));
 }
 
+TEST(MuscleFunction, AColumnMayBeInAnotherUnitOfItsKind) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "f.csv", "time,force [mN],length [mm]\n0,1500,30\n0.1,2500,31\n");
+  Remarks remarks{Call{}};
+  const ColumnChoice force{"--measured-column", "force", Unit::newton};
+  EXPECT_EQ(read_column(folder / "f.csv", force, remarks).values, Eigen::Vector2d(1.5, 2.5));
+  EXPECT_THROW((void)read_column(folder / "f.csv", {"--measured-column", "length", Unit::newton}, remarks), ReadError);
+}
+
 TEST(MuscleFunction, ReadsAColumnByItsName) {
   const test::TemporaryFolder folder;
   write_file(folder / "two.csv", "time,a,b\n0,1,3\n1,2,4\n");

@@ -11,6 +11,7 @@
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/steps/stage_input.h"
 #include "myoid/recording/tables/series_file.h"
+#include "myoid/study/intake/column_unit.h"
 
 namespace myoid::program {
 namespace {
@@ -87,6 +88,7 @@ Column read_column(const std::string& path, const ColumnChoice& choice, Remarks&
     throw ReadError(path, 0, fmt::format("has no column '{}' ({}); there are {}", wanted, choice.option, names));
   }
   const Eigen::Index at = wanted.empty() ? 0 : *series.find(wanted);
+  if (choice.unit != Unit::dimensionless) study::require_unit(path, file, at, choice.unit);
   Column column{series.time_s(), series.values().col(at), series.channels()[static_cast<std::size_t>(at)].name};
   if (column.values.allFinite()) return column;
   if (choice.gaps == Gaps::refused)
@@ -99,7 +101,7 @@ muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& o,
                                             const muscle::MuscleFile& file,
                                             Remarks& remarks) {
   const std::string& path = o.lengths[index];
-  const Column length = within_call(read_column(path, {"--column", o.column}, remarks), o.call);
+  const Column length = within_call(read_column(path, {"--column", o.column, Unit::meter}, remarks), o.call);
   muscle::IsolatedMuscleInput input;
   input.time_s = length.time_s;
   const double scale = o.scales[o.scales.size() > 1 ? index : 0];

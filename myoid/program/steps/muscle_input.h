@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "myoid/ground/core/units.h"
 #include "myoid/muscle/muscle_file.h"
 #include "myoid/program/steps/muscle.h"
 
@@ -17,14 +18,16 @@ struct Column {
 /// Samples without a number: none may be, or a remark counts them and they are left out.
 enum class Gaps { refused, left_out };
 
-/// The column that an option names; an empty name is the file's only column.
+/// The column that an option names; an empty name is the file's only column. A table may write another unit of the same
+/// kind, which is converted.
 struct ColumnChoice {
   std::string option, name;
+  Unit unit = Unit::dimensionless;  ///< Dimensionless: any.
   Gaps gaps = Gaps::refused;
 };
 
 /// Returns the only column of a file, or the one of this name. Throws ReadError if the column is missing, is one of
-/// several, has gaps that are refused, or no number at all.
+/// several, is in a unit of another kind, has gaps that are refused, or no number at all.
 [[nodiscard]] Column read_column(const std::string& path, const ColumnChoice& choice, Remarks& remarks);
 
 /// Reads the experiment of the length file `index`, over the call's time. Throws InvalidInput for
