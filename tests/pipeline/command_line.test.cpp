@@ -356,7 +356,7 @@ TEST(CommandLine, DegreesThatAreCalledRadiansAreNoticed) {
   const Finished run = myoid({"run", rec / "study.toml", "--out", folder / "out"});
   EXPECT_EQ(run.exit_code, 3) << run.err;
   EXPECT_THAT(run.err, AllOf(HasSubstr("motion.mot"), HasSubstr("elbow_flexion"), HasSubstr("reaches 90"),
-                             HasSubstr("degrees, not radians"), HasSubstr("inDegrees=yes")));
+                             HasSubstr("these are degrees"), HasSubstr("inDegrees=yes")));
 }
 
 TEST(CommandLine, ATrialWithoutEmgIsNamed) {
