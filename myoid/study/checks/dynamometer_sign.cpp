@@ -189,10 +189,16 @@ std::optional<Exchange> best_exchange(const std::vector<ToldTrial>& told, const 
 }
 
 /// Returns what to do about torques of the wrong sign, with both explanations where the trials do not tell them apart.
+/// Where the trials together say that the sign is right, a trial of the other sign stands alone.
 std::string remedy_for(const std::string& coordinate,
                        double right_log_odds,
                        const std::optional<Exchange>& exchange,
                        const RelaxedJoint& rest) {
+  if (right_log_odds > 0.0)
+    return fmt::format(
+        "{}_moment has its right sign in other trials; if it is reversed in this file alone, negate it "
+        "there",
+        coordinate);
   const std::string reversed = fmt::format(
       "if {0}_moment is the person's torque on the dynamometer, negate it{1}: external_torque is the torque of the "
       "surroundings on the body, positive in the coordinate's direction",

@@ -56,7 +56,9 @@ std::vector<Remark> yielding_joint(const RelaxedJoint& joint, const std::string&
                              "{:.3g} N m as the angle rises: a joint at rest resists, and the torque rises",
                              joint.range_rad / kDegree, coordinate, -joint.change_nm),
          .remedy = torque_is_right
-                       ? fmt::format("negate the angle: by the EMG the torque of {} has its right sign", coordinate)
+                       ? fmt::format("by the EMG {0}_moment has its right sign in the other trials: negate it in the "
+                                     "relaxed trials alone, or negate {0} in all",
+                                     coordinate)
                        : fmt::format("negate {0}, or {0}_moment, whichever is reversed", coordinate)});
   return found;
 }
