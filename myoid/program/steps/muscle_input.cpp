@@ -10,8 +10,8 @@
 #include "myoid/ground/core/names.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/steps/stage_input.h"
+#include "myoid/recording/column_unit.h"
 #include "myoid/recording/tables/series_file.h"
-#include "myoid/study/intake/column_unit.h"
 
 namespace myoid::program {
 namespace {
@@ -88,7 +88,7 @@ Column read_column(const std::string& path, const ColumnChoice& choice, Remarks&
     throw ReadError(path, 0, fmt::format("has no column '{}' ({}); there are {}", wanted, choice.option, names));
   }
   const Eigen::Index at = wanted.empty() ? 0 : *series.find(wanted);
-  if (choice.unit != Unit::dimensionless) study::require_unit(path, file, at, choice.unit);
+  if (choice.unit != Unit::dimensionless) recording::require_unit(path, file, at, choice.unit);
   Column column{series.time_s(), series.values().col(at), series.channels()[static_cast<std::size_t>(at)].name};
   if (column.values.allFinite()) return column;
   if (choice.gaps == Gaps::refused)

@@ -11,9 +11,9 @@
 #include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/math/spline.h"
+#include "myoid/recording/column_unit.h"
 #include "myoid/recording/signals/clock_gaps.h"
 #include "myoid/recording/tables/series_file.h"
-#include "myoid/study/intake/column_unit.h"
 #include "myoid/study/intake/emg_cover.h"
 #include "myoid/study/intake/limits.h"
 
@@ -133,7 +133,7 @@ class GivenReader {
     add_repairs(path, file.repairs, input_.remarks);
     std::vector<Channel> channels = file.data.channels();
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      require_unit(path, file, static_cast<Eigen::Index>(c), unit);
+      recording::require_unit(path, file, static_cast<Eigen::Index>(c), unit);
       channels[c].unit = unit;
     }
     return {file.data.time_s(), std::move(channels), file.data.values()};

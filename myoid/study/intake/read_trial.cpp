@@ -12,10 +12,10 @@
 #include "myoid/ground/core/provenance.h"
 #include "myoid/ground/files/byte_source.h"
 #include "myoid/ground/files/file_format.h"
+#include "myoid/recording/column_unit.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/study/intake/column_unit.h"
 #include "myoid/study/intake/emg_cover.h"
 #include "myoid/study/intake/read_given.h"
 #include "myoid/study/intake/trial_emg.h"
@@ -66,7 +66,7 @@ AngleFile read_angles(const std::filesystem::path& path,
   }
   recording::SeriesFile file = recording::read_series(path);
   add_repairs(path, file.repairs, remarks);
-  for (const std::string& name : coordinates) require_known_unit(path, file, name);
+  for (const std::string& name : coordinates) recording::require_known_unit(path, file, name);
   for (const Channel& channel : file.data.channels()) {
     if (is_angle(channel.name, file.data.channel_count() == 1) && channel.unit != Unit::radian)
       throw ReadError(
@@ -76,8 +76,8 @@ AngleFile read_angles(const std::filesystem::path& path,
   }
   bool says_degrees = false;
   for (Eigen::Index c = 0; c < file.data.channel_count(); ++c)
-    says_degrees |=
-        file.data.channels()[static_cast<std::size_t>(c)].unit == Unit::radian && written_factor(file, c) == kDegree;
+    says_degrees |= file.data.channels()[static_cast<std::size_t>(c)].unit == Unit::radian &&
+                    recording::written_factor(file, c) == kDegree;
   return {std::move(file.data), says_degrees};
 }
 
@@ -134,7 +134,7 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   std::vector<std::string> there;
   for (const std::string& name : study_coordinates(study.model)) {
     columns.push_back({name + "_moment", Unit::newton_meter});
-    require_known_unit(*trial.external_torque, file, columns.back().name);
+    recording::require_known_unit(*trial.external_torque, file, columns.back().name);
     if (file.data.find(columns.back().name)) there.push_back(columns.back().name);
   }
   if (there.empty()) {
@@ -143,8 +143,8 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   }
   for (const std::string& name : there) {
     const Eigen::Index column = file.data.index(name);
-    require_unit(*trial.external_torque, file, column, Unit::newton_meter);
-    const double to_si = written_factor(file, column);
+    recording::require_unit(*trial.external_torque, file, column, Unit::newton_meter);
+    const double to_si = recording::written_factor(file, column);
     if (to_si != 1.0)
       remarks.push_back(
           {.code = RemarkCode::reading,

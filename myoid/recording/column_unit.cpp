@@ -1,4 +1,4 @@
-#include "myoid/study/intake/column_unit.h"
+#include "myoid/recording/column_unit.h"
 
 #include <string_view>
 
@@ -7,12 +7,9 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/text_file.h"
 
-namespace myoid::study {
+namespace myoid::recording {
 
-void require_unit(const std::filesystem::path& path,
-                  const recording::SeriesFile& file,
-                  Eigen::Index column,
-                  Unit expected) {
+void require_unit(const std::filesystem::path& path, const SeriesFile& file, Eigen::Index column, Unit expected) {
   const auto at = static_cast<std::size_t>(column);
   const Channel& channel = file.data.channels()[at];
   const bool stated = at < file.to_si.size() && file.to_si[at] != 0.0;
@@ -23,7 +20,7 @@ void require_unit(const std::filesystem::path& path,
                   channel.unit == Unit::dimensionless ? "a share (1 or %)" : symbol(channel.unit), symbol(expected)));
 }
 
-void require_known_unit(const std::filesystem::path& path, const recording::SeriesFile& file, const std::string& name) {
+void require_known_unit(const std::filesystem::path& path, const SeriesFile& file, const std::string& name) {
   if (file.data.find(name)) return;
   for (const Channel& channel : file.data.channels()) {
     if (!channel.name.starts_with(name)) continue;
@@ -36,9 +33,9 @@ void require_known_unit(const std::filesystem::path& path, const recording::Seri
   }
 }
 
-double written_factor(const recording::SeriesFile& file, Eigen::Index column) {
+double written_factor(const SeriesFile& file, Eigen::Index column) {
   const auto at = static_cast<std::size_t>(column);
   return at < file.to_si.size() && file.to_si[at] != 0.0 ? file.to_si[at] : 1.0;
 }
 
-}  // namespace myoid::study
+}  // namespace myoid::recording

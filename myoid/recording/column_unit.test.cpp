@@ -1,4 +1,4 @@
-#include "myoid/study/intake/column_unit.h"
+#include "myoid/recording/column_unit.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid::study {
+namespace myoid::recording {
 namespace {
 
 TEST(ColumnUnit, IsTheOneThatATableWritesOrTheFileIsRefused) {
   const test::TemporaryFolder folder;
   write_file(folder / "a.csv", "time,q [deg],m [Nmm],a [%],x\n0,1,2,3,4\n0.1,2,3,4,5\n");
-  const recording::SeriesFile file = recording::read_series(folder / "a.csv");
+  const SeriesFile file = read_series(folder / "a.csv");
   EXPECT_EQ(written_factor(file, 0), kDegree);
   EXPECT_EQ(written_factor(file, 1), 1e-3);
   EXPECT_EQ(written_factor(file, 3), 1.0);
@@ -22,11 +22,11 @@ TEST(ColumnUnit, IsTheOneThatATableWritesOrTheFileIsRefused) {
   EXPECT_THROW(require_unit("a.csv", file, 2, Unit::newton_meter), ReadError);
   EXPECT_NO_THROW(require_unit("a.csv", file, 3, Unit::newton_meter));
   write_file(folder / "b.csv", "time,m [Nm/kg],q (deg),q (raw)\n0,1,2,3\n0.1,2,3,4\n");
-  const recording::SeriesFile other = recording::read_series(folder / "b.csv");
+  const SeriesFile other = read_series(folder / "b.csv");
   EXPECT_THROW(require_known_unit("b.csv", other, "m"), ReadError);
   EXPECT_NO_THROW(require_known_unit("b.csv", other, "q"));
   EXPECT_NO_THROW(require_known_unit("b.csv", other, "r"));
 }
 
 }  // namespace
-}  // namespace myoid::study
+}  // namespace myoid::recording
