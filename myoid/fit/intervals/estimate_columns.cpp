@@ -69,12 +69,12 @@ std::optional<ParameterEstimate> estimate_of_json(const nlohmann::json& row) {
   for (const EstimateColumn& column : kColumns) {
     const auto cell = row.find(column.name);
     if (cell == row.end() && column.kind != key) continue;
-    std::visit([&](const auto member) { read(row.at(column.name), e.*member); }, column.member);
+    std::visit([&](const auto member) { read(row.at(std::string(column.name)), e.*member); }, column.member);
   }
   e.tied_to = row.value("tied_to", std::string());
   if (const auto shares = row.find("variance_shares"); shares != row.end()) {
     SourceShares& of = e.variance_shares.emplace();
-    for (std::size_t s = 0; s < of.size(); ++s) of[s] = shares->at(kSourceColumns[s]).get<double>();
+    for (std::size_t s = 0; s < of.size(); ++s) of[s] = shares->at(std::string(kSourceColumns[s])).get<double>();
   }
   return e;
 }
