@@ -82,7 +82,7 @@ std::optional<body::IkResult> StageStore::find(const std::string& key) {
     result.objective.assign(objective.data(), objective.data() + objective.size());
     result.frames_not_converged = stored.at("frames_not_converged");
     result.frames_without_markers = stored.at("frames_without_markers");
-    result.open_coordinates = stored.at("undetermined");
+    result.open_coordinates = stored.at("undetermined").get<std::vector<std::string>>();
     for (std::string text : stored.at("notes").get<std::vector<std::string>>())
       result.notes.push_back({.code = RemarkCode::reading, .severity = Severity::note, .says = std::move(text)});
     mark_used(key);

@@ -28,7 +28,7 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
     for (const nlohmann::json& method : all.at("methods")) {
       if (method.at("method") != "torque") continue;
       EarlierRun run;
-      run.parameters = method.at("covariance").at("parameters");
+      run.parameters = method.at("covariance").at("parameters").get<std::vector<std::string>>();
       const nlohmann::json& rows = method.at("covariance").at("matrix");
       const auto p = static_cast<Eigen::Index>(run.parameters.size());
       run.covariance.resize(p, p);
