@@ -189,7 +189,7 @@ std::optional<Exchange> best_exchange(const std::vector<ToldTrial>& told, const 
 }
 
 /// Returns what to do about torques of the wrong sign, with both explanations where the trials do not tell them apart.
-/// Where the trials together say that the sign is right, a trial of the other sign stands alone.
+/// One file alone is to be negated where the trials together have the right sign.
 std::string remedy_for(const std::string& coordinate,
                        double right_log_odds,
                        const std::optional<Exchange>& exchange,

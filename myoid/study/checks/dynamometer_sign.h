@@ -20,7 +20,7 @@ namespace myoid::study {
 /// The remedy names exchanged electrodes of opposite muscles beside the reversed sign, or in its place, where they
 /// explain the torques as well, or better.
 ///
-/// Where no torque is reversed, relaxed trials are judged (`yielding_joint`).
+/// The check judges the relaxed trials (`yielding_joint`) where no torque is reversed.
 [[nodiscard]] std::vector<Remark> dynamometer_signs(const Study& study,
                                                     const body::BodyModel& model,
                                                     const std::vector<EffortTrial>& trials);

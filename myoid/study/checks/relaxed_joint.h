@@ -17,7 +17,7 @@ struct EffortTrial {
   const TimeSeries* motion = nullptr;           ///< Coordinates of the study [rad], or nullptr.
 };
 
-/// How the torque of the surroundings changes with the angle of a joint at rest, over all passive trials.
+/// The change of the surroundings' torque over the angles of a joint at rest, in all passive trials.
 struct RelaxedJoint {
   double change_nm = 0.0;  ///< Over the range of the angle, by the line through all samples.
   double range_rad = 0.0;
