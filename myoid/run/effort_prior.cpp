@@ -1,6 +1,7 @@
 #include "myoid/run/effort_prior.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -12,10 +13,15 @@ bool from_maximal_effort(const study::EmgSpec& emg) { return emg.has_mvc || emg.
 
 bool effort_is_unknown(const study::Study& study) { return !from_maximal_effort(study.emg) && study.identify.gain; }
 
-Prior any_effort() {
+bool effort_is_in_strength(const study::Study& study) {
+  return !from_maximal_effort(study.emg) && !effort_is_unknown(study);
+}
+
+AnyEffort any_effort() {
   // Mean and spread of a logarithm that is uniform from ln(least) to 0.
   const double least = fit::beliefs::kLeastEffort.value;
-  return {.mean = std::sqrt(least), .sd = -std::log(least) / std::sqrt(12.0), .logarithmic = true};
+  const double spread = -std::log(least) / std::sqrt(12.0), half = spread / std::numbers::sqrt2;
+  return {.own = {.mean = std::sqrt(least), .sd = half, .logarithmic = true}, .common_sd = half};
 }
 
 double unseen_effort(const study::Study& study) {
@@ -52,7 +58,7 @@ fit::ParameterRule effort_bounds() {
 }
 
 void expect_any_effort(std::vector<fit::MuscleSetup>& muscles) {
-  const Prior share = any_effort();
+  const Prior share = any_effort().own;
   for (fit::MuscleSetup& muscle : muscles) {
     const auto found = muscle.priors.find("max_isometric_force");
     if (found == muscle.priors.end()) continue;

@@ -9,7 +9,7 @@
 namespace myoid::run {
 namespace {
 
-TEST(ExpectAnyEffort, HasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratures) {
+TEST(ExpectAnyEffort, WithTheCommonPartHasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratures) {
   fit::MuscleSetup muscle;
   muscle.priors["max_isometric_force"] = {.mean = 900.0, .sd = 0.25, .logarithmic = true};
   std::vector<fit::MuscleSetup> muscles{muscle, {}};
@@ -28,7 +28,7 @@ TEST(ExpectAnyEffort, HasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratu
   const double mean = sum / kDraws;
   const Prior& prior = muscles[0].priors.at("max_isometric_force");
   EXPECT_NEAR(std::log(prior.mean), mean, 0.01);
-  EXPECT_NEAR(prior.sd, std::sqrt(squares / kDraws - mean * mean), 0.01);
+  EXPECT_NEAR(std::hypot(prior.sd, any_effort().common_sd), std::sqrt(squares / kDraws - mean * mean), 0.01);
   EXPECT_TRUE(prior.logarithmic);
   EXPECT_TRUE(muscles[1].priors.empty());
 }

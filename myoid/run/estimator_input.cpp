@@ -87,8 +87,7 @@ fit::StudyData estimator_data(const FitSource& source) {
   const std::vector<body::MuscleGroup> groups = study::muscle_groups(study, source.model);
   fit::StudyData data;
   data.muscles = study::muscle_setups(study, source.model);
-  const bool unknown_effort = effort_is_unknown(study);
-  if (!from_maximal_effort(study.emg) && !unknown_effort) expect_any_effort(data.muscles);
+  if (effort_is_in_strength(study)) expect_any_effort(data.muscles);
   for (std::size_t i = 0; i < source.trials.size(); ++i) {
     const TrialResult& trial = source.trials[i];
     const TimeSeries& activation = *source.activation[i];
@@ -100,7 +99,7 @@ fit::StudyData estimator_data(const FitSource& source) {
   // Without an unknown gain EMG that is given as activation is taken at its word.
   const bool scaled = study.emg.kind == study::EmgKind::activation ? study.identify.gain : study.emg.has_mvc;
   data.rules = fit::nuisance_rules(data, scaled);
-  if (unknown_effort) data.rules.push_back(effort_bounds());
+  if (effort_is_unknown(study)) data.rules.push_back(effort_bounds());
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
   fit::free_speeds(data, fit::unstated_speeds(data, study.identify.muscles));
   return data;
@@ -110,6 +109,7 @@ fit::EstimatorSettings estimator_settings(const study::Study& study) {
   const study::IdentifySpec& spec = study.identify;
   fit::UnseenSpreads unseen = study.beliefs;
   unseen.effort = unseen_effort(study);
+  if (effort_is_in_strength(study)) unseen.strength = std::hypot(unseen.strength, any_effort().common_sd);
   return {.muscles = spec.muscles,
           .unseen = unseen,
           .lag = spec.dynamics ? fit::LagChoice::equation_1 : spec.lag,
@@ -126,15 +126,17 @@ fit::ActivationSource activation_source(const study::Study& study,
                                         const std::vector<recording::ChannelNormalisation>& normalisation) {
   fit::ActivationSource source{.from_mvc = from_maximal_effort(study.emg), .envelope_cutoff_hz = study.emg.lowpass_hz};
   // Activation 1 is the greatest effort of the MVC trials: a share of the muscle's maximum.
-  Prior effort{.mean = 1.0};
-  if (study.emg.has_mvc) effort = {.mean = study.emg.mvc_effort, .sd = study.emg.mvc_effort_sd / study.emg.mvc_effort};
+  AnyEffort effort{.own = {.mean = 1.0}};
+  if (study.emg.has_mvc)
+    effort.own = {.mean = study.emg.mvc_effort, .sd = study.emg.mvc_effort_sd / study.emg.mvc_effort};
   if (effort_is_unknown(study)) effort = any_effort();
   for (const recording::ChannelNormalisation& n : normalisation) {
     fit::ChannelSource channel{.channel = n.channel,
-                               .gain_mean = effort.mean,
+                               .gain_common_sd = effort.common_sd,
+                               .gain_mean = effort.own.mean,
                                .bandwidth_hz = n.bandwidth_hz,
                                .rest = n.resting_level_v / n.reference_v};
-    if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, effort.sd);
+    if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, effort.own.sd);
     source.channels.push_back(std::move(channel));
   }
   // Another program's normalisation is of unknown exactness.

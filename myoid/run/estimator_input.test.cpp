@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/fit/methods/torque.h"
+#include "myoid/run/effort_prior.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/study_result.h"
 
@@ -67,12 +68,15 @@ TEST(TorqueOptions, ThePosteriorKnowsNothingOfTheEffortOfARecordingWithoutMaximu
   study.emg.has_mvc = false;
   const fit::EstimatorOptions unknown = options_of(result);
   EXPECT_NEAR(unknown.of("BIC").gain_mean, std::sqrt(0.05), 1e-12);
-  EXPECT_NEAR(*unknown.of("BIC").gain_sd, std::hypot(-std::log(0.05) / std::sqrt(12.0), 0.03), 1e-12);
+  const double half = -std::log(0.05) / std::sqrt(24.0);  // of the variance; the other half is the session's
+  EXPECT_NEAR(*unknown.of("BIC").gain_sd, std::hypot(half, 0.03), 1e-12);
+  EXPECT_NEAR(unknown.of("BIC").gain_common_sd, half, 1e-12);
   EXPECT_EQ(unknown.unseen.effort, 0.0);
   EXPECT_EQ(strength_sd(), literature_sd);
   EXPECT_TRUE(bounded());
   study.identify.gain = false;  // then F_max is the force at the largest EMG
-  EXPECT_GT(strength_sd(), 2.0 * literature_sd);
+  EXPECT_NEAR(strength_sd(), std::hypot(literature_sd, half), 1e-12);
+  EXPECT_NEAR(options_of(result).unseen.strength, std::hypot(study.beliefs.strength, half), 1e-12);
   EXPECT_FALSE(bounded());
 }
 
@@ -142,7 +146,7 @@ TEST(EstimatorData, WithoutAMaximalContractionFMaxMayBeThatOfAnySmallerEffort) {
   const Prior literature = prior();
   result.source.study.emg.has_mvc = false;
   EXPECT_LT(prior().mean, 0.5 * literature.mean);
-  EXPECT_GT(prior().sd, 3.0 * literature.sd);
+  EXPECT_NEAR(prior().sd, std::hypot(literature.sd, any_effort().own.sd), 1e-12);
   // The muscle itself is what it was: so is what it starts from where it is held.
   EXPECT_EQ(data_of(result).muscles[0].start.max_isometric_force_n, literature.mean);
   // Activation is taken at its word.

@@ -99,8 +99,8 @@ class Posterior:
         low, high = (ndtr(e / np.exp(self.log_lambda)[:, None]) for e in end)
         self.log_prior = -0.5 * (self.log_lambda / 0.3) ** 2 - np.log(high - low).sum(axis=1)
         self.judged_sd = sd[self.judged]
-        strength = get("name") == "max_isometric_force"
-        common = np.outer(strength, strength) * dump["strength_sd"] ** 2
+        names, common_sd = get("name"), get("common_sd")
+        common = (names[:, None] == names) * np.outer(common_sd, common_sd)
         self.precision = np.linalg.inv(common + np.diag(sd * sd))
         self.logarithmic = get("logarithmic")
         self.weight, self.size = np.array(dump["weight"]), np.array(dump["size"]).astype(int)
@@ -114,8 +114,14 @@ class Posterior:
             rows = sum(len(other.measured) for other in self.runs if other.trial == run.trial)
             run.weight = min(1.0, dump["independent_rows"] / rows) if dump["independent_rows"] > 0.0 else 1.0
 
+    def ends(self, x):
+        """The way from either bound, in units of a twentieth of the way between them."""
+        from_lower = 10.0 + 5.0 * x[:, :len(self.lower)]
+        return from_lower, from_lower - 20.0
+
     def z(self, x):
-        return self.lower + self.range / (1.0 + np.exp(-x[:, :len(self.lower)]))
+        from_lower, from_upper = self.ends(x)
+        return self.lower + self.range / 20.0 * (np.logaddexp(0.0, from_lower) - np.logaddexp(0.0, from_upper))
 
     def noise(self, x):
         """ln sigma_T, ln tau, ln kappa, ln s by its normal score, ln of four sizes, ln b of each trial."""
@@ -153,12 +159,15 @@ class Posterior:
         far = np.abs(x).max(axis=1) > 30.0
         x = np.where(far[:, None], 0.0, x)
         p = len(self.lower)
-        q = 1.0 / (1.0 + np.exp(-x[:, :p]))
         z, noise = self.z(x), self.noise(x)
+        from_lower, from_upper = self.ends(x)
         off = z - self.mean
         judged = ((off[:, self.judged] / self.judged_sd) ** 2).sum(axis=1)[:, None]
         off = np.where(self.judged, 0.0, off)
-        result = -0.5 * np.einsum("wi,ij,wj->w", off, self.precision, off) + np.log(q * (1.0 - q)).sum(axis=1)
+        result = -0.5 * np.einsum("wi,ij,wj->w", off, self.precision, off)
+        # ln dt/dx, t the share of the way: the difference of two logistic functions, over 4.
+        result -= (np.logaddexp(0.0, -from_lower) + np.logaddexp(0.0, from_upper) + np.log(4.0)).sum(axis=1)
+        result += p * np.log1p(-np.exp(-20.0))
         # The spreads that are judgments share a factor lambda, over which the prior is integrated.
         over = self.log_prior - len(self.judged_sd) * self.log_lambda - 0.5 * judged * np.exp(-2.0 * self.log_lambda)
         result += logsumexp(over, axis=1) + np.log(self.log_lambda[1] - self.log_lambda[0])

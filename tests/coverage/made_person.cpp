@@ -32,7 +32,7 @@ constexpr double kLeastActivation = 0.02, kLogRange = 2.3, kLag_s = 0.15;
 Eigen::VectorXd draw_unknowns(const std::vector<Unknown>& free, math::Random& random) {
   const auto p = static_cast<Eigen::Index>(free.size());
   const Eigen::LLT<Eigen::MatrixXd> precision(
-      prior_precision(free, beliefs::kStrength.sd, std::exp(beliefs::kUnlikeness.sd * random.normal())));
+      prior_precision(free, std::exp(beliefs::kUnlikeness.sd * random.normal())));
   for (int i = 0; i < 10000; ++i) {
     Eigen::VectorXd z(p);
     for (Eigen::Index j = 0; j < p; ++j) z[j] = random.normal();

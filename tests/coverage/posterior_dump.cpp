@@ -66,12 +66,11 @@ void write(std::uint64_t seed, int draws) {
     const Unknown& u = map.free()[j];
     fmt::print(
         "{}{{\"label\":\"{}\",\"name\":\"{}\",\"owner\":{},\"lower\":{:.17g},"
-        "\"upper\":{:.17g},\"mean\":{:.17g},\"sd\":{:.17g},\"logarithmic\":{},\"judgment\":{}}}",
+        "\"upper\":{:.17g},\"mean\":{:.17g},\"sd\":{:.17g},\"common_sd\":{:.17g},\"logarithmic\":{},\"judgment\":{}}}",
         j ? "," : "", u.label, u.field->name, u.targets.front().owner, u.bounds.lower, u.bounds.upper, u.prior.mean,
-        u.prior.sd, u.field->logarithmic, spread_is_judgment(u));
+        u.prior.sd, u.common_sd, u.field->logarithmic, spread_is_judgment(u));
   }
-  fmt::print("],\"strength_sd\":{:.17g},\"independent_rows\":{:.17g},\"muscles\":[", options.unseen.strength,
-             options.unseen.independent_rows);
+  fmt::print("],\"independent_rows\":{:.17g},\"muscles\":[", options.unseen.independent_rows);
   for (std::size_t k = 0; k < map.held().muscles.size(); ++k) {
     const MuscleValues& m = map.held().muscles[k];
     fmt::print("{}{{\"max_shortening_speed\":{:.17g},\"tendon_slack_length\":{:.17g}}}", k ? "," : "", m[kSpeed],

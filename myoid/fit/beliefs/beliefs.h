@@ -150,8 +150,8 @@ inline constexpr Belief kInertia = belief("joint_inertia", 0.0, 0.01, value, "kg
 inline constexpr Belief kLeastEffort =
     belief("least share of its maximum that a muscle's greatest effort is", 0.05, 0.0, value, "")
         .used(
-            "no maximal contraction was recorded: every ratio from there to 1 is as likely, ln(share) = ln 0.22 ± "
-            "0.86; the belief about `emg_gain`")
+            "no maximal contraction was recorded: every ratio to 1 is as likely, ln 0.22 ± 0.86, half"
+            " of the variance common; the belief about `emg_gain`")
         .from(
             "antagonists reach 5 to 20 % of their maximum (Kellis 1998), muscles of walking 10 to 80 % (Perry and "
             "Burnfield 2010)");

@@ -117,7 +117,8 @@ struct ChannelSource {
   /// Standard deviation of the gain's logarithm: the relative error of the level that counts as 1, which F_max
   /// inherits. Empty: the gain is no unknown.
   std::optional<double> gain_sd;
-  double gain_mean = 1.0;  ///< Activation 1 as a share of the maximum.
+  double gain_common_sd = 0.0;  ///< Unknown::common_sd of the gain.
+  double gain_mean = 1.0;       ///< Activation 1 as a share of the maximum.
   /// Statistical bandwidth of the raw EMG (recording::statistical_bandwidth_hz), which determines an envelope's noise
   /// (`envelope_spread`). 0: not known, because another program made the envelope.
   double bandwidth_hz = 0.0;

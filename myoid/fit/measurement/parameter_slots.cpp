@@ -76,6 +76,7 @@ void decide_muscle(ParameterSlot& slot,
   if (const auto b = setup.bounds.find(name); b != setup.bounds.end()) bound(slot, b->second);
   if (const auto p = setup.priors.find(name); p != setup.priors.end()) slot.prior = p->second;
   slot.prior_is_given = contains(setup.given_priors, name);
+  if (field == kMaxForce) slot.common_sd = options.unseen.strength;
 }
 
 /// Decides the delay: one for all channels, with the first channel's as the unknown, unless each has its own.
@@ -94,6 +95,7 @@ void decide_gain(ParameterSlot& slot, const EstimatorOptions& options, const std
   slot.free = true;
   slot.value = source.gain_mean;
   slot.prior = Prior{.mean = slot.value, .sd = *source.gain_sd, .logarithmic = true};
+  slot.common_sd = source.gain_common_sd;
 }
 
 /// Returns the positions of the owners that a rule names; of all if it names none.

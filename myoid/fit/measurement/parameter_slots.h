@@ -24,6 +24,7 @@ struct ParameterSlot {
   bool bounds_are_given = false;  ///< The study gives the bounds.
   std::optional<Prior> prior;
   bool prior_is_given = false;  ///< The study gives the prior, in place of the literature's.
+  double common_sd = 0.0;       ///< Unknown::common_sd, unless the study gives the prior.
   std::vector<int> tied;        ///< Owners whose numbers this slot moves too; empty: none.
   bool follows = false;         ///< Another owner's unknown moves it.
 };

@@ -56,6 +56,7 @@ Unknown unknown_of(const ParameterSlot& slot, const std::string& owner, bool pri
   p.prior_is_given = slot.prior_is_given;
   const bool with_prior = priors && slot.prior;
   if (with_prior) p.prior = scaled_prior(field, *slot.prior);
+  if (with_prior && !p.prior_is_given) p.common_sd = slot.common_sd;
   const double start = with_prior && !slot.start_is_given ? p.prior.mean : scaled(field, slot.value);
   p.start = std::clamp(start, p.bounds.lower, p.bounds.upper);
   return p;

@@ -27,11 +27,14 @@ struct Unknown {
   muscle::Range bounds;
   Prior prior;                  ///< Standard deviation 0: no prior.
   bool prior_is_given = false;  ///< The study gives the prior, in place of the literature's.
+  /// Spread of the part of the deviation from the prior's mean that a person's numbers of this field have in common,
+  /// beside `prior.sd`, the number's own.
+  double common_sd = 0.0;
 
   [[nodiscard]] double to_value(double z) const;
   [[nodiscard]] bool is(Scope scope, int number) const { return field->scope == scope && field->field == number; }
   [[nodiscard]] bool acts_on(int target_owner) const;
-  /// Returns 1 / sd² of the prior; 0 without a prior.
+  /// Returns 1 / sd² of the number's own prior; 0 without a prior.
   [[nodiscard]] double prior_precision() const;
 };
 

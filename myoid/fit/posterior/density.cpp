@@ -8,6 +8,7 @@
 #include <boost/math/special_functions/erf.hpp>
 
 #include "myoid/fit/beliefs/beliefs.h"
+#include "myoid/ground/math/bounded.h"
 #include "myoid/ground/math/statistics.h"
 
 namespace myoid::fit {
@@ -20,8 +21,6 @@ constexpr double kStartingTorqueError = 0.3;  // of the torque's root mean squar
 
 /// Returns true for the size y of a kind of unseen quantities over its believed spread, half normal.
 constexpr bool is_size_of_kind(Eigen::Index field) { return field > kModelErrorSize && field < kNoiseFieldCount; }
-
-double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 constexpr double kExactLength_m = 1e-4;  // error of a tendon that is taken to be exact
 
@@ -47,7 +46,7 @@ double score_of(double size) {
 }  // namespace
 
 Density::Density(const StudyData& data, const EstimatorOptions& options)
-    : strength_sd_(options.unseen.strength), likelihood_(data, options), unlike_(parameters().free(), strength_sd_) {
+    : likelihood_(data, options), unlike_(parameters().free()) {
   const std::vector<Unknown>& free = parameters().free();
   const auto p = static_cast<Eigen::Index>(free.size());
   lower_.resize(p);
@@ -90,7 +89,7 @@ void Density::believe(Believed believed) {
 
 void Density::take_precision() {
   const std::vector<Unknown>& free = parameters().free();
-  precision_ = prior_precision(free, strength_sd_, unlikeness_);
+  precision_ = prior_precision(free, unlikeness_);
   if (believed_ == Believed::nothing_exact) return;
   for (std::size_t j = 0; j < free.size(); ++j) {
     if (!free[j].is(Scope::muscle, kSlack)) continue;
@@ -110,7 +109,7 @@ double Density::prior(const Eigen::VectorXd& off, Eigen::VectorXd& gradient) con
 }
 
 Eigen::VectorXd Density::z_of(const Eigen::VectorXd& x) const {
-  return lower_ + range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return logistic(v); }));
+  return lower_ + range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return math::bounded(v).share; }));
 }
 
 NoiseValues Density::noise_of(const Eigen::VectorXd& x) const {
@@ -121,14 +120,14 @@ NoiseValues Density::noise_of(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd Density::slope(const Eigen::VectorXd& x) const {
-  return range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return logistic(v) * logistic(-v); }));
+  return range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return math::bounded(v).slope; }));
 }
 
 Eigen::VectorXd Density::x_of(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   Eigen::VectorXd x(size());
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const double share = range_[j] > 0.0 ? std::clamp((z[j] - lower_[j]) / range_[j], kInside, 1.0 - kInside) : 0.5;
-    x[j] = std::log(share / (1.0 - share));
+    x[j] = math::unbounded(share);
   }
   x.tail(noise.size()) = noise;
   x[lower_.size() + kModelErrorSize] = score_of(std::exp(noise[kModelErrorSize]) / noise_sd_[kModelErrorSize]);
@@ -172,11 +171,9 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
   Eigen::VectorXd pull;
   result += prior(z - prior_mean_, pull);
   for (Eigen::Index j = 0; j < p; ++j) {
-    // ln dz/dx = ln range + ln q + ln (1 - q), where q is the logistic function; its slope is 1 - 2 q.
-    const double below = -std::abs(x[j]) - 2.0 * std::log1p(std::exp(-std::abs(x[j])));
-    result += below;
-    if (gradient == nullptr) continue;
-    (*gradient)[j] = by_x[j] * (by.by_z[j] + pull[j]) + 1.0 - 2.0 * logistic(x[j]);
+    const math::Bounded at = math::bounded(x[j]);
+    result += at.log_slope;
+    if (gradient != nullptr) (*gradient)[j] = by_x[j] * (by.by_z[j] + pull[j]) + at.pull;
   }
   for (Eigen::Index field = 0; field < noise.size(); ++field) {
     if (field == kModelErrorSize) continue;
@@ -203,7 +200,7 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
   Eigen::MatrixXd of_z = likelihood_.information(z_of(x), noise_of(x)).information;
   of_z += precision_;
   h.topLeftCorner(p, p) = by_x.asDiagonal() * of_z * by_x.asDiagonal();
-  for (Eigen::Index j = 0; j < p; ++j) h(j, j) += 2.0 * logistic(x[j]) * logistic(-x[j]);
+  for (Eigen::Index j = 0; j < p; ++j) h(j, j) += math::bounded(x[j]).curvature;
   h.diagonal().tail(noise_sd_.size()) = noise_sd_.cwiseAbs2().cwiseInverse();
   // The torque's error has the size b sigma_T: ln b and ln sigma_T share a gradient.
   for (std::size_t r = 0; r < likelihood_.runs().size(); ++r) {

@@ -58,7 +58,7 @@ class Density {
   /// Unknowns and trials that this density alone has begin as in `start`.
   [[nodiscard]] Eigen::VectorXd start_at(const FittedUnknowns& at) const;
   /// Returns the longest step of a search for each entry of x: a standard deviation of the prior,
-  /// and at most 2, over which the logistic map changes its shape.
+  /// and at most 2, over half of the way between the bounds.
   [[nodiscard]] Eigen::VectorXd longest_step(const Eigen::VectorXd& x) const;
   /// Returns the x of z and phi; moves values near a bound inside, to 0.003 of the range.
   [[nodiscard]] Eigen::VectorXd x_of(const Eigen::VectorXd& z, const NoiseValues& noise) const;
@@ -67,8 +67,7 @@ class Density {
   [[nodiscard]] double value(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
     return evaluate(x, &gradient);
   }
-  /// Returns minus the second derivatives of the data (by the mean torque only), the priors and the
-  /// logistic map. The matrix is positive definite.
+  /// Returns minus the second derivatives of data (by the mean torque only), priors and bounds' map: positive definite.
   [[nodiscard]] Eigen::MatrixXd gauss_newton(const Eigen::VectorXd& x) const;
 
  private:
@@ -78,7 +77,7 @@ class Density {
 
   void take_precision();
 
-  double strength_sd_ = 0.0, unlikeness_ = 1.0;
+  double unlikeness_ = 1.0;
   Believed believed_ = Believed::nothing_exact;
   bool integrates_ = false;
   Likelihood likelihood_;

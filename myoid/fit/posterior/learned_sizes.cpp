@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "myoid/ground/math/bounded.h"
+
 namespace myoid::fit {
 namespace {
 
@@ -40,10 +42,11 @@ void stretch(const Eigen::VectorXd& wider, const ParameterMap& map, Sample& draw
     const double range = bounds.upper - bounds.lower;
     const Eigen::ArrayXd share =
         ((drawn.z.row(j).transpose().array() - bounds.lower) / range).max(1e-12).min(1.0 - 1e-12);
-    const Eigen::ArrayXd x = (share / (1.0 - share)).log();
+    const Eigen::ArrayXd x = share.unaryExpr([](double at) { return math::unbounded(at); });
     const double middle = (x * drawn.weight.array()).sum() / drawn.weight.sum();
     const Eigen::ArrayXd stretched = middle + wider[j] * (x - middle);
-    const Eigen::ArrayXd z = bounds.lower + range / (1.0 + (-stretched).exp());
+    const Eigen::ArrayXd z =
+        bounds.lower + range * stretched.unaryExpr([](double at) { return math::bounded(at).share; });
     drawn.z.row(j) = z.max(bounds.lower).min(bounds.upper).matrix().transpose();  // for the last digit
   }
 }

@@ -65,7 +65,7 @@ Mode find_mode(const Density& density,
       refresh();
       continue;
     }
-    // Near a bound the logistic map makes one entry's step very long; only this entry is cut.
+    // Near a bound the map of the bounds makes one entry's step very long; only this entry is cut.
     const Eigen::VectorXd longest = density.longest_step(mode.x);
     step = step.cwiseMax(-longest).cwiseMin(longest);
     promise = 0.5 * gradient.dot(step);

@@ -18,6 +18,7 @@
 #include "myoid/fit/posterior/exploration.h"
 #include "myoid/fit/posterior/learned_sizes.h"
 #include "myoid/fit/posterior/voluntary_torque.h"
+#include "myoid/ground/math/bounded.h"
 #include "myoid/ground/math/draws.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
@@ -111,7 +112,7 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
       const auto j = static_cast<Eigen::Index>(i);
       const muscle::Range& bounds = free[i].bounds;
       const double z = math::weighted_quantile(sample.z.row(j).transpose(), sample.weight, share);
-      const double beyond = std::log((z - bounds.lower) / (bounds.upper - z)) - best.mode.x[j];
+      const double beyond = math::unbounded((z - bounds.lower) / (bounds.upper - bounds.lower)) - best.mode.x[j];
       if (std::isfinite(beyond)) x[j] += given.narrower[j] * beyond;
     }
     return density.z_of(x);
@@ -139,8 +140,7 @@ struct Reporting {
   const std::vector<double>& active_span_m;  ///< Per muscle: range of its active lengths.
   const IdentificationResult& result;
   FitFacts fit;
-  bool from_mvc = true;      ///< Activation 1 is a maximal effort.
-  double strength_sd = 0.0;  ///< UnseenSpreads::strength.
+  bool from_mvc = true;  ///< Activation 1 is a maximal effort.
 };
 
 /// Returns what F_max means without a maximal contraction, from draws of a muscle's F_max: the
@@ -226,13 +226,13 @@ void judge_row(const Reporting& of,
 /// Returns 1 - variance / prior variance of an unknown, over all modes.
 double contraction(const Reporting& of, std::size_t unknown) {
   const Eigen::VectorXd z = of.sample.z.row(static_cast<Eigen::Index>(unknown)).transpose();
-  const double mean = z.dot(of.sample.weight), sd = prior_spread(of.map.free()[unknown], of.strength_sd);
+  const double mean = z.dot(of.sample.weight), sd = prior_spread(of.map.free()[unknown]);
   return 1.0 - (z.array() - mean).square().matrix().dot(of.sample.weight) / (sd * sd);
 }
 
 ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::size_t target_at) {
   Unknown p = of.map.free()[unknown];
-  p.prior.sd = prior_spread(p, of.strength_sd);
+  p.prior.sd = prior_spread(p);
   const Unknown::Target& target = p.targets[target_at];
   const auto at = static_cast<Eigen::Index>(unknown);
   const auto value = [&](double z) { return target.ratio * p.to_value(z); };
@@ -282,18 +282,15 @@ void add_estimates(const Reporting& of, IdentificationResult& result) {
 }
 
 /// Compares the muscles with their priors, about the strength that they share, and names that strength once.
-void compare_with_priors(const ParameterMap& map,
-                         const StudyData& data,
-                         double strength_sd,
-                         IdentificationResult& result) {
+void compare_with_priors(const ParameterMap& map, const StudyData& data, IdentificationResult& result) {
   constexpr double kUnusual = 2.0;  // standard deviations of persons
-  const double strength = common_strength(map.free(), result.solution, strength_sd);
-  result.prior_distances = prior_distances(about_strength(map.free(), strength), result.solution, data);
-  if (std::abs(strength) <= kUnusual * strength_sd) return;
+  const Strength strength = common_strength(map.free(), result.solution);
+  result.prior_distances = prior_distances(about_strength(map.free(), strength.log_ratio), result.solution, data);
+  if (std::abs(strength.log_ratio) <= kUnusual * strength.sd) return;
   result.warnings.push_back({.code = RemarkCode::unlike_person,
                              .says = fmt::format("all muscles together are {:.2g} times as strong as the model's: is "
                                                  "it of this person's size, is the torque's unit right?",
-                                                 std::exp(strength))});
+                                                 std::exp(strength.log_ratio))});
 }
 
 /// R2 below which a point fits nothing: it leaves twice the torque's variance.
@@ -425,7 +422,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
 
   IdentificationResult result;
   fill_fit(best, drawn, result);
-  compare_with_priors(best.density->parameters(), data, options.unseen.strength, result);
+  compare_with_priors(best.density->parameters(), data, result);
   // A fit whose numbers are not reported needs no second interval.
   const Given given =
       options.marginals ? given_geometry(best, drawn, options.progress) : not_asked_for(result.solution);
@@ -449,8 +446,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
                       .approximate = drawn.approximate,
                       .r2 = result.r2,
                       .model_error = result.model_error},
-                     options.from_mvc,
-                     options.unseen.strength};
+                     options.from_mvc};
   add_estimates(of, result);
   if (options.marginals && options.predictions && !options.measured_is_force)
     add_voluntary(of, best, sizes.noise, options, result);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Cholesky>
 
@@ -14,11 +15,6 @@ namespace {
 constexpr Eigen::Index kGrid = 46;            // values of lambda
 constexpr double kLeast = -4.0, kMost = 5.0;  // of ln lambda over its spread
 
-/// Returns true for a number of a muscle whose prior spread is the literature's.
-bool is_literature(const Unknown& of) {
-  return of.field->scope == Scope::muscle && of.prior.sd > 0.0 && !of.prior_is_given;
-}
-
 /// Returns ln of the share of a normal distribution within the bounds of a number.
 double log_share_within(const muscle::Range& bounds, double mean, double sd) {
   return std::log(
@@ -28,52 +24,52 @@ double log_share_within(const muscle::Range& bounds, double mean, double sd) {
 }  // namespace
 
 bool spread_is_judgment(const Unknown& of) {
-  return is_literature(of) && of.field->field != kMaxForce && of.field->field != kFiberLength;
+  return of.field->scope == Scope::muscle && of.prior.sd > 0.0 && !of.prior_is_given && of.field->field != kMaxForce &&
+         of.field->field != kFiberLength;
 }
 
-double prior_spread(const Unknown& of, double strength_sd) {
-  return of.is(Scope::muscle, kMaxForce) && is_literature(of) ? std::hypot(of.prior.sd, strength_sd) : of.prior.sd;
-}
+double prior_spread(const Unknown& of) { return std::hypot(of.prior.sd, of.common_sd); }
 
-Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double strength_sd, double unlikeness) {
+Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double unlikeness) {
   const auto p = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(p, p);
-  std::vector<Eigen::Index> strengths;
+  Eigen::VectorXd common(p);
+  std::map<const ParameterField*, std::vector<Eigen::Index>> sharing;
   for (Eigen::Index j = 0; j < p; ++j) {
     const Unknown& of = free[static_cast<std::size_t>(j)];
     precision(j, j) = of.prior_precision() / (spread_is_judgment(of) ? unlikeness * unlikeness : 1.0);
-    if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) strengths.push_back(j);
+    common[j] = of.common_sd;
+    if (of.common_sd > 0.0) sharing[of.field].push_back(j);
   }
-  const auto n = static_cast<Eigen::Index>(strengths.size());
-  if (n == 0) return precision;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(n, n, strength_sd * strength_sd);
-  for (Eigen::Index i = 0; i < n; ++i)
-    covariance(i, i) += 1.0 / precision(strengths[static_cast<std::size_t>(i)], strengths[static_cast<std::size_t>(i)]);
-  const Eigen::MatrixXd inverse = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
-  precision(strengths, strengths) = inverse;
+  for (const auto& [field, members] : sharing) {
+    Eigen::MatrixXd covariance = common(members) * common(members).transpose();
+    covariance += precision(members, members).diagonal().cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(covariance.rows(), covariance.rows());
+    precision(members, members) = covariance.llt().solve(all).eval();
+  }
   return precision;
 }
 
-double common_strength(const std::vector<Unknown>& free, const Eigen::VectorXd& z, double strength_sd) {
-  if (!(strength_sd > 0.0)) return 0.0;
-  double precision = 1.0 / (strength_sd * strength_sd), pull = 0.0;
+Strength common_strength(const std::vector<Unknown>& free, const Eigen::VectorXd& z) {
+  double precision = 0.0, pull = 0.0, sd = 0.0;
   for (std::size_t j = 0; j < free.size(); ++j) {
     const Unknown& of = free[j];
-    if (!of.is(Scope::muscle, kMaxForce) || !is_literature(of)) continue;
+    if (!of.is(Scope::muscle, kMaxForce) || !(of.common_sd > 0.0)) continue;
+    sd = of.common_sd;
     precision += of.prior_precision();
     pull += of.prior_precision() * (z[static_cast<Eigen::Index>(j)] - of.prior.mean);
   }
-  return pull / precision;
+  return sd > 0.0 ? Strength{pull / (precision + 1.0 / (sd * sd)), sd} : Strength{};
 }
 
 std::vector<Unknown> about_strength(std::vector<Unknown> free, double log_strength) {
   for (Unknown& of : free) {
-    if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) of.prior.mean += log_strength;
+    if (of.is(Scope::muscle, kMaxForce) && of.common_sd > 0.0) of.prior.mean += log_strength;
   }
   return free;
 }
 
-Unlikeness::Unlikeness(const std::vector<Unknown>& free, double strength_sd) : free_(free), strength_sd_(strength_sd) {
+Unlikeness::Unlikeness(const std::vector<Unknown>& free) : free_(free) {
   const double sd = beliefs::kUnlikeness.sd;
   log_lambda_.setLinSpaced(kGrid, kLeast * sd, kMost * sd);
   log_prior_ = -0.5 * (log_lambda_ / sd).square();
@@ -92,7 +88,7 @@ double Unlikeness::expected(const Eigen::MatrixXd& information, const Eigen::Vec
   const Eigen::Index p = judged_.size();
   Eigen::ArrayXd density(kGrid);
   for (Eigen::Index i = 0; i < kGrid; ++i) {
-    const Eigen::MatrixXd prior = prior_precision(free_, strength_sd_, std::exp(log_lambda_[i]));
+    const Eigen::MatrixXd prior = prior_precision(free_, std::exp(log_lambda_[i]));
     const Eigen::LDLT<Eigen::MatrixXd> all(information + prior);
     const Eigen::VectorXd off = all.solve(b);
     // Of |P| only the judged numbers' part depends on lambda.

@@ -8,26 +8,29 @@
 
 namespace myoid::fit {
 
-/// Returns the standard deviation of an unknown's prior. That of F_max, if it is the literature's and not the study's,
-/// has the person's strength (UnseenSpreads::strength) beside the muscle's own.
-[[nodiscard]] double prior_spread(const Unknown& of, double strength_sd);
+/// Returns the standard deviation of an unknown's prior, with the part that it has in common with others.
+[[nodiscard]] double prior_spread(const Unknown& of);
 
 /// Returns true for a number of a muscle whose prior spread is a judgment: all but F_max and l_m0,
 /// of which public models tell the spread, and those of which the study states a prior.
 [[nodiscard]] bool spread_is_judgment(const Unknown& of);
 
 /// Returns the inverse covariance of the priors of z. Where the spread of a muscle's number is a judgment, `unlikeness`
-/// (lambda) multiplies it. All ln F_max of a person share the person's strength, of spread c = `strength_sd`:
+/// (lambda) multiplies it. The numbers of one field that have a common spread c (Unknown::common_sd: all ln F_max share
+/// the person's strength) have
 ///
-///   cov(ln F_i, ln F_j) = c^2,    i not j.
-[[nodiscard]] Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
-                                              double strength_sd,
-                                              double unlikeness = 1.0);
+///   cov(z_i, z_j) = c_i c_j,    i not j.
+[[nodiscard]] Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double unlikeness = 1.0);
 
-/// Returns ln of the person's strength over the model's, that all F_max with the literature's prior share: its
-/// expectation given z, sum (d_i / s_i^2) / (sum 1 / s_i^2 + 1 / c^2), d_i the deviation of ln F_i from its prior's
-/// mean.
-[[nodiscard]] double common_strength(const std::vector<Unknown>& free, const Eigen::VectorXd& z, double strength_sd);
+/// The person's strength, which all F_max with the literature's prior share.
+struct Strength {
+  double log_ratio = 0.0;  ///< ln of the strength over the model's.
+  double sd = 0.0;         ///< Its prior's spread; 0: nothing is shared.
+};
+
+/// Returns the strength's expectation given z, sum (d_i / s_i^2) / (sum 1 / s_i^2 + 1 / c^2), d_i the deviation of
+/// ln F_i from its prior's mean, s_i the muscle's own spread and c the common one.
+[[nodiscard]] Strength common_strength(const std::vector<Unknown>& free, const Eigen::VectorXd& z);
 
 /// Returns the unknowns with the priors of F_max about this strength, each with the muscle's own spread.
 [[nodiscard]] std::vector<Unknown> about_strength(std::vector<Unknown> free, double log_strength);
@@ -37,7 +40,7 @@ namespace myoid::fit {
 /// lambda has a normal prior (beliefs::kUnlikeness). Given lambda, z has its normal prior within its bounds.
 class Unlikeness {
  public:
-  Unlikeness(const std::vector<Unknown>& free, double strength_sd);
+  explicit Unlikeness(const std::vector<Unknown>& free);
 
   /// Returns false where no spread is a judgment, so that lambda is 1.
   [[nodiscard]] bool uncertain() const { return judged_.size() > 0 && judged_.maxCoeff() > 0.0; }
@@ -66,7 +69,6 @@ class Unlikeness {
 
  private:
   std::vector<Unknown> free_;
-  double strength_sd_ = 0.0;
   Eigen::VectorXd judged_;
   Eigen::Index count_ = 0;  ///< N, of the judged numbers.
   /// Values of ln lambda, evenly spaced, and ln p(lambda) - ln B at each.

@@ -32,7 +32,7 @@ std::pair<std::string, std::string> split_label(const std::string& label) {
 
 }  // namespace
 
-Knowledge knowledge_of(const std::vector<Unknown>& free, double strength_sd, const std::optional<EarlierRun>& earlier) {
+Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<EarlierRun>& earlier) {
   const auto p = static_cast<Eigen::Index>(free.size());
   Knowledge known{Eigen::VectorXd(p), Eigen::MatrixXd::Zero(p, p), {}};
   for (Eigen::Index j = 0; j < p; ++j) {
@@ -41,7 +41,7 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, double strength_sd, con
     known.mean[j] = f.prior.sd > 0.0 ? f.prior.mean : f.start;
     known.covariance(j, j) = sd * sd;
   }
-  Eigen::MatrixXd precision = fit::prior_precision(free, strength_sd);
+  Eigen::MatrixXd precision = fit::prior_precision(free);
   for (Eigen::Index j = 0; j < p; ++j) {
     if (!(precision(j, j) > 0.0)) precision(j, j) = 1.0 / known.covariance(j, j);
   }

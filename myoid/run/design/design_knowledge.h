@@ -21,13 +21,10 @@ struct Knowledge {
   Eigen::MatrixXd precision;  ///< Inverse covariance.
 };
 
-/// Returns the priors, in which all muscles of a person may be strong together by `strength_sd`
-/// (UnseenSpreads::strength). For the parameters that an earlier run fitted, its estimate and covariance replace them.
-/// A direction that the run left undetermined keeps its prior. Throws InvalidInput if the run's covariance is not
-/// finite.
-[[nodiscard]] Knowledge knowledge_of(const std::vector<fit::Unknown>& free,
-                                     double strength_sd,
-                                     const std::optional<EarlierRun>& earlier);
+/// Returns the priors (fit::prior_precision). For the parameters that an earlier run fitted, its estimate and
+/// covariance replace them. A direction that the run left undetermined keeps its prior. Throws InvalidInput if the
+/// run's covariance is not finite.
+[[nodiscard]] Knowledge knowledge_of(const std::vector<fit::Unknown>& free, const std::optional<EarlierRun>& earlier);
 
 /// Draws persons from the knowledge, within the bounds; the first is the mean. One seed gives the same persons.
 [[nodiscard]] std::vector<Eigen::VectorXd> draw_persons(const std::vector<fit::Unknown>& free,

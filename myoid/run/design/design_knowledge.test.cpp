@@ -29,7 +29,7 @@ std::vector<Unknown> three() {
 }
 
 TEST(DesignKnowledge, WithoutARunItIsThePriorsAndAQuarterOfTheBoundsWhereThereIsNone) {
-  const Knowledge known = knowledge_of(three(), 0.0, std::nullopt);
+  const Knowledge known = knowledge_of(three(), std::nullopt);
   EXPECT_NEAR(known.covariance(0, 0), 0.0625, 1e-12);
   EXPECT_NEAR(known.covariance(2, 2), 1.0, 1e-12);
   EXPECT_NEAR(known.mean[1], std::log(800.0), 1e-12);
@@ -41,7 +41,7 @@ TEST(DesignKnowledge, NumbersThatARunTiesToEachOtherHaveAnInverseToSevenDigits) 
   run.parameters = {"BRA.max_isometric_force", "BIC.max_isometric_force"};
   run.estimate = Eigen::Vector2d(700.0, 900.0);
   run.covariance = (Eigen::Matrix2d() << 0.01, 0.01, 0.01, 0.01 + 1e-13).finished();
-  const Knowledge known = knowledge_of(three(), 0.0, run);
+  const Knowledge known = knowledge_of(three(), run);
   EXPECT_LT((known.precision * known.covariance - Eigen::Matrix3d::Identity()).norm(), 1e-7);
 }
 
@@ -50,18 +50,18 @@ TEST(DesignKnowledge, ARunReplacesWhatItFittedAndLeavesTheRest) {
   run.parameters = {"BRA.max_isometric_force", "BIC.max_isometric_force"};
   run.estimate = Eigen::Vector2d(700.0, 900.0);
   run.covariance = (Eigen::Matrix2d() << 0.01, 0.002, 0.002, 0.02).finished();
-  const Knowledge known = knowledge_of(three(), 0.0, run);
+  const Knowledge known = knowledge_of(three(), run);
   EXPECT_NEAR(known.mean[0], std::log(900.0), 1e-12);
   EXPECT_NEAR(known.covariance(0, 0), 0.02, 1e-9);
   EXPECT_NEAR(known.covariance(0, 1), 0.002, 1e-9);
   EXPECT_NEAR(known.covariance(2, 2), 1.0, 1e-9);
   run.covariance(0, 0) = std::nan("");
-  EXPECT_THROW((void)knowledge_of(three(), 0.0, run), InvalidInput);
+  EXPECT_THROW((void)knowledge_of(three(), run), InvalidInput);
 }
 
 TEST(DesignKnowledge, ThePersonsSpreadAsTheKnowledgeDoesAndKeepToTheBounds) {
   const std::vector<Unknown> free = three();
-  const Knowledge known = knowledge_of(free, 0.0, std::nullopt);
+  const Knowledge known = knowledge_of(free, std::nullopt);
   const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, 4001, 7);
   EXPECT_EQ(persons[0], known.mean);
   double square = 0.0;

@@ -217,20 +217,18 @@ struct Expected {
   const Knowledge& known;
   const std::vector<Eigen::Index>& targets;
   const Eigen::VectorXd& prior_sd;
-  double strength_sd = 0.0;  ///< UnseenSpreads::strength.
   const std::optional<EarlierRun>& earlier;
 
   [[nodiscard]] std::vector<ParameterEstimate> with(const Eigen::VectorXd& sd) const {
     std::vector<ParameterEstimate> estimates;
     for (const Eigen::Index j : targets) {
       const Unknown& f = free[static_cast<std::size_t>(j)];
-      estimates.push_back(
-          expected_estimate(f, {.mean = known.mean[j],
-                                .sd = sd[j],
-                                .prior_sd = f.prior.sd > 0.0 ? fit::prior_spread(f, strength_sd) : prior_sd[j],
-                                .model_error = earlier ? earlier->model_error : 0.0,
-                                .found = found_by(earlier, f),
-                                .ratio = ratio(j, sd)}));
+      estimates.push_back(expected_estimate(f, {.mean = known.mean[j],
+                                                .sd = sd[j],
+                                                .prior_sd = f.prior.sd > 0.0 ? fit::prior_spread(f) : prior_sd[j],
+                                                .model_error = earlier ? earlier->model_error : 0.0,
+                                                .found = found_by(earlier, f),
+                                                .ratio = ratio(j, sd)}));
     }
     return estimates;
   }
@@ -315,7 +313,7 @@ DesignStudyResult design_study(const study::Study& study,
     return result;
   }
   const std::vector<Unknown>& free = parameters->free();
-  const Knowledge known = knowledge_of(free, torque.unseen.strength, options.earlier);
+  const Knowledge known = knowledge_of(free, options.earlier);
   const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, options.persons, options.seed);
 
   options.progress.tell(0.2, "information");
@@ -341,7 +339,7 @@ DesignStudyResult design_study(const study::Study& study,
   result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
-  const Expected expected{free, known, problem.targets, choice.prior_sd, torque.unseen.strength, options.earlier};
+  const Expected expected{free, known, problem.targets, choice.prior_sd, options.earlier};
   result.beforehand = expected.beforehand();
   std::vector<const Effort*> chosen;
   for (const DesignStep& step : choice.steps) {

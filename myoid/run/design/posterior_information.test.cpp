@@ -81,9 +81,11 @@ TEST(PosteriorInformation, LessNoiseOfTheEmgTellsMore) {
 
 TEST(PosteriorInformation, AStrongPersonIsStrongInEveryMuscle) {
   const StudyData data = three_trials();
-  const fit::Likelihood likelihood(data, options_of(data));
-  const std::vector<fit::Unknown>& free = likelihood.parameters().free();
-  const Knowledge known = knowledge_of(free, 0.5, std::nullopt);
+  fit::EstimatorOptions options = options_of(data);
+  options.unseen.strength = 0.5;
+  const fit::ParameterMap map(data, options);
+  const std::vector<fit::Unknown>& free = map.free();
+  const Knowledge known = knowledge_of(free, std::nullopt);
   std::vector<Eigen::Index> strength;
   for (std::size_t j = 0; j < free.size(); ++j) {
     if (free[j].label.ends_with("max_isometric_force")) strength.push_back(static_cast<Eigen::Index>(j));
