@@ -58,6 +58,7 @@ PICTURES = [
     Picture("group.webp", "group", height=1560),
     Picture("gait.webp", "gait", "trial=walk&t=0.55&view=oblique&hide=activation,force", begin="#workbench", height=900),
     Picture("motion_page.webp", "walk", "t=0.6&view=oblique", height=800),
+    Picture("review.webp", "review", height=900),
     Picture("box_lift.webp", "box_lift", "trial=lift&t=2.3&view=oblique", begin="#workbench", height=755),
     Picture("elbow_numbers.webp", "elbow_emg", begin="#numbers", height=860),
     Picture("elbow_strength.webp", "elbow_emg", begin="figure#voluntary_torque",
@@ -226,6 +227,10 @@ def make_gait(program, work):
     myoid(program, "run", study / "study.toml", "--out", work / "gait", may_fail=True)
 
 
+def make_review(program, work):
+    myoid(program, "review", DATA / "ceinms-rt-leg", "--out", work / "review", may_fail=True)
+
+
 # For each page: the file, how it is made, the recordings that this takes.
 PAGES = {
     "demo": ("demo/report.html", make_demo, None),
@@ -233,6 +238,7 @@ PAGES = {
     "elbow_emg": ("elbow_emg/report.html", make_example("elbow_emg"), "elbow-emg"),
     "box_lift": ("box_lift/report.html", make_example("box_lift"), "box-lift"),
     "gait": ("gait/report.html", make_gait, "gait-emg"),
+    "review": ("review/report.html", make_review, "ceinms-rt-leg"),
     "walk": ("walk.html", make_walk, "gait-emg"),
 }
 

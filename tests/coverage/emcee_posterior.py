@@ -17,7 +17,7 @@ import sys
 try:
     import numpy as np
     from scipy.interpolate import CubicSpline
-    from scipy.special import erfinv, logsumexp, ndtr
+    from scipy.special import erfinv, expit, logsumexp, ndtr
 except ImportError as missing:
     print(f"skipped: {missing} (Debian: python3-numpy, python3-scipy)")
     sys.exit(77)
@@ -100,6 +100,7 @@ class Posterior:
         self.log_prior = -0.5 * (self.log_lambda / 0.3) ** 2 - np.log(high - low).sum(axis=1)
         self.judged_sd = sd[self.judged]
         names, common_sd = get("name"), get("common_sd")
+        self.sharp = common_sd > 0.0
         common = (names[:, None] == names) * np.outer(common_sd, common_sd)
         self.precision = np.linalg.inv(common + np.diag(sd * sd))
         self.logarithmic = get("logarithmic")
@@ -114,14 +115,18 @@ class Posterior:
             rows = sum(len(other.measured) for other in self.runs if other.trial == run.trial)
             run.weight = min(1.0, dump["independent_rows"] / rows) if dump["independent_rows"] > 0.0 else 1.0
 
-    def ends(self, x):
-        """The way from either bound, in units of a twentieth of the way between them."""
-        from_lower = 10.0 + 5.0 * x[:, :len(self.lower)]
-        return from_lower, from_lower - 20.0
+    def share(self, x):
+        """The share of the way between the bounds, and ln of its slope by x, for each unknown."""
+        x = x[:, :len(self.lower)]
+        from_lower = 10.0 + 5.0 * x  # in units of a twentieth of the way
+        from_upper = from_lower - 20.0
+        share = np.where(self.sharp, (np.logaddexp(0.0, from_lower) - np.logaddexp(0.0, from_upper)) / 20.0, expit(x))
+        # Of sharp ends the slope is the difference of two logistic functions, over 4.
+        fall = np.logaddexp(0.0, -from_lower) + np.logaddexp(0.0, from_upper) + np.log(4.0) - np.log1p(-np.exp(-20.0))
+        return share, -np.where(self.sharp, fall, np.logaddexp(0.0, x) + np.logaddexp(0.0, -x))
 
     def z(self, x):
-        from_lower, from_upper = self.ends(x)
-        return self.lower + self.range / 20.0 * (np.logaddexp(0.0, from_lower) - np.logaddexp(0.0, from_upper))
+        return self.lower + self.range * self.share(x)[0]
 
     def noise(self, x):
         """ln sigma_T, ln tau, ln kappa, ln s by its normal score, ln of four sizes, ln b of each trial."""
@@ -160,14 +165,10 @@ class Posterior:
         x = np.where(far[:, None], 0.0, x)
         p = len(self.lower)
         z, noise = self.z(x), self.noise(x)
-        from_lower, from_upper = self.ends(x)
         off = z - self.mean
         judged = ((off[:, self.judged] / self.judged_sd) ** 2).sum(axis=1)[:, None]
         off = np.where(self.judged, 0.0, off)
-        result = -0.5 * np.einsum("wi,ij,wj->w", off, self.precision, off)
-        # ln dt/dx, t the share of the way: the difference of two logistic functions, over 4.
-        result -= (np.logaddexp(0.0, -from_lower) + np.logaddexp(0.0, from_upper) + np.log(4.0)).sum(axis=1)
-        result += p * np.log1p(-np.exp(-20.0))
+        result = -0.5 * np.einsum("wi,ij,wj->w", off, self.precision, off) + self.share(x)[1].sum(axis=1)
         # The spreads that are judgments share a factor lambda, over which the prior is integrated.
         over = self.log_prior - len(self.judged_sd) * self.log_lambda - 0.5 * judged * np.exp(-2.0 * self.log_lambda)
         result += logsumexp(over, axis=1) + np.log(self.log_lambda[1] - self.log_lambda[0])

@@ -9,6 +9,7 @@
 #include "myoid/fit/measurement/parameter_fields.h"
 #include "myoid/fit/measurement/parameter_slots.h"
 #include "myoid/fit/measurement/study_data.h"
+#include "myoid/ground/math/bounded.h"
 
 namespace myoid::fit {
 
@@ -34,6 +35,10 @@ struct Unknown {
   [[nodiscard]] double to_value(double z) const;
   [[nodiscard]] bool is(Scope scope, int number) const { return field->scope == scope && field->field == number; }
   [[nodiscard]] bool acts_on(int target_owner) const;
+  /// Numbers that share an uncertainty have sharp ends at their bounds.
+  [[nodiscard]] math::BoundShape bound_shape() const {
+    return common_sd > 0.0 ? math::BoundShape::sharp : math::BoundShape::gradual;
+  }
   /// Returns 1 / sd² of the number's own prior; 0 without a prior.
   [[nodiscard]] double prior_precision() const;
 };

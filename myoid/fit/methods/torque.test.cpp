@@ -210,7 +210,7 @@ TEST(IdentifyTorque, HowFarAMuscleLeftTheLiteratureIsSaidOfItAlone) {
   ASSERT_EQ(near.prior_distances.size(), 4U);
   for (const PriorDistance& d : near.prior_distances) EXPECT_LT(d.distance, 3.0) << d.muscle;
   // A literature that is sure of another BIC: none of the other muscles can do its work.
-  for (const auto& [name, factor] : {std::pair{"optimal_fiber_length", 1.3}, {"force_length_width", 0.75}}) {
+  for (const auto& [name, factor] : {std::pair{"optimal_fiber_length", 2.0}, {"force_length_width", 0.4}}) {
     Prior& prior = study.data.muscles[0].priors.at(name);
     prior.mean *= factor;
     prior.sd = 0.03 * prior.mean;

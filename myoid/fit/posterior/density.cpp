@@ -108,8 +108,14 @@ double Density::prior(const Eigen::VectorXd& off, Eigen::VectorXd& gradient) con
   return result + 0.5 * held * squares + over.log_density;
 }
 
+math::Bounded Density::at(Eigen::Index unknown, const Eigen::VectorXd& x) const {
+  return math::bounded(x[unknown], parameters().free()[static_cast<std::size_t>(unknown)].bound_shape());
+}
+
 Eigen::VectorXd Density::z_of(const Eigen::VectorXd& x) const {
-  return lower_ + range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return math::bounded(v).share; }));
+  Eigen::VectorXd z(lower_.size());
+  for (Eigen::Index j = 0; j < z.size(); ++j) z[j] = lower_[j] + range_[j] * at(j, x).share;
+  return z;
 }
 
 NoiseValues Density::noise_of(const Eigen::VectorXd& x) const {
@@ -120,14 +126,16 @@ NoiseValues Density::noise_of(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd Density::slope(const Eigen::VectorXd& x) const {
-  return range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return math::bounded(v).slope; }));
+  Eigen::VectorXd slope(lower_.size());
+  for (Eigen::Index j = 0; j < slope.size(); ++j) slope[j] = range_[j] * at(j, x).slope;
+  return slope;
 }
 
 Eigen::VectorXd Density::x_of(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   Eigen::VectorXd x(size());
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const double share = range_[j] > 0.0 ? std::clamp((z[j] - lower_[j]) / range_[j], kInside, 1.0 - kInside) : 0.5;
-    x[j] = math::unbounded(share);
+    x[j] = math::unbounded(share, parameters().free()[static_cast<std::size_t>(j)].bound_shape());
   }
   x.tail(noise.size()) = noise;
   x[lower_.size() + kModelErrorSize] = score_of(std::exp(noise[kModelErrorSize]) / noise_sd_[kModelErrorSize]);
@@ -171,9 +179,9 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
   Eigen::VectorXd pull;
   result += prior(z - prior_mean_, pull);
   for (Eigen::Index j = 0; j < p; ++j) {
-    const math::Bounded at = math::bounded(x[j]);
-    result += at.log_slope;
-    if (gradient != nullptr) (*gradient)[j] = by_x[j] * (by.by_z[j] + pull[j]) + at.pull;
+    const math::Bounded share = at(j, x);
+    result += share.log_slope;
+    if (gradient != nullptr) (*gradient)[j] = by_x[j] * (by.by_z[j] + pull[j]) + share.pull;
   }
   for (Eigen::Index field = 0; field < noise.size(); ++field) {
     if (field == kModelErrorSize) continue;
@@ -200,7 +208,7 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
   Eigen::MatrixXd of_z = likelihood_.information(z_of(x), noise_of(x)).information;
   of_z += precision_;
   h.topLeftCorner(p, p) = by_x.asDiagonal() * of_z * by_x.asDiagonal();
-  for (Eigen::Index j = 0; j < p; ++j) h(j, j) += math::bounded(x[j]).curvature;
+  for (Eigen::Index j = 0; j < p; ++j) h(j, j) += at(j, x).curvature;
   h.diagonal().tail(noise_sd_.size()) = noise_sd_.cwiseAbs2().cwiseInverse();
   // The torque's error has the size b sigma_T: ln b and ln sigma_T share a gradient.
   for (std::size_t r = 0; r < likelihood_.runs().size(); ++r) {

@@ -71,6 +71,8 @@ class Density {
   [[nodiscard]] Eigen::MatrixXd gauss_newton(const Eigen::VectorXd& x) const;
 
  private:
+  /// Returns the share of the way between the bounds of an unknown.
+  [[nodiscard]] math::Bounded at(Eigen::Index unknown, const Eigen::VectorXd& x) const;
   [[nodiscard]] double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const;
   /// Returns ln p(z) and its gradient, for the deviations of z from the priors' means.
   double prior(const Eigen::VectorXd& off, Eigen::VectorXd& gradient) const;

@@ -38,15 +38,17 @@ LearnedSizes learned_sizes(const Candidate& best, const Sample& drawn) {
 
 void stretch(const Eigen::VectorXd& wider, const ParameterMap& map, Sample& drawn) {
   for (Eigen::Index j = 0; j < wider.size(); ++j) {
-    const muscle::Range& bounds = map.free()[static_cast<std::size_t>(j)].bounds;
+    const Unknown& of = map.free()[static_cast<std::size_t>(j)];
+    const muscle::Range& bounds = of.bounds;
     const double range = bounds.upper - bounds.lower;
     const Eigen::ArrayXd share =
         ((drawn.z.row(j).transpose().array() - bounds.lower) / range).max(1e-12).min(1.0 - 1e-12);
-    const Eigen::ArrayXd x = share.unaryExpr([](double at) { return math::unbounded(at); });
+    const Eigen::ArrayXd x = share.unaryExpr([&](double at) { return math::unbounded(at, of.bound_shape()); });
     const double middle = (x * drawn.weight.array()).sum() / drawn.weight.sum();
     const Eigen::ArrayXd stretched = middle + wider[j] * (x - middle);
-    const Eigen::ArrayXd z =
-        bounds.lower + range * stretched.unaryExpr([](double at) { return math::bounded(at).share; });
+    const Eigen::ArrayXd z = bounds.lower + range * stretched.unaryExpr([&](double at) {
+      return math::bounded(at, of.bound_shape()).share;
+    });
     drawn.z.row(j) = z.max(bounds.lower).min(bounds.upper).matrix().transpose();  // for the last digit
   }
 }

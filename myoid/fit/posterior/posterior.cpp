@@ -112,7 +112,8 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
       const auto j = static_cast<Eigen::Index>(i);
       const muscle::Range& bounds = free[i].bounds;
       const double z = math::weighted_quantile(sample.z.row(j).transpose(), sample.weight, share);
-      const double beyond = math::unbounded((z - bounds.lower) / (bounds.upper - bounds.lower)) - best.mode.x[j];
+      const double beyond =
+          math::unbounded((z - bounds.lower) / (bounds.upper - bounds.lower), free[i].bound_shape()) - best.mode.x[j];
       if (std::isfinite(beyond)) x[j] += given.narrower[j] * beyond;
     }
     return density.z_of(x);

@@ -17,7 +17,15 @@ double log_cosh(double v) { return std::abs(v) + std::log1p(std::exp(-2.0 * std:
 
 }  // namespace
 
-Bounded bounded(double x) {
+Bounded bounded(double x, BoundShape shape) {
+  if (shape == BoundShape::gradual) {
+    const double share = 1.0 / (1.0 + std::exp(-x)), slope = share / (1.0 + std::exp(x));
+    return {.share = share,
+            .slope = slope,
+            .log_slope = -softplus(x) - softplus(-x),
+            .pull = 1.0 - 2.0 * share,
+            .curvature = 2.0 * slope};
+  }
   const double from_lower = (0.5 + 0.25 * x) / kSoft, from_upper = from_lower - 1.0 / kSoft;
   // dt/dy is the difference of two logistic functions, sinh((a - b) / 2) / (2 cosh(a / 2) cosh(b / 2)).
   const double a = std::tanh(0.5 * from_lower), b = std::tanh(0.5 * from_upper);
@@ -30,7 +38,8 @@ Bounded bounded(double x) {
   return at;
 }
 
-double unbounded(double share) {
+double unbounded(double share, BoundShape shape) {
+  if (shape == BoundShape::gradual) return std::log(share / (1.0 - share));
   const double e = std::expm1(share / kSoft) / -std::expm1((share - 1.0) / kSoft);
   return 4.0 * (kSoft * std::log(e) - 0.5);
 }

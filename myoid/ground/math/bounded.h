@@ -2,14 +2,17 @@
 
 namespace myoid::inline ground::math {
 
-/// The map from a number without bounds to a number within bounds, as a share t of the way from the lower to the upper
-/// one, 0 < t < 1:
+/// How a number without bounds, x, becomes a share t of the way from a lower to an upper bound, 0 < t < 1:
 ///
-///   t = w ln (1 + exp(y / w)) - w ln (1 + exp((y - 1) / w)),    y = (2 + x) / 4,    w = 1/20.
+///   gradual: t = 1 / (1 + exp(-x))
+///   sharp:   t = w ln (1 + exp(y / w)) - w ln (1 + exp((y - 1) / w)),    y = (2 + x) / 4,    w = 1/20.
 ///
-/// Between the bounds t is y but for exp(-y / w): the density of x is that of t, and its greatest value is at the same
-/// place. (A logistic map pulls the mode to the middle: each bounded number has a term of its own, and many that share
-/// an uncertainty pull together.) Within w of a bound t becomes an exponential of x.
+/// Both have the slope 1/4 in the middle. The density of x has the factor dt/dx. By `gradual` its mode is drawn to the
+/// middle: of a number that nothing determines the mode is then the mean. Numbers that share one uncertainty are drawn
+/// together, each by itself, and so beyond their mean. By `sharp` t is y between the bounds, and nothing is drawn.
+enum class BoundShape { gradual, sharp };
+
+/// A share and its derivatives by x.
 struct Bounded {
   double share = 0.0;      ///< t
   double slope = 0.0;      ///< dt/dx
@@ -18,9 +21,9 @@ struct Bounded {
   double curvature = 0.0;  ///< -d^2 ln(dt/dx) / dx^2, positive
 };
 
-[[nodiscard]] Bounded bounded(double x);
+[[nodiscard]] Bounded bounded(double x, BoundShape shape);
 
 /// Returns the x of a share t within the bounds.
-[[nodiscard]] double unbounded(double share);
+[[nodiscard]] double unbounded(double share, BoundShape shape);
 
 }  // namespace myoid::inline ground::math
