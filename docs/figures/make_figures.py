@@ -181,8 +181,8 @@ class Browser:
             return Path(work, "film.webp").read_bytes()
 
 
-def myoid(program, *arguments, may_fail=False):
-    done = subprocess.run([program, *map(str, arguments), "--quiet"], cwd=SOURCE, stdout=subprocess.DEVNULL, check=False)
+def myoid(program, *arguments, may_fail=False, place=SOURCE):
+    done = subprocess.run([program, *map(str, arguments), "--quiet"], cwd=place, stdout=subprocess.DEVNULL, check=False)
     if done.returncode not in ((0, 4) if may_fail else (0,)):
         sys.exit(f"{arguments[0]} ended with {done.returncode}")
 
@@ -228,7 +228,7 @@ def make_gait(program, work):
 
 
 def make_review(program, work):
-    myoid(program, "review", DATA / "ceinms-rt-leg", "--out", work / "review", may_fail=True)
+    myoid(program, "review", "ceinms-rt-leg", "--out", work / "review", may_fail=True, place=DATA)
 
 
 # For each page: the file, how it is made, the recordings that this takes.
