@@ -99,8 +99,8 @@ std::string gaps_of(const TimeSeries& series, Eigen::Index column) {
   if (gaps == 0) return "";
   Eigen::Index first = 0;
   while (std::isfinite(x[first])) ++first;
-  return fmt::format("is not a number at {:.6g} s ({} {})", series.time_s()[first], gaps,
-                     gaps == 1 ? "sample" : "samples");
+  return fmt::format("is not a number at {:.6g} s ({} {}{})", series.time_s()[first], gaps,
+                     gaps == 1 ? "sample" : "samples", gap_text(series.channels()[static_cast<std::size_t>(column)]));
 }
 
 TimeSeries without_gaps(const TimeSeries& series, std::vector<Repair>& repairs) {

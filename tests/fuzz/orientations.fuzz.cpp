@@ -1,5 +1,5 @@
 // Orientations of inertial sensors, as OpenSim's tools read them.
-#include "myoid/recording/tables/orientation_reader.h"
+#include "myoid/recording/orientation_reader.h"
 
 #include "fuzz.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "myoid/body/kinematics/inverse_kinematics.h"
-#include "myoid/recording/tables/orientation_reader.h"
+#include "myoid/recording/orientation_reader.h"
 
 namespace myoid::body {
 

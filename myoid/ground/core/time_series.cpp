@@ -104,12 +104,18 @@ void require_unit(const TimeSeries& series, Unit unit, std::string_view what) {
   }
 }
 
+std::string gap_text(const Channel& channel) {
+  return channel.missing ? fmt::format(", where the file has {}, which stands for a missing value", *channel.missing)
+                         : "";
+}
+
 void require_finite(const TimeSeries& series, std::string_view what) {
   for (Eigen::Index column = 0; column < series.channel_count(); ++column) {
     for (Eigen::Index row = 0; row < series.sample_count(); ++row) {
       if (!std::isfinite(series.values()(row, column))) {
-        throw InvalidInput("{}: channel '{}' is not a number at {} s; fill the gaps first", what,
-                           series.channels()[static_cast<std::size_t>(column)].name, series.time_s()[row]);
+        const Channel& channel = series.channels()[static_cast<std::size_t>(column)];
+        throw InvalidInput("{}: channel '{}' is not a number at {} s{}; fill the gaps first", what, channel.name,
+                           series.time_s()[row], gap_text(channel));
       }
     }
   }

@@ -14,6 +14,8 @@ namespace myoid::inline ground {
 struct Channel {
   std::string name;
   Unit unit = Unit::dimensionless;
+  /// The number that stands for a missing value in the file; the samples are NaN.
+  std::optional<double> missing = std::nullopt;
 
   friend bool operator==(const Channel&, const Channel&) = default;
 };
@@ -71,6 +73,9 @@ class TimeSeries {
 
 /// Throws InvalidInput unless every channel carries `unit`; `what` names the series in the message.
 void require_unit(const TimeSeries& series, Unit unit, std::string_view what);
+
+/// Returns ", where the file has -9999, which stands for a missing value", for a message about a gap; else "".
+[[nodiscard]] std::string gap_text(const Channel& channel);
 
 /// Throws InvalidInput, naming channel and time, if a value is NaN or infinite.
 void require_finite(const TimeSeries& series, std::string_view what);

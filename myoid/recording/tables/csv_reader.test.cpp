@@ -54,5 +54,12 @@ TEST(CsvTable, ARowOfAnotherWidthIsRefusedWithItsLine) {
   }
 }
 
+TEST(ParseCsvSeries, ANumberThatStandsForAMissingValueIsAGapInItsUnit) {
+  const CsvSeries s = parse_csv_series("time,q [deg],F [N]\n0,10,5\n1,-9999,4\n2,30,3\n", "a.csv");
+  EXPECT_TRUE(std::isnan(s.data.values()(1, 0)));
+  EXPECT_EQ(s.data.channels()[0].missing, -9999.0);
+  EXPECT_EQ(s.data.channels()[1].missing, std::nullopt);
+}
+
 }  // namespace
 }  // namespace myoid::recording

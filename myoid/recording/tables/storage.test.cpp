@@ -71,6 +71,16 @@ TEST(ParseStorage, MendsWhatCanBeMendedAndSaysSo) {
   EXPECT_NE(all.find("says 2 columns"), std::string::npos) << all;
 }
 
+TEST(ParseStorage, ANumberThatStandsForAMissingValueIsAGapOfItsColumn) {
+  const Storage s = parse_storage("x\nendheader\ntime\tq\tr\n0\t1\t2\n1\t-9999\t3\n2\t2\t9000\n", "f.sto");
+  EXPECT_TRUE(std::isnan(s.data.values()(1, 0)));
+  EXPECT_EQ(s.data.channels()[0].missing, -9999.0);
+  EXPECT_EQ(s.data.channels()[1].missing, std::nullopt);
+  EXPECT_EQ(s.repairs.size(), 1U);
+  // A command that needs the number names the number.
+  EXPECT_NE(test::message_of([&] { require_finite(s.data, "f.sto"); }).find("-9999"), std::string::npos);
+}
+
 TEST(ParseStorage, ReadsCommaDecimals) {
   const Storage s = parse_storage("x\nendheader\ntime\tq\n0\t1,5\n0,5\t2,25\n", "f.sto");
   EXPECT_EQ(s.data.values()(1, 0), 2.25);

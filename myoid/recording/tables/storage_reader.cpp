@@ -9,6 +9,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/numbers.h"
+#include "myoid/ground/files/missing_value.h"
 #include "myoid/recording/tables/storage_header.h"
 #include "myoid/recording/tables/table_layout.h"
 #include "myoid/recording/tables/text_table.h"
@@ -185,10 +186,15 @@ class StorageRows {
 
   [[nodiscard]] const std::vector<Repair>& repairs() const { return repairs_; }
 
-  [[nodiscard]] TimeSeries series() && {
+  [[nodiscard]] TimeSeries series() {
     const auto count = static_cast<Eigen::Index>(time_.size());
     values_.conservativeResize(count, Eigen::NoChange);
-    return {Eigen::Map<const Eigen::VectorXd>(time_.data(), count), columns_.channels, std::move(values_)};
+    std::vector<Channel> channels = columns_.channels;
+    std::vector<std::string> names;
+    for (const Channel& channel : channels) names.push_back(channel.name);
+    const auto missing = take_out_missing(values_, names, repairs_);
+    for (std::size_t c = 0; c < channels.size(); ++c) channels[c].missing = missing[c];
+    return {Eigen::Map<const Eigen::VectorXd>(time_.data(), count), std::move(channels), std::move(values_)};
   }
 
  private:
@@ -315,9 +321,9 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   StorageRows rows(columns, header, path);
   rows.read(table, text.size());
   Storage storage = std::move(header.file);
+  storage.data = rows.series();
   for (const auto* repairs : {&columns.repairs, &rows.repairs()})
     storage.repairs.insert(storage.repairs.end(), repairs->begin(), repairs->end());
-  storage.data = std::move(rows).series();
   return storage;
 }
 

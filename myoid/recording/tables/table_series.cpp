@@ -261,7 +261,7 @@ class TableSeries {
         all ? std::move(numbers_.values) : Eigen::MatrixXd(samples, static_cast<Eigen::Index>(clock.channels.size()));
     for (std::size_t k = 0; k < clock.channels.size(); ++k) {
       const TableChannel& c = channels_[clock.channels[k]];
-      channels.push_back({c.name, c.unit ? c.unit->unit : Unit::dimensionless});
+      channels.push_back({c.name, c.unit ? c.unit->unit : Unit::dimensionless, numbers_.missing[at(c.column)]});
       group.has_unit.push_back(c.unit.has_value());
       if (first_clock_) series_.to_si.push_back(c.unit ? c.unit->to_si : 0.0);
       const auto column = static_cast<Eigen::Index>(k);

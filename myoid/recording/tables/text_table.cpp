@@ -13,6 +13,7 @@
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/core/parallel.h"
 #include "myoid/ground/files/file_words.h"
+#include "myoid/ground/files/missing_value.h"
 
 namespace myoid::recording {
 namespace {
@@ -99,6 +100,9 @@ class RowReader {
       for (std::size_t i = range.begin(); i != range.end(); ++i) scan(i);
     });
     judge();
+    std::vector<std::string> names;
+    for (const std::size_t column : rows_.values) names.push_back(rows_.names[column]);
+    numbers_.missing = take_out_missing(numbers_.values, names, numbers_.repairs);
     state_what_was_mended();
     return std::move(numbers_);
   }

@@ -156,8 +156,10 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   const TimeSeries found = file.data.select(there);
   Eigen::MatrixXd torque = Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (const auto column = found.find(columns[i].name))
-      torque.col(static_cast<Eigen::Index>(i)) = found.values().col(*column);
+    const auto column = found.find(columns[i].name);
+    if (!column) continue;
+    torque.col(static_cast<Eigen::Index>(i)) = found.values().col(*column);
+    columns[i].missing = found.channels()[static_cast<std::size_t>(*column)].missing;
   }
   TimeSeries result(found.time_s(), std::move(columns), std::move(torque));
   if (const auto clock = loads_clock(study, trial, *trial.external_torque))

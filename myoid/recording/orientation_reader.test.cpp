@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/orientation_reader.h"
+#include "myoid/recording/orientation_reader.h"
 
 #include <cmath>
 #include <fstream>
