@@ -44,8 +44,17 @@ bool is_of_earlier_version(const fs::path& folder) {
          says("simulation.json", {"\"program\": \"myoid\""}) || says("outcome.json", {"\"outcome\"", "\"build\""});
 }
 
+void require_results_place(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path whole = fs::weakly_canonical(folder, ignored);
+  if (!whole.empty() && whole == whole.root_path())
+    throw InvalidInput("--out {} is the root of the file system; name a folder for the results, as in --out results",
+                       folder.string());
+}
+
 void ResultFolder::make() {
   if (path_.empty()) throw InvalidInput("--out is empty; name the folder for the results");
+  require_results_place(path_);
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (fs::exists(status) && !fs::is_directory(status)) {

@@ -14,6 +14,9 @@ namespace myoid::inline ground {
 /// Returns true for a folder of results of a version of this program that kept no list of its files.
 [[nodiscard]] bool is_of_earlier_version(const std::filesystem::path& folder);
 
+/// Throws InvalidInput, with the remedy, for the root of the file system: results need a folder of their own.
+void require_results_place(const std::filesystem::path& folder);
+
 /// A folder that one command fills with its results. The folder is made where it is missing, and no
 /// other process may write into it until the object ends. The folder's list (result_record.h) names the files.
 class ResultFolder {

@@ -57,6 +57,7 @@ TEST(ResultFolder, IsRefusedWhereItIsAFileOrHasNoName) {
   write_file(folder / "file", "text");
   EXPECT_THROW(ResultFolder(folder / "file", kCommand, true), InvalidInput);
   EXPECT_THROW(ResultFolder("", kCommand, true), InvalidInput);
+  for (const char* root : {"/", "//", "/.", "/dev/.."}) EXPECT_THROW(ResultFolder(root, kCommand, true), InvalidInput);
 }
 
 }  // namespace

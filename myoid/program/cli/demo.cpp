@@ -10,6 +10,7 @@
 
 #include "myoid/ground/core/counted.h"
 #include "myoid/ground/files/output_file.h"
+#include "myoid/ground/files/result_folder.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/run.h"
 #include "myoid/program/cli/say.h"
@@ -67,6 +68,7 @@ void add_demo(CLI::App& app, Context& context) {
   command.add_flag("--no-open", *closed, "Leaves the report closed");
   add_common_options(command, context, {.range = false});
   command.callback([&context, out, closed] {
+    require_results_place(*out);
     const std::string recording = (fs::path(*out) / "recording").string();
     const std::string results = (fs::path(*out) / "result").string();
     make_recording(context, recording);
