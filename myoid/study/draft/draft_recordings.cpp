@@ -63,11 +63,21 @@ bool says_emg(const std::string& text) {
   return has("emg") || has("electromyo") || has("excitation") || has("activation");
 }
 
-/// Returns true for a folder inside the named ones that holds results of an identification, or a virtual person's
-/// truth.
+/// Returns the files of a folder that its record names as results of a command that computes. Other commands write
+/// recordings, or a file that a study may take.
+std::set<fs::path> results_in(const fs::path& folder) {
+  static const std::set<std::string, std::less<>> kComputing{"run",     "identify",   "so",     "paths",  "predict",
+                                                             "compare", "twin-study", "report", "cohort", "design"};
+  std::set<fs::path> found;
+  for (const auto& [name, written] : read_record(folder).files)
+    if (kComputing.contains(written.back().command)) found.insert((folder / name).lexically_normal());
+  return found;
+}
+
+/// Returns true for a folder inside the named ones that holds results, or a virtual person's truth.
 bool holds_results(const fs::path& folder) {
   constexpr std::string_view kTruth = "truth";
-  if (read_record(folder).files.contains("parameters.json")) return true;
+  if (!results_in(folder).empty() || read_record(folder).files.contains("parameters.json")) return true;
   if (folder.filename() != kTruth) return false;
   const RecordContent around = read_record(folder.parent_path());
   return std::ranges::any_of(around.files,
@@ -160,6 +170,9 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
       files.push_back(path);
       continue;
     }
+    // Recordings may stand beside results in the named folder itself.
+    const std::set<fs::path> own = results_in(path);
+    if (!own.empty()) beside.results.push_back(path);
     for (auto it = fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied, error);
          !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
       if (it.depth() > kDeep) it.disable_recursion_pending();
@@ -167,7 +180,7 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
         beside.results.push_back(it->path());
         it.disable_recursion_pending();
       }
-      if (!it->is_regular_file(error)) continue;
+      if (!it->is_regular_file(error) || own.contains(it->path().lexically_normal())) continue;
       const auto format = format_of(it->path());
       if (!format) continue;
       if (format == FileFormat::model) beside.models.push_back(it->path());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,8 +60,8 @@ TEST(RecordingsIn, AFolderAreNoResultsOfThisProgram) {
   const test::TemporaryFolder folder;
   for (const char* name : {"lab/a.trc", "lab/truth/a.sto", "done/a/ik.sto", "mine/truth/b.trc", "ik/c.sto"})
     write_file(folder / name, "x");
-  const auto list = [&](const char* in, const std::vector<std::string>& names) {
-    std::string text(kSignature);
+  const auto list = [&](const char* in, const std::vector<std::string>& names, const std::string& command = "") {
+    std::string text = std::string(kSignature) + (command.empty() ? "" : fmt::format("{}{}\n", kBy, command));
     for (const std::string& name : names) text += record_line(std::string(64, '0'), name) + "\n";
     write_file(folder / in / kRecordFile, text);
   };
@@ -71,7 +72,20 @@ TEST(RecordingsIn, AFolderAreNoResultsOfThisProgram) {
   const auto files = recordings_in({folder.path()}, beside);
   EXPECT_THAT(files, ::testing::ElementsAre(folder / "ik/c.sto", folder / "lab/a.trc", folder / "mine/truth/b.trc"));
   EXPECT_THAT(beside.results, ::testing::UnorderedElementsAre(folder / "lab/truth", folder / "done"));
-  EXPECT_EQ(recordings_in({folder / "done"}, beside).size(), 1U) << "a folder that is named is taken";
+}
+
+TEST(RecordingsIn, AFolderThatIsNamedAreItsFilesButResults) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"own.trc", "a/ik.sto", "paths/r.sto"}) write_file(folder / name, "x");
+  const std::string hash(64, '0');
+  write_file(folder.path() / kRecordFile,
+             fmt::format("{}{}run\n{}\n{}convert\n{}\n", kSignature, kBy, record_line(hash, "a/ik.sto"), kBy,
+                         record_line(hash, "own.trc")));
+  write_file(folder.path() / "paths" / kRecordFile,
+             fmt::format("{}{}paths\n{}\n", kSignature, kBy, record_line(hash, "r.sto")));
+  FoundBeside beside;
+  EXPECT_THAT(recordings_in({folder.path()}, beside), ::testing::ElementsAre(folder / "own.trc"));
+  EXPECT_THAT(beside.results, ::testing::UnorderedElementsAre(folder.path(), folder / "paths"));
 }
 
 TEST(FindEmg, VoltagesThatGoThroughTheirMedianOftenAreRaw) {
