@@ -16,6 +16,7 @@ namespace myoid::inline ground {
 struct Repair {
   std::size_t line = 0;  ///< Counted from 1; 0: the whole file.
   std::string message;
+  double apart_s = 0.0;  ///< Of a clock: by so much two statements about it differ at the recording's end.
 };
 
 /// Notes a repair of the whole file; the message is a format and its arguments, as of `fmt::format`.

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
@@ -121,6 +122,14 @@ TEST(EmgTable, WithoutATimeColumnTheStatedRateIsTheClock) {
   EXPECT_DOUBLE_EQ(s.data.values()(2, 1), 6.0);
   EXPECT_EQ(s.has_unit, (std::vector<bool>{false, false}));
   EXPECT_THROW(static_cast<void>(parse_emg_table("Export\n" + body, "a.txt")), ReadError);
+}
+
+TEST(EmgTable, AStatedRateBesideOtherTimesIsApartAtTheEnd) {
+  std::string text = "Export of 2024\nSampling rate: 100 Hz\ntime,VL [uV]\n";
+  for (int i = 0; i <= 400; ++i) text += fmt::format("{},{}\n", 0.0125 * i, i % 7);
+  const CsvSeries s = parse_emg_table(text, "a.csv");
+  ASSERT_EQ(s.repairs.size(), 1U);
+  EXPECT_NEAR(s.repairs[0].apart_s, 1.0, 1e-9);  // 400 intervals take 4 s and 5 s
 }
 
 TEST(EmgTable, ARateInAnotherUnitIsRefusedWhereItIsTheOnlyClock) {

@@ -173,7 +173,8 @@ class RowClock {
     const double rate = steps / (time[last] - time[0]);
     if (layout_.rate_hz > 0.0 && std::abs(rate - layout_.rate_hz) > 0.01 * layout_.rate_hz)
       repairs_.push_back(
-          {0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", layout_.rate_hz, rate)});
+          {0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", layout_.rate_hz, rate),
+           std::abs(steps / layout_.rate_hz - steps / rate)});
     return time;
   }
 

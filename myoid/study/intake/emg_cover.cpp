@@ -54,6 +54,40 @@ std::optional<Remark> exchanged_emg(const std::vector<TrialLengths>& trials) {
       .remedy = "exchange emg of the two trials if the files are mixed up"};
 }
 
+/// Finds one ratio of the durations in trials of unlike length: a clock that runs fast. EMG that goes on for a while
+/// after each motion is longer by a time instead.
+std::optional<Remark> one_ratio(const std::vector<TrialLengths>& trials) {
+  constexpr std::size_t kFewest = 3;
+  constexpr double kMuchBetter = 0.2;
+  if (trials.size() < kFewest) return std::nullopt;
+  double product = 0.0, square = 0.0, longer_s = 0.0, shortest_s = 1e300, longest_s = 0.0;
+  for (const TrialLengths& t : trials) {
+    product += t.emg_s * t.motion_s;
+    square += t.motion_s * t.motion_s;
+    longer_s += (t.emg_s - t.motion_s) / static_cast<double>(trials.size());
+    shortest_s = std::min(shortest_s, t.motion_s);
+    longest_s = std::max(longest_s, t.motion_s);
+  }
+  const double ratio = product / square;
+  double by_ratio = 0.0, by_time = 0.0;
+  for (const TrialLengths& t : trials) {
+    by_ratio = std::max(by_ratio, std::abs(t.emg_s - ratio * t.motion_s));
+    by_time = std::max(by_time, std::abs(t.emg_s - t.motion_s - longer_s));
+  }
+  if (longest_s < kLimits.clocks.unlike_length * shortest_s ||
+      std::abs(ratio - 1.0) * longest_s < kLimits.clocks.apart_s || by_ratio > kMuchBetter * by_time)
+    return std::nullopt;
+  const TrialLengths& t = *std::ranges::max_element(trials, {}, &TrialLengths::motion_s);
+  return Remark{
+      .code = RemarkCode::emg_length,
+      .severity = Severity::warning,
+      .where = "study",
+      .value = ratio,
+      .says = fmt::format("in every trial the EMG lasts {:.4g} times as long as the motion, so that at the end "
+                          "of '{}' they are {:.2g} s apart: a rate is wrong. {}",
+                          ratio, t.trial, std::abs(t.emg_s - t.motion_s), which_rate(t))};
+}
+
 }  // namespace
 
 std::optional<double> whole_factor(double ratio, double tolerance) {
@@ -177,6 +211,7 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
                              lasts(t), which_rate(t))});
   }
   if (auto exchanged = exchanged_emg(of_emg); exchanged && found.empty()) found.push_back(std::move(*exchanged));
+  if (auto ratio = one_ratio(of_emg); ratio && found.empty()) return {std::move(*ratio)};
   // Recordings stopped by hand differ by some seconds, not by one factor.
   if (of_emg.empty() || !found.empty() || !all || most > (1.0 + kLimits.clocks.same_factor) * least) return found;
   const TrialLengths& first = of_emg.front();

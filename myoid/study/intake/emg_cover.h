@@ -47,8 +47,9 @@ struct Rows {
 
 /// Finds EMG whose duration differs from the motion's by a factor of 2, 3, 4, 5, 10 or a reciprocal of these, within 2
 /// %: a wrong rate. It is an error if the EMG is the shorter one, or if both ends agree within 0.5 % at the corrected
-/// rate, as after a common trigger; otherwise a warning. It is also a warning if the ratio is the same in every trial.
-/// Loads of such a duration are a warning, unless the trial's EMG says the same.
+/// rate, as after a common trigger; otherwise a warning. It is also a warning if the ratio is the same in every trial,
+/// and differences grow with the trial's length. Loads of such a duration are a warning, unless the trial's EMG says
+/// the same.
 [[nodiscard]] std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials);
 
 /// Returns true if a duration of one trial says that a rate is wrong: an error of its EMG, a warning of its loads.

@@ -114,6 +114,21 @@ TEST(UnlikeLengths, OneFactorInEveryTrialNamesTheRate) {
   EXPECT_TRUE(unlike_lengths({lengths(24.0, 20.0), lengths(12.0, 12.0)}).empty());
 }
 
+TEST(UnlikeLengths, OneRatioInTrialsOfUnlikeLengthIsAClockThatRunsFast) {
+  // Stated at 1926 Hz and recorded at 2000 Hz.
+  const double ratio = 2000.0 / 1926.0;
+  const std::vector<Remark> found =
+      unlike_lengths({lengths(6.0 * ratio, 6.0), lengths(8.0 * ratio, 8.0), lengths(12.0 * ratio, 12.0)});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, RemarkCode::emg_length);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_NEAR(found[0].value.value(), ratio, 1e-9);
+  // An amplifier that runs on for 0.3 s is longer by a time, and trials of one length tell no ratio.
+  EXPECT_TRUE(unlike_lengths({lengths(6.3, 6.0), lengths(8.3, 8.0), lengths(12.3, 12.0)}).empty());
+  EXPECT_TRUE(unlike_lengths({lengths(8.3, 8.0), lengths(8.3, 8.0), lengths(8.3, 8.0)}).empty());
+  EXPECT_TRUE(unlike_lengths({lengths(6.001, 6.0), lengths(8.0, 8.0), lengths(12.002, 12.0)}).empty());
+}
+
 TEST(UnlikeLengths, EmgOfTwoTrialsThatFitsTheOthersMotionIsCalledExchanged) {
   const std::vector<Remark> found =
       unlike_lengths({lengths(26.6, 25.6), lengths(25.64, 26.62), lengths(24.0, 24.02), lengths(28.0, 28.0)});

@@ -34,6 +34,9 @@ struct ClockLimits {
                                  ///< makes a wrong rate certain.
   double by_hand_s = 1.0;        ///< Recordings stopped by hand differ by this in duration.
   double alone_longer = 1.5;     ///< Ratio of durations of EMG and motion in a single trial.
+  double apart_s = 0.05;         ///< Clocks that drift apart by more shift the EMG by as much as its delay.
+  /// Trials are of unlike length above this ratio of their durations.
+  double unlike_length = 1.2;
 };
 
 /// Limits hold for angles and torques, dynamometers and passive trials.

@@ -119,11 +119,17 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
            l.clocks.by_hand_s, l.clocks.alone_longer)});
   rows.push_back(
       {"", "warning",
+       fmt::format("one ratio in trials of which one is {:g} times as long as another, {:g} ms apart at its end",
+                   l.clocks.unlike_length, 1000.0 * l.clocks.apart_s)});
+  rows.push_back(
+      {"", "warning",
        "the only two trials of unlike length, and each EMG is as long as the other's motion: exchanged files"});
   rows.push_back(
       {"", "not checked",
        fmt::format("maximal contractions, trials with their own window or clock, beginnings more than {:g} s apart",
                    l.clocks.same_begin_s)});
+  rows.push_back({"a stated rate of a table beside its times", "warning",
+                  fmt::format("{:g} ms apart at the recording's end", 1000.0 * l.clocks.apart_s)});
 }
 
 void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {

@@ -30,6 +30,28 @@ TEST(ReadTrialInput, RefusesDegreesThatAreSaidToBeRadians) {
   EXPECT_NE(message.find("m.mot"), std::string::npos) << message;
 }
 
+TEST(ReadTrialInput, AMotionWithANumberForAMissingValueNamesTheNumber) {
+  const test::TemporaryFolder folder;
+  std::string text = "motion\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
+  for (int i = 0; i < 200; ++i)
+    text += std::to_string(0.01 * i) + "\t" + (i > 90 && i < 100 ? "-9999" : std::to_string(0.2 * i)) + "\n";
+  write_file(folder / "m.mot", text);
+  TrialSpec trial;
+  trial.name = "t";
+  trial.motion = folder / "m.mot";
+  const std::string message = message_of([&] { (void)read_trial_input(arm_study(), trial, arm()); });
+  EXPECT_NE(message.find("-9999"), std::string::npos) << message;
+}
+
+TEST(AddRepairs, AClockThatMayBeWrongIsAWarning) {
+  std::vector<Remark> remarks;
+  add_repairs("e.csv", {{3, "one rate and another", 0.2}, {0, "two rates alike", 0.01}}, remarks);
+  ASSERT_EQ(remarks.size(), 2U);
+  EXPECT_EQ(remarks[0].code, RemarkCode::clock_drift);
+  EXPECT_EQ(remarks[0].severity, Severity::warning);
+  EXPECT_EQ(remarks[1].severity, Severity::note);
+}
+
 TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
   const Study study = arm_study();
   const WrittenTrial paused(0.01, 8.0, 3.0);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/recording/recording.h"
+#include "myoid/study/intake/limits.h"
 
 namespace myoid::study {
 
@@ -18,7 +19,16 @@ void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remar
 }
 
 void add_repairs(const std::filesystem::path& path, const std::vector<Repair>& repairs, std::vector<Remark>& remarks) {
-  for (const Repair& repair : repairs) add_notes({recording::to_string(path.filename(), repair)}, remarks);
+  for (const Repair& repair : repairs) {
+    add_notes({recording::to_string(path.filename(), repair)}, remarks);
+    if (repair.apart_s < kLimits.clocks.apart_s) continue;
+    Remark& doubt = remarks.back();
+    doubt.code = RemarkCode::clock_drift;
+    doubt.severity = Severity::warning;
+    doubt.value = repair.apart_s;
+    doubt.says += fmt::format("; at the end the two are {:.2g} s apart", repair.apart_s);
+    doubt.remedy = "correct the rate in the header or the times, whichever is wrong";
+  }
 }
 
 std::string few_samples(const TrialSpec& trial, const TimeSeries& series, int needed) {
