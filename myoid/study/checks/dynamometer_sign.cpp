@@ -3,40 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/body/dynamics/joint_capacity.h"
-#include "myoid/body/dynamics/torque_plausibility.h"
 #include "myoid/body/model/kinematic_tree.h"
-#include "myoid/body/model/path_survey.h"
-#include "myoid/recording/signals/resample.h"
+#include "myoid/study/checks/muscle_pulls.h"
 #include "myoid/study/checks/relaxed_joint.h"
 #include "myoid/study/intake/limits.h"
 #include "myoid/study/study_model.h"
 
 namespace myoid::study {
 namespace {
-
-/// Returns F_max r of each muscle of the study [N m], r the mean over the coordinate's range.
-Eigen::VectorXd strengths_nm(const Study& study, const body::BodyModel& model, const std::string& coordinate) {
-  constexpr int kSteps = 8;
-  const int index = model.coordinate_index(coordinate);
-  const std::vector<body::MuscleGroup> groups = muscle_groups(study, model);
-  Eigen::VectorXd strength = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(groups.size()));
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    for (const int m : groups[k].members) {
-      const double f_max_n = model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
-      for (const double r : body::arms_over_range_m(model, m, index, kSteps)) {
-        if (std::isfinite(r)) strength[static_cast<Eigen::Index>(k)] += r * f_max_n / (kSteps + 1);
-      }
-    }
-  }
-  return strength;
-}
 
 /// Returns the largest possible torque by the weight of all bodies that the coordinate moves, each stretched out [N m].
 double weight_nm(const body::BodyModel& model, const std::string& coordinate) {
@@ -53,107 +33,6 @@ double weight_nm(const body::BodyModel& model, const std::string& coordinate) {
           model.bodies[b].mass_kg * model.gravity_G.norm() * (state.X_GB[b] * model.bodies[b].p_BBcm_B - center).norm();
   }
   return sum;
-}
-
-/// Channels of a study's muscles and the torque of each at its largest EMG [N m].
-struct Pulls {
-  std::vector<std::string> channels;
-  Eigen::VectorXd strength_nm;
-
-  /// Returns the strengths of the muscles of one direction together, and those of the other.
-  [[nodiscard]] body::JointCapacity together() const {
-    return {.positive_nm = strength_nm.cwiseMax(0.0).sum(), .negative_nm = -strength_nm.cwiseMin(0.0).sum()};
-  }
-};
-
-Pulls pulls_on(const Study& study, const body::BodyModel& model, const std::string& coordinate) {
-  const Eigen::VectorXd of_muscles = strengths_nm(study, model, coordinate);
-  Pulls pulls;
-  std::vector<double> strengths;
-  for (std::size_t k = 0; k < study.muscles.size(); ++k) {
-    const auto known = std::ranges::find(pulls.channels, study.muscles[k].emg);
-    const auto at = static_cast<std::size_t>(known - pulls.channels.begin());
-    if (known == pulls.channels.end()) {
-      pulls.channels.push_back(study.muscles[k].emg);
-      strengths.push_back(0.0);
-    }
-    strengths[at] += of_muscles[static_cast<Eigen::Index>(k)];
-  }
-  pulls.strength_nm = Eigen::Map<Eigen::VectorXd>(strengths.data(), std::ssize(strengths));
-  return pulls;
-}
-
-/// Sums over samples, from which the cosine between the muscles' torque and the torque they must provide follows for
-/// any strengths of the channels.
-struct Sums {
-  Eigen::MatrixXd emg;   ///< Products of the channels' relative EMG.
-  Eigen::VectorXd need;  ///< Products of it with the necessary torque.
-  double square = 0.0;   ///< Square of that torque.
-
-  [[nodiscard]] double cosine(const Eigen::VectorXd& strength_nm) const {
-    const double size = std::sqrt(strength_nm.dot(emg * strength_nm) * square);
-    return size > 0.0 ? strength_nm.dot(need) / size : 0.0;
-  }
-};
-
-/// A trial whose torque and EMG tell a sign.
-struct ToldTrial {
-  const EffortTrial* trial = nullptr;
-  Sums sums;
-  bool strong = false;  ///< Its torque is beyond weight, inertia and a light touch.
-};
-
-/// Sums where the torque is large and a muscle is active; empty: nowhere.
-std::optional<Sums> sums_of(const EffortTrial& trial,
-                            const Pulls& pulls,
-                            const std::map<std::string, double>& largest,
-                            const Eigen::VectorXd& torque_nm) {
-  const Eigen::VectorXd& t = trial.external_torque->time_s();
-  const TimeSeries a = recording::resample(trial.envelopes, t);
-  const double from_s = trial.envelopes.time_s()[0];
-  const double to_s = trial.envelopes.time_s()[trial.envelopes.sample_count() - 1];
-  const double enough = kLimits.joints.dynamometer_torque * body::usual_peak(torque_nm);
-  const auto n = static_cast<Eigen::Index>(pulls.channels.size());
-  Sums sums{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
-  Eigen::VectorXd relative(n);
-  for (Eigen::Index i = 0; i < t.size(); ++i) {
-    if (t[i] < from_s || t[i] > to_s || std::abs(torque_nm[i]) < enough) continue;
-    for (Eigen::Index c = 0; c < n; ++c) {
-      const std::string& channel = pulls.channels[static_cast<std::size_t>(c)];
-      relative[c] = a.values()(i, a.index(channel)) / std::max(largest.at(channel), 1e-300);
-    }
-    if (relative.maxCoeff() < kLimits.joints.active) continue;
-    sums.emg += relative * relative.transpose();
-    sums.need -= relative * torque_nm[i];
-    sums.square += torque_nm[i] * torque_nm[i];
-  }
-  return sums.square > 0.0 ? std::optional(std::move(sums)) : std::nullopt;
-}
-
-/// Returns the trials of a joint that tell a sign. Torques that the study's muscles cannot make are those of others.
-std::vector<ToldTrial> told_trials(const std::vector<EffortTrial>& trials,
-                                   const std::string& coordinate,
-                                   const Pulls& pulls,
-                                   const std::map<std::string, double>& largest,
-                                   double weight_nm) {
-  const body::JointCapacity muscles = pulls.together();
-  const double weaker_nm = muscles.positive_nm > 0.0 && muscles.negative_nm > 0.0
-                               ? std::min(muscles.positive_nm, muscles.negative_nm)
-                               : muscles.isometric_nm();
-  const double least_nm =
-      std::max(kLimits.joints.dynamometer_share * weaker_nm, kLimits.joints.dynamometer_weights * weight_nm);
-  std::vector<ToldTrial> told;
-  for (const EffortTrial& trial : trials) {
-    if (trial.external_torque == nullptr || trial.envelopes.empty() || trial.spec->use == Use::passive) continue;
-    const auto column = trial.external_torque->find(coordinate + "_moment");
-    if (!column) continue;
-    const Eigen::VectorXd torque = trial.external_torque->values().col(*column);
-    const double peak_nm = body::usual_peak(torque);
-    if (peak_nm > muscles.greatest_nm()) continue;
-    if (auto sums = sums_of(trial, pulls, largest, torque))
-      told.push_back({&trial, std::move(*sums), peak_nm >= least_nm});
-  }
-  return told;
 }
 
 /// A trial with cosine c has odds of exp(6 c) for a right sign: the cosines of right signs are spread as exp(3 c), with
@@ -252,20 +131,15 @@ std::vector<Remark> dynamometer_signs(const Study& study,
   std::vector<Remark> found;
   const bool any = std::ranges::any_of(trials, [](const EffortTrial& t) { return t.external_torque != nullptr; });
   if (!any) return found;
-  std::map<std::string, double> largest;
-  for (const EffortTrial& trial : trials) {
-    for (Eigen::Index c = 0; c < trial.envelopes.channel_count(); ++c) {
-      double& value = largest[trial.envelopes.channels()[static_cast<std::size_t>(c)].name];
-      value = std::max(value, trial.envelopes.values().col(c).maxCoeff());
-    }
-  }
   for (const std::string& name : study_coordinates(study.model)) {
     const auto index = model.find_coordinate(name);
     if (!index || model.coordinates[static_cast<std::size_t>(*index)].motion == body::MotionType::translational)
       continue;
     const Pulls pulls = pulls_on(study, model, name);
     const double limb_nm = weight_nm(model, name);
-    const std::vector<ToldTrial> told = told_trials(trials, name, pulls, largest, limb_nm);
+    std::vector<ToldTrial> told = told_trials(trials, name, pulls, limb_nm);
+    // Torques that the study's muscles cannot make are those of others.
+    std::erase_if(told, [&](const ToldTrial& one) { return one.peak_nm > pulls.together().greatest_nm(); });
     const RelaxedJoint rest = relaxed_joint(trials, name, limb_nm);
     std::vector<Remark> of_joint = reversed_torques(told, pulls, name, rest);
     if (of_joint.empty()) of_joint = yielding_joint(rest, name, log_odds(told, pulls.strength_nm));

@@ -1,12 +1,15 @@
 #include "myoid/study/checks/recording_findings.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "myoid/ground/core/parallel.h"
 #include "myoid/recording/signals/emg_levels.h"
 #include "myoid/study/checks/dynamometer_sign.h"
+#include "myoid/study/checks/unlike_trials.h"
 #include "myoid/study/intake/trial_quality.h"
 
 namespace myoid::study {
@@ -38,7 +41,9 @@ RecordingFindings recording_findings(const Study& study,
     efforts.push_back(
         {&study.trials[i], torque ? &*torque : nullptr, activation.trials[i].activation, motion ? &*motion : nullptr});
   }
-  found.dynamometers = grouped(dynamometer_signs(study, model, efforts));
+  std::vector<Remark> torques = dynamometer_signs(study, model, efforts);
+  std::ranges::move(unlike_torques(study, model, efforts), std::back_inserter(torques));
+  found.dynamometers = grouped(torques);
   return found;
 }
 

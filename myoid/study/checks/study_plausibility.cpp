@@ -103,9 +103,10 @@ std::vector<Remark> small_torques(const Capacities& capacities, const std::map<s
 
 /// Finds a joint of which no motion of the study reaches an angle that people bend to, although it moves: radians that
 /// are called degrees.
-std::vector<Remark> small_angles(const std::map<std::string, AngleSpan>& angles) {
+std::vector<Remark> small_angles(const AnglesOfStudy& angles) {
   std::vector<Remark> found;
-  for (const auto& [name, span] : angles) {
+  for (const auto& [name, trials] : angles) {
+    const AngleSpan span = span_of(trials);
     const double largest_deg = std::max(span.greatest_rad, -span.least_rad) / kDegree;
     const double range_deg = (span.greatest_rad - span.least_rad) / kDegree;
     if (largest_deg >= kLimits.joints.least_angle_deg || range_deg < kLimits.joints.least_angle_range_deg) continue;
@@ -143,9 +144,9 @@ void StudyPlausibility::remember_extremes(const TrialSpec& trial, const TrialInp
     const auto column = input.motion ? input.motion->find(name) : std::nullopt;
     if (!column || is_doubted || input.motion->channels()[static_cast<std::size_t>(*column)].unit != Unit::radian)
       continue;
-    AngleSpan& span = angles_[name];
-    span.least_rad = std::min(span.least_rad, input.motion->values().col(*column).minCoeff());
-    span.greatest_rad = std::max(span.greatest_rad, input.motion->values().col(*column).maxCoeff());
+    const auto q = input.motion->values().col(*column);
+    const bool moves = (trial.use == Use::calibration || trial.use == Use::validation) && !input.external_torque;
+    angles_[name].push_back({trial.name, !moves, {q.minCoeff(), q.maxCoeff()}});
   }
 }
 
@@ -215,7 +216,8 @@ std::vector<Remark> StudyPlausibility::findings() const {
   if (auto sizes = unlike_sizes(sizes_)) found.push_back(std::move(*sizes));
   for (std::vector<Remark> more :
        {shared_muscles(*study_), unlike_stated_bodies(*study_), same, small_torques(capacities_, torque_peaks_nm_),
-        small_angles(angles_), grouped(unlike_lengths(lengths_)), of_the_model(*study_, *model_)})
+        small_angles(angles_), unlike_angles(angles_), grouped(unlike_lengths(lengths_)),
+        of_the_model(*study_, *model_)})
     std::ranges::move(more, std::back_inserter(found));
   return found;
 }

@@ -9,16 +9,12 @@
 #include "myoid/study/checks/person_size.h"
 #include "myoid/study/checks/same_recording.h"
 #include "myoid/study/checks/trial_plausibility.h"
+#include "myoid/study/checks/unlike_trials.h"
 #include "myoid/study/intake/emg_cover.h"
 #include "myoid/study/intake/trial_input.h"
 #include "myoid/study/study.h"
 
 namespace myoid::study {
-
-/// The least and the greatest angle of a coordinate [rad].
-struct AngleSpan {
-  double least_rad = 1e300, greatest_rad = -1e300;
-};
 
 /// Checks the trials of a study one by one, then all of them together. `check` reports the
 /// findings; `run` stops at errors and reports warnings.
@@ -46,7 +42,7 @@ class StudyPlausibility {
   std::vector<TrialLengths> lengths_;
   std::vector<TrialSize> sizes_;
   std::map<std::string, double> torque_peaks_nm_;  ///< Of `external_torque` over all efforts, by coordinate.
-  std::map<std::string, AngleSpan> angles_;        ///< Least and greatest of `motion` over all trials, by coordinate.
+  AnglesOfStudy angles_;                           ///< Of `motion`.
   double largest_emg_ = 0.0;                       ///< Over all trials.
 };
 

@@ -66,6 +66,17 @@ struct JointLimits {
   double resting_share = 0.25;  ///< Share of the muscles' strength that no relaxed joint resists.
 };
 
+/// Limits hold for a trial beside the others of its study.
+struct LikenessLimits {
+  /// A dynamometer's torque over the active muscles': factors from the others' median. A muscle at its shortest pulls
+  /// an eighth of its strength, and none pulls more than some times its strength.
+  double torque_more = 6.0, torque_less = 12.0;
+  double unopposed = 0.5;  ///< Share of the muscles' torque that antagonists leave.
+  double angle = 15.0;     ///< Factor by which the ranges of angles differ: degrees over radians is 57.
+  int fewest_others = 3;   ///< Trials with a dynamometer.
+  int fewest_alike = 2;    ///< Trials with angles.
+};
+
 /// Limits hold for markers.
 struct MarkerLimits {
   double trunk_across = 0.5;   ///< Cosine between trunk and vertical, 60 degrees.
@@ -114,6 +125,7 @@ struct PlausibilityLimits {
   EmgLimits emg;
   ClockLimits clocks;
   JointLimits joints;
+  LikenessLimits likeness;
   MarkerLimits markers;
   ContactLimits contacts;
   WeightLimits weight;

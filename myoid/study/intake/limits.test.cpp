@@ -188,6 +188,16 @@ void add_efforts(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
   rows.push_back(
       {"a torque of another unit", "warning",
        fmt::format("in every effort below {:g} % of the joint's strength", percent(l.joints.least_torque_share))});
+  rows.push_back({"a torque in another unit than the other trials'", "error",
+                  fmt::format("over that of the active muscles it is {:g} times the others' median, or {:g} times less",
+                              l.likeness.torque_more, l.likeness.torque_less)});
+  rows.push_back({"", "not checked",
+                  fmt::format("fewer than {} other trials; muscles of which antagonists leave less than {:g} %",
+                              l.likeness.fewest_others, percent(l.likeness.unopposed))});
+  rows.push_back({"radians of one trial called degrees", "warning",
+                  fmt::format("as radians among the other trials' angles; its range is {:g} times as small as that of "
+                              "each of {} others or more",
+                              l.likeness.angle, l.likeness.fewest_alike)});
   rows.push_back(
       {"a passive trial that is not at rest", "warning: not taken for the resting torque",
        fmt::format(
