@@ -59,7 +59,7 @@ set(MYOID_LAYER_checks core math files tables recording signals model osim kinem
 set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs measurement
     intervals posterior page study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
-    measurement intervals methods page phases study intake checks design)
+    measurement intervals posterior methods page phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim page)
 set(MYOID_LAYER_exports core files muscle osim measurement intervals study run projects)
 set(MYOID_LAYER_results core math files muscle tables recording model kinematics forces simulation

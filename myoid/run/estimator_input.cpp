@@ -30,6 +30,12 @@ void add_motion(const body::JointMotion& motion,
   joint.acceleration_radps2 = motion.qddot.column(name);
 }
 
+/// Returns the part of the j-th joint's torque by weight and inertia; empty without a dynamometer.
+Eigen::VectorXd beside_dynamometer(const TrialResult& trial, std::size_t j) {
+  if (!trial.spec.external_torque || trial.forces.muscle_torque.empty()) return {};
+  return trial.forces.generalized.column(trial.forces.muscle_torque.channels()[j].name);
+}
+
 /// Returns the torques of the joints; 0 where the trial gives forces alone, which methods `force` and `paper` fit.
 Eigen::MatrixXd torques_of(const TrialForces& forces, std::size_t joints) {
   if (!forces.muscle_torque.empty()) return forces.muscle_torque.values();
@@ -60,6 +66,7 @@ fit::TrialData trial_data(const study::Study& study,
   }
   const Eigen::MatrixXd torque_nm = torques_of(trial.forces, study.model.more_coordinates.size() + 1);
   data.torque_nm = torque_nm.col(0);
+  data.dynamics_nm = beside_dynamometer(trial, 0);
   data.condition = trial.spec.condition;
   data.joint = study.model.coordinate;
   add_motion(trial.motion.joints, resting, data.joint, data);
@@ -68,6 +75,7 @@ fit::TrialData trial_data(const study::Study& study,
     data.more_joints.push_back({.joint = name,
                                 .torque_nm = torque_nm.col(static_cast<Eigen::Index>(j) + 1),
                                 .moment_arm_m = body::lumped_moment_arm_m(trial.forces.muscles, groups, name)});
+    data.more_joints.back().dynamics_nm = beside_dynamometer(trial, j + 1);
     add_motion(trial.motion.joints, resting, name, data.more_joints.back());
   }
   data.activation = activation;

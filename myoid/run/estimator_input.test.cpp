@@ -187,6 +187,8 @@ TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
   EXPECT_NEAR(data.trials[0].time_s[data.trials[0].time_s.size() - 1], 14.5, 0.1);
   EXPECT_EQ(data.trials[0].torque_nm.size(), data.trials[0].time_s.size());
   EXPECT_NO_THROW(fit::validate(data));
+  // No dynamometer measured a part of the torque.
+  EXPECT_EQ(data.trials[0].dynamics_nm.size(), 0);
   // Windows of the study are neither fitted nor scored.
   trial.spec.exclude.windows = {{3.045, 4.045}, {9.945, 12.045}};
   const fit::TrialData without = data_of(result).trials.at(0);
@@ -197,6 +199,29 @@ TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
     const double t = without.time_s[row];
     EXPECT_FALSE((t > 3.045 && t < 4.045) || (t > 9.945 && t < 12.045)) << t;
   }
+}
+
+TEST(EstimatorData, BesideADynamometerWeightAndInertiaAreAPartOfTheTorque) {
+  StudyResult result = with_one_channel();
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(201, 0.0, 4.0);
+  study::TrialInput input;
+  input.motion = TimeSeries(t, {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd(t.array().sin()));
+  const Eigen::MatrixXd pushed = Eigen::MatrixXd(-20.0 * t);
+  input.external_torque = TimeSeries(t, {{"elbow_flexion_moment", Unit::newton_meter}}, pushed);
+  result.trials.resize(1);
+  TrialResult& trial = result.trials[0];
+  trial.spec = result.source.study.trials[0];
+  trial.spec.external_torque = "push.sto";
+  trial.motion = trial_motion(result.source, trial.spec, input, nullptr);
+  trial.forces = trial_torques(result.source, trial.spec, input, trial.motion);
+  std::vector<Channel> channels;
+  for (const char* name : {"BIC", "BRA", "BRD", "TRI"}) channels.push_back({name, Unit::dimensionless});
+  trial.emg.activation = TimeSeries(t, channels, Eigen::MatrixXd::Constant(t.size(), 4, 0.3));
+  const fit::TrialData of = data_of(result).trials.at(0);
+  ASSERT_EQ(of.dynamics_nm.size(), of.time_s.size());
+  // The rest is what the dynamometer shows: 20 N m/s against the muscles.
+  EXPECT_LT((of.torque_nm - of.dynamics_nm - 20.0 * of.time_s).norm(), 1e-6 * of.torque_nm.norm());
+  EXPECT_GT(of.dynamics_nm.norm(), 0.01 * of.torque_nm.norm());
 }
 
 }  // namespace

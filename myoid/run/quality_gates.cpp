@@ -334,6 +334,14 @@ Gate clock_gate(const fit::ShiftedEmg& shifted) {
           "[sync] offset_s moves the clock of the EMG; every number of the fit rests on it."};
 }
 
+Gate scales_gate(const TorqueScales& scales) {
+  return {
+      "Dynamometer and masses agree", GateStatus::warn, scales.sentence(),
+      fmt::format("a ratio from {:.2f} to {:.2f} in the interval", 1.0 - scales.usual, 1.0 + scales.usual),
+      "Compare the dynamometer with a known mass on a known lever; [subject] mass_kg and held_mass_kg with a scale. "
+      "Forces and torques lie between the two."};
+}
+
 }  // namespace
 
 std::vector<page::Gate> quality_gates(const StudyResult& result) {
@@ -349,6 +357,7 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
   list.push_back(loads_gate(result.trials));
   if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
   if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
+  if (result.fit.scales && result.fit.scales->differ()) list.push_back(scales_gate(*result.fit.scales));
   const auto add = [&list](std::vector<Gate> gates) { std::ranges::move(gates, std::back_inserter(list)); };
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));

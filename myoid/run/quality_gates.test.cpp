@@ -182,6 +182,20 @@ TEST(VerdictCaps, ALateClockAndAnotherFootCapAllAndAnExcludedFootNothing) {
   EXPECT_EQ(verdict_of(result), Verdict::identified);
 }
 
+TEST(VerdictCaps, ADynamometerThatDisagreesWithTheMassesIsACautionAndCapsStrengths) {
+  StudyResult result = some_result(0.005, 0, 60.0);
+  const auto cautions = [&] { return std::ranges::count(quality_gates(result), GateStatus::warn, &Gate::status); };
+  const auto usual = cautions();
+  result.fit.scales = {.ratio = 1.02, .low = 0.98, .high = 1.06, .usual = 0.03};
+  EXPECT_EQ(cautions(), usual);
+  EXPECT_EQ(capped(result).verdict, fit::Verdict::identified);
+  result.fit.scales = {.ratio = 1.1, .low = 1.05, .high = 1.15, .usual = 0.03};
+  EXPECT_EQ(cautions(), usual + 1);
+  EXPECT_EQ(capped(result).verdict, fit::Verdict::weak);
+  result.fit.methods[0].estimates[0].parameter = "optimal_fiber_length";
+  EXPECT_EQ(capped(result).verdict, fit::Verdict::identified);
+}
+
 TEST(VerdictCaps, AGateThatFailedCapsTheMethodsThatItConcerns) {
   StudyResult result = with_emg();
   result.trials[0].forces.shared.status.resize(100);

@@ -12,6 +12,7 @@
 #include "myoid/run/fit_input.h"
 #include "myoid/run/informed_forces.h"
 #include "myoid/run/solver_contest.h"
+#include "myoid/run/torque_scales.h"
 
 namespace myoid::run {
 
@@ -21,6 +22,7 @@ struct StudyFit {
   /// Two channels that fit better with exchanged names.
   std::optional<fit::ExchangedElectrodes> exchanged;
   std::optional<fit::ShiftedEmg> shifted;  ///< EMG on another clock than the torque.
+  std::optional<TorqueScales> scales;      ///< Of trials with a dynamometer and without.
   std::vector<SolverContest> contests;     ///< Solvers of method `paper`, if the study compares them.
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.

@@ -102,6 +102,9 @@ std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vecto
     caps.push_back(of_all("The motion it rests on failed its quality gate: mend that first."));
   if (result.fit.exchanged) caps.push_back(of_all("Two electrodes seem to be exchanged: mend that first."));
   if (result.fit.shifted) caps.push_back(of_all("EMG and torque seem to be on different clocks: mend that first."));
+  if (result.fit.scales && result.fit.scales->differ())
+    caps.push_back({.reason = "Dynamometer and masses disagree about the torque's scale: mend that first.",
+                    .parameters = strengths()});
   add_contacts(result, caps);
   add_emg(result, caps);
   add_gates(gates, caps);

@@ -319,7 +319,7 @@ void visit(fit::UnseenSpreads& beliefs, SettingVisitor& v) {
   v.number("tendon_strain", beliefs.tendon_strain,
            {.says = "Strain at F_max of a tendon that is taken to be rigid.", .limits = within(0.0, 0.2)});
   v.number("torque_scale_sd", beliefs.torque_scale,
-           {.says = "Relative error of the scale of all torques.", .limits = kSpread});
+           {.says = "Relative error of a dynamometer's scale, and of that of weight and inertia.", .limits = kSpread});
   v.number("crosstalk_sd", beliefs.crosstalk,
            {.says = "Share of another electrode's envelope in an envelope.", .limits = kSpread});
   v.number("gain_drift_sd", beliefs.gain_drift,

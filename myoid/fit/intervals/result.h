@@ -160,8 +160,7 @@ struct BranchTest {
 ///
 ///   D^2 = sum_j ((z_j - prior_j) / sd_j)^2 over its own free parameters
 ///
-/// A fit with priors moves an estimate by N(0, P - C), P the prior's and C its own covariance. P
-/// exceeds P - C and stands for it here.
+/// P, the prior's covariance, stands for P - C, by which a fit moves an estimate; C is its own.
 struct PriorDistance {
   std::string muscle;
   double distance = 0.0;           ///< D, converted to standard deviations of one normal number.

@@ -54,8 +54,7 @@ struct Tension {
 /// Returns the tension [N] at a channel's activation, musculotendon length [m] and rate [m/s]:
 ///
 ///   F = F_max [ a f_l(l; l0 (1 + gamma (1 - a))) f_v(v) + f_p(l) ] cos(alpha),
-///   a = share * activation,   f_p = c (exp(k (l/l0 - 1) / e) - 1) / (exp(k) - 1) for l > l0, else
-///   0
+///   a = share * activation,   f_p = c (exp(k (l/l0 - 1) / e) - 1) / (exp(k) - 1), 0 for l < l0
 ///
 /// f_l and f_v as in muscle/force_length.h and force_velocity.h; the width l_sh does not grow with
 /// the optimal length. Rigid tendon: l cos(alpha) = l_mt - l_ts, v = v_mt cos(alpha). With a tendon
@@ -65,10 +64,6 @@ struct Tension {
 ///
 /// solved to round-off for every sample; v leaves out the rate at which the tendon stretches. Derivatives are exact
 /// (implicit function theorem). Where the tendon is slack (l_mt <= l_ts with pennation) the tension is 0.
-///
-/// This is the only law with derivatives written by hand. It costs a ninth of muscle::hill_force
-/// with Jets (`plain_tension`) and, with an elastic tendon, a hundredth of
-/// muscle::equilibrium_state with Jets; a test compares it with both.
 [[nodiscard]] Tension tension(double activation, double length_m, double velocity_mps, const MuscleValues& values);
 
 /// Returns true if only the paper's law, the share, an optimal length that changes with the activation and a tendon,

@@ -8,9 +8,8 @@
 
 namespace myoid::fit {
 
-/// Returns the nuisances: unknowns beside the muscles' parameters, each with a prior about its absence. `run` and
-/// `identify` put these rules first, so that rules of the study or of the user win. A fit without nuisances would
-/// ascribe their effects to the muscles.
+/// Returns the nuisances: unknowns beside the muscles' parameters, each with a prior about its absence. They come
+/// first, so that rules of the study or of the user win.
 ///
 /// - `length_activation`, one for all muscles, 0 +- 0.1: fibers of low activation have a longer
 /// optimal length (Lloyd & Besier 2003: 15 %);

@@ -89,7 +89,8 @@ TrialData at_rows(const TrialData& trial, const std::vector<Eigen::Index>& rows)
   };
   const auto pick_joint = [&](JointData& of) {
     pick(of.moment_arm_m);
-    for (auto* x : {&of.torque_nm, &of.angle_rad, &of.velocity_radps, &of.acceleration_radps2, &of.resting_nm})
+    for (auto* x :
+         {&of.torque_nm, &of.angle_rad, &of.velocity_radps, &of.acceleration_radps2, &of.resting_nm, &of.dynamics_nm})
       pick(*x);
   };
   for (Eigen::MatrixXd* x : {&t.length_m, &t.velocity_mps, &t.force_n}) pick(*x);
@@ -190,12 +191,13 @@ void validate(const StudyData& data) {
     const auto resting_or_none = [n](const Eigen::VectorXd& x) {
       return x.size() == 0 || (x.size() == n && x.allFinite());
     };
-    if (!resting_or_none(trial.resting_nm))
-      throw InvalidInput(fmt::format("trial '{}': the resting torque must be {} samples or none, found {}", trial.name,
-                                     n, trial.resting_nm.size()));
+    if (!resting_or_none(trial.resting_nm) || !resting_or_none(trial.dynamics_nm))
+      throw InvalidInput(fmt::format("trial '{}': a part of the torque must be {} samples or none, found {} and {}",
+                                     trial.name, n, trial.resting_nm.size(), trial.dynamics_nm.size()));
     for (const JointData& joint : trial.more_joints) {
       if (joint.torque_nm.size() != n || !sized(joint.moment_arm_m) || !joint.torque_nm.allFinite() ||
-          !joint.moment_arm_m.allFinite() || !resting_or_none(joint.resting_nm)) {
+          !joint.moment_arm_m.allFinite() || !resting_or_none(joint.resting_nm) ||
+          joint.dynamics_nm.size() != trial.dynamics_nm.size() || !resting_or_none(joint.dynamics_nm)) {
         throw InvalidInput(
             fmt::format("trial '{}', joint '{}': torque and moment arms must be {} finite samples x {} muscles",
                         trial.name, joint.joint, n, m));

@@ -57,6 +57,7 @@ struct JointData {
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Empty, or n.
   /// Measured passive part of `torque_nm` (RestingTorque): empty for none, or n. The muscles' activity makes the rest.
   Eigen::VectorXd resting_nm;
+  Eigen::VectorXd dynamics_nm;  ///< Part of `torque_nm` by weight and inertia, beside a dynamometer's: n, else empty.
 };
 
 /// One trial on the clock of the motion, with its first joint: n samples, m muscles.
@@ -91,10 +92,9 @@ struct StudyData {
 [[nodiscard]] std::vector<std::string> unstated_speeds(const StudyData& data,
                                                        const std::vector<std::string>& wanted = {});
 
-/// Frees the v_max of these muscles, ahead of `StudyData::rules`, which may hold it again. At small
-/// speeds only the slope (1 + 1/V_sh) / v_max of f_v acts, and along it d ln V_sh = -(1 + V_sh) d
-/// ln v_max. If v_max is held at a wrong value, V_sh compensates and leaves its own interval. A
-/// free v_max with the literature's spread (ln 0.2) widens V_sh's interval accordingly.
+/// Frees the v_max of these muscles, ahead of `StudyData::rules`, which may hold it again. At small speeds only the
+/// slope (1 + 1/V_sh) / v_max of f_v acts: if v_max is held at a wrong value, V_sh compensates and leaves its own
+/// interval. A free v_max with the literature's spread (ln 0.2) widens V_sh's interval accordingly.
 void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 
 /// Returns the number of a trial's joints: its own and `more_joints`.

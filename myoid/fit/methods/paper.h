@@ -20,11 +20,10 @@ struct PaperOptions {
 ///   min 1/2 sum (F_t - F_m(x))^2
 ///
 /// without bounds, weights or priors. The estimate is the minimum of this criterion that Gauss-Newton steps reach from
-/// the starting values, each halved until the criterion falls, or else damped steps. `IdentificationResult::published`
-/// says of each search how it ended, and how plain steps fared. F_max and v_max are held, and the EMG envelope is the
-/// activation without a delay. Samples with a = 0 or v <= -v_max are left out and counted. All calibration trials are
-/// fitted together. A muscle's setup or a rule can hold further numbers (paper_case.h); bounds, priors and ties have no
-/// effect.
+/// the starting values, each halved until the criterion falls, or else damped steps (`PublishedSearch`). F_max and
+/// v_max are held, and the EMG envelope is the activation without a delay. Samples with a = 0 or v <= -v_max are left
+/// out and counted. All calibration trials are fitted together. A muscle's setup or a rule can hold further numbers
+/// (paper_case.h); bounds, priors and ties have no effect.
 ///
 /// Of measured forces this adds, beyond the paper, standard errors from the SVD of the Jacobian, widened for the
 /// correlation of the residuals in time (n over the effective number of samples), a Wald test of the l0 and l_sh of

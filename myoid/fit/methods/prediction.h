@@ -32,9 +32,7 @@ struct Prediction {
 ///   T* = T^(z) + S W x,   x the expectation of the unseen quantities (fit/posterior/unseen.h),
 ///
 /// from the drives behind the envelopes. Its variance is that of z, of x given z, and of the noise. A fit without noise
-/// parameters (exact data) predicts by the law alone, without standard deviations.
-///
-/// The standard deviation of a force includes that of the parameters only.
+/// parameters (exact data) predicts by the law alone, without standard deviations. A force's is by parameters only.
 class TrialPredictions {
  public:
   /// The members of `fit` in use: `values`, `lag`, `solution`, `covariance` and `noise`. References must outlive it.

@@ -71,6 +71,7 @@ void add_joint(const TrialData& view,
   run.joints[j] = static_cast<int>(std::find(names.begin(), names.end(), view.joint) - names.begin());
   run.arm_m.middleRows(first, n) = view.moment_arm_m(rows, Eigen::all);
   run.resting_nm.segment(first, n) = resting_torque_nm(view)(rows);
+  if (run.dynamics_nm.size() > 0) run.dynamics_nm.segment(first, n) = view.dynamics_nm(rows);
   run.measured_nm.segment(static_cast<Eigen::Index>(j) * m, m) =
       run.reduction.apply(Eigen::VectorXd(view.torque_nm(rows)));
   if (const Eigen::MatrixXd motion = motion_of(view, view.time_s.size()); motion.size() > 0)
@@ -95,6 +96,7 @@ TrialRun make_run(const TrialData& trial,
   run.arm_m.resize(run.row_count(), trial.moment_arm_m.cols());
   run.motion.setZero(run.row_count(), 3);
   run.resting_nm.resize(run.row_count());
+  run.dynamics_nm.resize(trial.dynamics_nm.size() > 0 ? run.row_count() : 0);
   run.measured_nm.resize(static_cast<Eigen::Index>(joints) * run.reduction.outputs());
   for (std::size_t j = 0; j < joints; ++j) add_joint(of_joint(trial, j), rows, j, map, run);
   add_envelopes(drives, options, map, run);

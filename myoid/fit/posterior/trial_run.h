@@ -29,6 +29,7 @@ struct TrialRun {
   Eigen::MatrixXd arm_m{};              ///< n J x muscles
   Eigen::MatrixXd motion{};             ///< n J x 3: angle, rate, acceleration; 0 where not known.
   Eigen::VectorXd resting_nm{};         ///< n J: measured passive torque of the joint, or 0.
+  Eigen::VectorXd dynamics_nm{};        ///< n J: of JointData; empty: no dynamometer.
   std::vector<Envelope> envelopes{};    ///< Per EMG channel: the drive (drive.h).
   std::vector<EnvelopeError> errors{};  ///< Per EMG channel: the envelope's error.
   Eigen::VectorXd envelope_sd{};        ///< Per EMG channel: relative sd of rectified EMG behind its filter.

@@ -64,10 +64,16 @@ struct Collector {
     }
   }
 
-  void add_torque_scale() {
-    add("torque_scale", Source::torque_scale, spreads_.torque_scale);
-    for (std::size_t k = 0; k < data_.muscles.size(); ++k) multiplies_strength_of(k);
-    for (std::size_t r = 0; r < runs_.size(); ++r) columns_[r].back() = at_[r].signals().torque_nm.array();
+  void add_torque_scales() {
+    for (const bool device : {false, true}) {
+      add(device ? "dynamometer_scale" : "torque_scale", Source::torque_scale, spreads_.torque_scale);
+      for (std::size_t k = 0; k < data_.muscles.size(); ++k) multiplies_strength_of(k);
+      for (std::size_t r = 0; r < runs_.size(); ++r) {
+        const Eigen::VectorXd& all = at_[r].signals().torque_nm;
+        const Eigen::VectorXd& own = runs_[r].dynamics_nm.size() > 0 ? runs_[r].dynamics_nm : all;
+        columns_[r].back() = (device ? all - own : own).array();
+      }
+    }
   }
 
   void add_model_errors(std::size_t k) {
@@ -370,7 +376,7 @@ Unseen unseen_quantities(const StudyData& data,
   }
   collector.center_lags();
   collector.add_electrodes();
-  collector.add_torque_scale();
+  collector.add_torque_scales();
   collector.add_joint_errors();
   return collector.take();
 }

@@ -38,14 +38,14 @@ struct UnseenQuantity {
 /// l_mean + alpha (l - l_mean) + beta (range/4) (x^2 - 1/3), because r = -dl/dq. In a muscle that crosses several
 /// joints each arm errs by itself: l and x are then the joint's part of the length (JointParts), and the length acts on
 /// the force, and so on all joints. Slack length: an error d shortens the fibers by d. Tendon: one that the study holds
-/// rigid stretches by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque; all joints share one
-/// scale, as from one dynamometer, or from the masses of one person's segments. Gain drift: the channel's torque times
-/// the place in the session, 0 at the maximal contraction. Its effort: the channel's torque; no quantity where its
-/// spread is 0. Cross-talk: the channel's torque times the share of its activation that is another muscle's, whose
-/// square adds to the own one's. Rise and fall: activation that rises earlier and falls later by d than the delay says,
-/// a + d |da/dt|. Model error: the muscle's torque times polynomials of length, ln(activation), speed and lag, and a
-/// constant and a slope of the joint, as ErrorShapes; where the muscles share a free delay, a lag is its difference
-/// from their mean.
+/// rigid stretches by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scales: of a dynamometer's part of the torque and,
+/// apart from it, of the part by weight and inertia; all joints share both. Gain drift: the channel's torque times the
+/// place in the session, 0 at the maximal contraction. Its effort: the channel's torque; no quantity where its spread
+/// is 0. Cross-talk: the channel's torque times the share of its activation that is another muscle's, whose square adds
+/// to the own one's. Rise and fall: activation that rises earlier and falls later by d than the delay says, a + d
+/// |da/dt|. Model error: the muscle's torque times polynomials of length, ln(activation), speed and lag, and a constant
+/// and a slope of the joint, as ErrorShapes; where the muscles share a free delay, a lag is its difference from their
+/// mean.
 struct Unseen {
   /// A column of S whose shape changes with one of a muscle's unknowns.
   struct Slope {

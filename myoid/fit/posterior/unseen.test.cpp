@@ -228,6 +228,21 @@ TEST(Unseen, ATorqueScaleIsTheWholeTorque) {
   EXPECT_EQ(at.column("torque_scale"), at.torque([](TrialRun&, ModelValues&) {}));
 }
 
+TEST(Unseen, ADynamometersScaleIsOfItsPartOfTheTorqueAlone) {
+  StudyData data = two_trials();
+  data.trials[1].dynamics_nm = data.trials[1].time_s.array().sin().matrix();
+  const AtStart at(std::move(data));
+  const Eigen::VectorXd all = at.torque([](TrialRun&, ModelValues&) {});
+  const Eigen::Index first = at.runs[0].row_count(), n = at.runs[1].row_count();
+  ASSERT_EQ(all.size(), first + n);
+  const Eigen::VectorXd of_dynamics = at.column("torque_scale"), of_device = at.column("dynamometer_scale");
+  EXPECT_EQ(of_dynamics.head(first), all.head(first));
+  EXPECT_EQ(of_device.head(first).norm(), 0.0);
+  const Eigen::VectorXd weight = at.runs[1].time_s.array().sin().matrix();
+  EXPECT_LT((of_dynamics.tail(n) - weight).norm(), 1e-12);
+  EXPECT_LT((of_device.tail(n) + weight - all.tail(n)).norm(), 1e-9);
+}
+
 TEST(Unseen, TheModelsErrorsAreTheMusclesTorqueTimesTheirShapes) {
   const AtStart at(two_trials());
   const auto alone = [&](double strength) {

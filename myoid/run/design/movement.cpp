@@ -349,6 +349,8 @@ fit::TrialData recorded_trial(const MovementCourse& course,
   trial.velocity_mps = course.muscles.velocity_mps.bottomRows(length);
   trial.moment_arm_m = course.muscles.moment_arm_m.bottomRows(length);
   trial.torque_nm = torque_nm.tail(length);
+  // A device that measures the torque carries the limb's weight.
+  if (by_device(course.movement.kind)) trial.dynamics_nm.setZero(length);
   std::vector<Channel> columns;
   for (const std::string& channel : channels) columns.push_back({channel, Unit::dimensionless});
   trial.activation = TimeSeries(course.time_s.array() - person.emg_delay_s, columns, activation);

@@ -195,8 +195,7 @@ void add_efforts(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
                   fmt::format("fewer than {} other trials; muscles of which antagonists leave less than {:g} %",
                               l.likeness.fewest_others, percent(l.likeness.unopposed))});
   rows.push_back({"radians of one trial called degrees", "warning",
-                  fmt::format("as radians among the other trials' angles; its range is {:g} times as small as that of "
-                              "each of {} others or more",
+                  fmt::format("among the other trials' angles as radians; range {:g} times as small as {} others'",
                               l.likeness.angle, l.likeness.fewest_alike)});
   rows.push_back(
       {"a passive trial that is not at rest", "warning: not taken for the resting torque",
@@ -358,6 +357,8 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
       {"two electrodes that seem to be exchanged", "warning; fails",
        fmt::format("the fit is 150 times as probable with both exchanged; fails if its R² is {:g} or less",
                    l.explains)},
+      {"dynamometer and masses that disagree", "warning",
+       "the interval of their scales' ratio is farther from 1 than `torque_scale_sd`"},
       {"EMG on another clock than the torque", "warning",
        "the literature's muscles err least at one delay outside the usual leads (`clock_offset`), 5 % less than "
        "inside, in three of four trials"},
