@@ -39,13 +39,16 @@ bool speaks_of_timestamp(const std::string& name) {
   return false;
 }
 
-/// Returns true for the name of a clock in seconds or in a stated unit of time.
-bool is_time(const TableColumn& column) {
+/// Returns true for the name of a clock.
+bool names_clock(std::string_view text) {
   static const std::set<std::string> kWords{"time", "t",     "times",  "time_s",      "time_ms", "time stamp",
                                             "zeit", "temps", "tiempo", "time series", "abs time"};
-  const std::string name = lower(column.name);
-  return (kWords.contains(name) || speaks_of_timestamp(name)) && (!column.unit || in_seconds(column));
+  const std::string name = lower(trim(text));
+  return kWords.contains(name) || speaks_of_timestamp(name);
 }
+
+/// Returns true for the name of a clock in seconds or in a stated unit of time.
+bool is_time(const TableColumn& column) { return names_clock(column.name) && (!column.unit || in_seconds(column)); }
 
 /// Returns the unit of time that a column has for a name: "mSec".
 std::optional<ScaledUnit> time_unit_as_name(const TableColumn& column) {
@@ -132,7 +135,10 @@ TableColumn take_label_apart(const std::string& text) {
     if (begin == std::string::npos || end == std::string::npos || end < begin) continue;
     const std::string inside = column.name.substr(begin + 1, end - begin - 1);
     const auto rate = rate_in_cell(inside);
-    const auto unit = rate ? std::nullopt : parse_file_unit(inside);
+    auto unit = rate ? std::nullopt : parse_file_unit(inside);
+    // Of a clock "min" are minutes, of other columns the least value.
+    if (!rate && equal_ignoring_case(inside, "min") && names_clock(column.name.substr(0, begin)))
+      unit = ScaledUnit{Unit::second, 60.0};
     if (!rate && !unit) continue;
     if (rate) column.rate_hz = packet_rate(*rate);
     if (unit) column.unit = unit;

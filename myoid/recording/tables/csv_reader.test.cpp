@@ -54,6 +54,12 @@ TEST(CsvTable, ARowOfAnotherWidthIsRefusedWithItsLine) {
   }
 }
 
+TEST(ParseCsvSeries, MinutesAreAUnitOfAClockAlone) {
+  const CsvSeries s = parse_csv_series("Time [min],F (min)\n0,1\n0.01,2\n", "a.csv");
+  EXPECT_NEAR(s.data.time_s()[1], 0.6, 1e-12);
+  EXPECT_EQ(s.data.values()(1, 0), 2.0);
+}
+
 TEST(ParseCsvSeries, ANumberThatStandsForAMissingValueIsAGapInItsUnit) {
   const CsvSeries s = parse_csv_series("time,q [deg],F [N]\n0,10,5\n1,-9999,4\n2,30,3\n", "a.csv");
   EXPECT_TRUE(std::isnan(s.data.values()(1, 0)));
