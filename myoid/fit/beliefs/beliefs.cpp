@@ -19,7 +19,8 @@ constexpr std::array kAll = {&kMaxForce,       &kFiberLength,        &kWidth,   
                              &kRestingTissue,  &kTorqueNoise,        &kTorqueNoiseTime, &kTrialTorqueNoise,
                              &kStrength,       &kIndependentRows,    &kUnlikeness,      &kMomentArm,
                              &kMomentArmSlope, &kTorqueScale,        &kTendonStretch,   &kCrossTalk,
-                             &kGainDrift,      &kRiseAndFall,        &kVoluntaryEffort, &kUnknownEmgNoise};
+                             &kGainDrift,      &kRiseAndFall,        &kVoluntaryEffort, &kUnknownEmgNoise,
+                             &kFascicleError,  &kFascicleErrorTime,  &kFascicleScale,   &kFascicleOffset};
 
 /// The muscle parameters whose prior lies about their starting value.
 constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvature,

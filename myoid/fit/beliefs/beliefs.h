@@ -236,6 +236,20 @@ inline constexpr Belief kUnknownEmgNoise =
     belief("noise of an EMG envelope, over that of a bandwidth of 150 Hz", 1.0, 1.0, logarithm, "")
         .judged("where no bandwidth is known");
 
+inline constexpr std::string_view kFascicles = "measured fascicles";
+inline constexpr Belief kFascicleError =
+    belief("error of a fascicle's length", 0.002, 0.5, logarithm, "m")
+        .used(kFascicles)
+        .from("judgment; 0.4 mm a degree between probe and fascicles (Bolsterlee 2016)");
+inline constexpr Belief kFascicleErrorTime =
+    belief("time that this error lasts", 1.0, 0.0, value, "s").judged(kFascicles);
+inline constexpr Belief kFascicleScale =
+    belief("scale of a fascicle's lengths, over the fibers'", 1.0, 0.05, value, "")
+        .used(kFascicles)
+        .from("judgment; repeated measurements differ by 4.3 to 14 % (Aeles 2017)");
+inline constexpr Belief kFascicleOffset =
+    belief("offset of a fascicle's lengths", 0.0, 0.002, value, "m").used(kFascicles).from("judgment: five degrees");
+
 }  // namespace beliefs
 
 /// The spreads that a study may state for its person, model and
@@ -253,6 +267,9 @@ struct UnseenSpreads {
   double strength = beliefs::kStrength.sd;       ///< Common to all muscles' F_max; logarithm.
   /// Rows of a trial, per joint, that count as independent; 0: all.
   double independent_rows = beliefs::kIndependentRows.value;
+  double fascicle_error_m = beliefs::kFascicleError.value;
+  double fascicle_scale = beliefs::kFascicleScale.sd;
+  double fascicle_offset_m = beliefs::kFascicleOffset.sd;
   bool operator==(const UnseenSpreads&) const = default;
 };
 

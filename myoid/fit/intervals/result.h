@@ -84,7 +84,7 @@ struct ParameterEstimate : PriorOfEstimate {
 };
 
 /// The prediction of one trial beside the measurement.
-struct TrialFit {
+struct TrialFit : FiberScores {
   std::string trial;
   std::string joint;  ///< Joint of the torque; the forces belong to the trial.
   bool calibration = true;

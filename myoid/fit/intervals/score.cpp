@@ -1,6 +1,8 @@
 #include "myoid/fit/intervals/score.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -33,6 +35,17 @@ Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
           .mean_nm = measured.mean(),
           .range_nm = measured.maxCoeff() - measured.minCoeff(),
           .error_spread_nm2 = (error.array() - error.mean()).square().sum()};
+}
+
+double FiberScore::rms_m() const { return n > 0.0 ? std::sqrt(sse_m2 / n) : std::numeric_limits<double>::quiet_NaN(); }
+
+void FiberScores::add(const FiberScores& more) {
+  for (const FiberScore& of : more.fibers) {
+    auto at = std::ranges::find(fibers, of.muscle, &FiberScore::muscle);
+    if (at == fibers.end()) at = fibers.insert(at, FiberScore{.muscle = of.muscle});
+    at->n += of.n;
+    at->sse_m2 += of.sse_m2;
+  }
 }
 
 std::string r2_text(double r2) {

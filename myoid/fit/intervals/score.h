@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -25,6 +26,23 @@ struct Score {
   [[nodiscard]] double vaf() const;  ///< 1 - var(error)/var(torque)
 };
 [[nodiscard]] Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted);
+
+/// The predicted fiber lengths of one muscle against measured ones, as sums.
+struct FiberScore {
+  std::string muscle;
+  double n = 0.0;       ///< Samples with a measurement.
+  double sse_m2 = 0.0;  ///< Sum of the squared errors.
+
+  [[nodiscard]] double rms_m() const;
+};
+
+/// Scores of all muscles with measured fiber lengths.
+struct FiberScores {
+  std::vector<FiberScore> fibers;
+
+  /// Adds the sums of other trials of the same study.
+  void add(const FiberScores& more);
+};
 
 /// Returns R2 in at most 8 characters: "0.931", "-150", "-1.5e+04".
 [[nodiscard]] std::string r2_text(double r2);

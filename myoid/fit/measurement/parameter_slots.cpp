@@ -52,7 +52,8 @@ double starting_slope_ratio(const MuscleSetup& setup, const EstimatorOptions& op
 bool product_is_held(const MuscleSetup& setup) { return contains(setup.fixed, "eccentric_curvature_product"); }
 
 /// Returns true if a muscle's number is an unknown unless the study says otherwise.
-bool usually_free(int field, const MuscleSetup& setup, const EstimatorOptions& options, double slope_ratio) {
+bool usually_free(
+    int field, const MuscleSetup& setup, const EstimatorOptions& options, double slope_ratio, bool fascicles) {
   if (field == kProduct) return slope_ratio == 0.0;
   if (field == kSlopeRatio)
     return slope_ratio > 0.0 && !product_is_held(setup) && options.eccentric != Eccentric::smooth;
@@ -60,6 +61,9 @@ bool usually_free(int field, const MuscleSetup& setup, const EstimatorOptions& o
   // too far for a column of the unseen quantities, which is linear.
   if (field == kSlack)
     return options.priors && setup.start.tendon_slack_length_m > 0.0 && setup.priors.contains("tendon_slack_length");
+  // Measured fiber lengths tell the stretch of an elastic tendon.
+  if (field == kTendonStrain)
+    return options.priors && fascicles && setup.start.tendon_slack_length_m > 0.0 && setup.extras.tendon_strain > 0.0;
   return field <= kPlateau;
 }
 
@@ -67,12 +71,15 @@ void decide_muscle(ParameterSlot& slot,
                    const MuscleSetup& setup,
                    const EstimatorOptions& options,
                    const MuscleValues& values,
-                   double slope_ratio) {
+                   double slope_ratio,
+                   bool fascicles) {
   const int field = slot.field->field;
   const std::string name(slot.field->name);
   slot.value = field == kSlopeRatio ? slope_ratio : values[static_cast<std::size_t>(field)];
   const bool wanted = covers(options.muscles, setup.name);
-  slot.free = wanted && !contains(setup.fixed, name) && usually_free(field, setup, options, slope_ratio);
+  slot.free = wanted && !contains(setup.fixed, name) && usually_free(field, setup, options, slope_ratio, fascicles);
+  if (slot.free && field == kTendonStrain)
+    slot.prior = Prior{.mean = slot.value, .sd = beliefs::kTendonStrain.sd, .logarithmic = true};
   if (const auto b = setup.bounds.find(name); b != setup.bounds.end()) bound(slot, b->second);
   if (const auto p = setup.priors.find(name); p != setup.priors.end()) slot.prior = p->second;
   slot.prior_is_given = contains(setup.given_priors, name);
@@ -175,7 +182,8 @@ ParameterSlots default_slots(const StudyData& data,
                        : field.bounds;
       slot.bounds = slot.usual;
       if (field.scope == muscle)
-        decide_muscle(slot, data.muscles[k], options, values.muscles[k], result.slope_ratio[k]);
+        decide_muscle(slot, data.muscles[k], options, values.muscles[k], result.slope_ratio[k],
+                      measures_fascicles(data, k));
       if (field.scope == channel) {
         slot.value = values.channels[k][static_cast<std::size_t>(field.field)];
         if (field.field == kDelay) decide_delay(slot, options, names.channels.size());

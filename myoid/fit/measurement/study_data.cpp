@@ -68,6 +68,13 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
   data.rules.insert(data.rules.begin(), rules.begin(), rules.end());
 }
 
+bool measures_fascicles(const StudyData& data, std::size_t muscle) {
+  return std::any_of(data.trials.begin(), data.trials.end(), [&](const TrialData& trial) {
+    return trial.calibration && trial.fascicle_m.size() > 0 &&
+           trial.fascicle_m.col(static_cast<Eigen::Index>(muscle)).array().isFinite().any();
+  });
+}
+
 std::size_t joint_count(const TrialData& trial) { return 1 + trial.more_joints.size(); }
 
 const JointData& joint_at(const TrialData& trial, std::size_t joint) {
@@ -93,7 +100,7 @@ TrialData at_rows(const TrialData& trial, const std::vector<Eigen::Index>& rows)
          {&of.torque_nm, &of.angle_rad, &of.velocity_radps, &of.acceleration_radps2, &of.resting_nm, &of.dynamics_nm})
       pick(*x);
   };
-  for (Eigen::MatrixXd* x : {&t.length_m, &t.velocity_mps, &t.force_n}) pick(*x);
+  for (Eigen::MatrixXd* x : {&t.length_m, &t.velocity_mps, &t.force_n, &t.fascicle_m}) pick(*x);
   pick_joint(t);
   for (JointData& joint : t.more_joints) pick_joint(joint);
   return t;
@@ -188,6 +195,10 @@ void validate(const StudyData& data) {
       throw InvalidInput(
           fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number", trial.name));
     }
+    if (trial.fascicle_m.size() > 0 && !sized(trial.fascicle_m))
+      throw InvalidInput(
+          fmt::format("trial '{}': fascicle lengths must be {} samples x {} muscles or none, found {} x {}", trial.name,
+                      n, m, trial.fascicle_m.rows(), trial.fascicle_m.cols()));
     const auto resting_or_none = [n](const Eigen::VectorXd& x) {
       return x.size() == 0 || (x.size() == n && x.allFinite());
     };

@@ -71,6 +71,7 @@ struct TrialData : JointData {
                                        ///< length (rigid tendon).
   Eigen::MatrixXd velocity_mps;        ///< n x m
   Eigen::MatrixXd force_n;             ///< n x m: from force sharing, for `paper` and `force`; may be empty.
+  Eigen::MatrixXd fascicle_m;          ///< n x m: measured fiber lengths, NaN where there are none; may be empty.
   TimeSeries activation;               ///< Envelope of each EMG channel, 0..1, on its own clock.
   std::vector<JointData> more_joints;  ///< Further joints, which method `torque` fits too.
   /// Stretches that are predicted, but neither fitted nor scored: fatigue, exclusions of the study.
@@ -96,6 +97,9 @@ struct StudyData {
 /// slope (1 + 1/V_sh) / v_max of f_v acts: if v_max is held at a wrong value, V_sh compensates and leaves its own
 /// interval. A free v_max with the literature's spread (ln 0.2) widens V_sh's interval accordingly.
 void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
+
+/// Returns true if a fitted trial has measured fiber lengths of the muscle.
+[[nodiscard]] bool measures_fascicles(const StudyData& data, std::size_t muscle);
 
 /// Returns the number of a trial's joints: its own and `more_joints`.
 [[nodiscard]] std::size_t joint_count(const TrialData& trial);

@@ -229,6 +229,7 @@ Fold score_joint(const std::string& name,
         predict(by.data, t, by.literature, by.literature_delay_s, by.fit.lag).torque_nm - resting;
     const Eigen::VectorXd regressed = regressors(by.data, t, by.fit.delay_s) * from.slopes;
     const Eigen::VectorXd measured = t.torque_nm(rows);
+    fold.add(found);
     time.emplace_back(t.time_s(rows));
     identified.add(measured, torque(rows));
     if (found.torque_sd_nm.size() > 0) deviation.emplace_back(found.torque_sd_nm(rows));

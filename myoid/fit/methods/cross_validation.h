@@ -39,7 +39,7 @@ struct UnseenEffort {
 [[nodiscard]] UnseenEffort unseen_effort(const StudyData& data);
 
 /// The predictions of one part that was left out.
-struct Fold {
+struct Fold : FiberScores {
   std::string trial;  ///< Or the condition, or "block 2 of 5".
   std::string joint;  ///< The joint whose torque is predicted.
   /// Parameters of the fit without this part.

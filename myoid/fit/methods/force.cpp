@@ -36,6 +36,7 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
     t.moment_arm_m = Eigen::MatrixXd::Ones(trial.time_s.size(), 1);
     t.torque_nm = trial.force_n.col(column);
     t.force_n = trial.force_n.col(column);
+    if (trial.fascicle_m.size() > 0) t.fascicle_m = trial.fascicle_m.col(column);
     t.activation = trial.activation;
     t.excluded = trial.excluded;
     one.trials.push_back(std::move(t));

@@ -285,6 +285,8 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
 }
 
 std::optional<IdentificationResult> exact_fit(const StudyData& data, const EstimatorOptions& options) {
+  for (std::size_t k = 0; k < data.muscles.size(); ++k)
+    if (measures_fascicles(data, k)) return std::nullopt;  // a length by ultrasound has noise
   StudyData freed = data;
   hold_nuisances(freed);
   StudyData held = freed;

@@ -1,6 +1,7 @@
 #include "myoid/fit/methods/prediction.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -89,6 +90,23 @@ Eigen::VectorXd variance_by(const Eigen::MatrixXd& jacobian, const Eigen::Matrix
 
 }  // namespace
 
+/// Scores the predicted fiber lengths of a run, all samples of the trial, outside of what the study excludes.
+FiberScores score_fibers(const StudyData& data, const TrialData& trial, const TrialRun& run, const Eigen::VectorXd& m) {
+  FiberScores scores;
+  const Eigen::Index n = trial.time_s.size();
+  for (std::size_t i = 0; i < run.fascicles.size(); ++i) {
+    FiberScore& of = scores.fibers.emplace_back(FiberScore{.muscle = data.muscles[run.fascicles[i]].name});
+    for (const Eigen::Index row : included_rows(trial)) {
+      const double off = m[static_cast<Eigen::Index>(i) * n + row] -
+                         trial.fascicle_m(row, static_cast<Eigen::Index>(run.fascicles[i]));
+      if (!std::isfinite(off)) continue;
+      of.n += 1.0;
+      of.sse_m2 += off * off;
+    }
+  }
+  return scores;
+}
+
 /// The posterior at the fit's values, given the torque of the fitted trials.
 struct TrialPredictions::ByPosterior {
   ByPosterior(const StudyData& data, const EstimatorOptions& of_fit, const IdentificationResult& fit)
@@ -125,6 +143,7 @@ TrialFit TrialPredictions::of(const TrialData& trial) const {
     found.torque_fit_nm = forecast.mean_nm;
     found.torque_sd_nm = (forecast.variance_nm2 + variance_by(forecast.by_z, covariance)).cwiseSqrt();
     found.force_fit_n = forecast.force_n;
+    found.add(score_fibers(data_, trial, run, forecast.fiber_m));
     found.drive = drives(run, by.likelihood.parameters().channels());
     found.force_sd_n.resizeLike(forecast.force_n);
     for (std::size_t k = 0; k < forecast.force_by_z.size(); ++k)

@@ -45,6 +45,12 @@ double score_of(double size) {
 
 }  // namespace
 
+bool is_exact_geometry(const Unknown& of, const StudyData& data) {
+  return of.is(Scope::muscle, kSlack) && std::none_of(of.targets.begin(), of.targets.end(), [&](const auto& target) {
+           return measures_fascicles(data, static_cast<std::size_t>(target.owner));
+         });
+}
+
 Density::Density(const StudyData& data, const EstimatorOptions& options)
     : likelihood_(data, options), unlike_(parameters().free()) {
   const std::vector<Unknown>& free = parameters().free();
@@ -52,6 +58,7 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
   lower_.resize(p);
   range_.resize(p);
   prior_mean_.setZero(p);
+  for (const Unknown& of : free) exact_.push_back(fit::is_exact_geometry(of, data));
   take_precision();
   for (Eigen::Index j = 0; j < p; ++j) {
     const Unknown& of = free[static_cast<std::size_t>(j)];
@@ -61,8 +68,10 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
   }
   const bool known = std::all_of(parameters().channels().begin(), parameters().channels().end(),
                                  [&](const std::string& name) { return options.of(name).bandwidth_hz > 0.0; });
-  noise_mean_.setZero(kNoiseFieldCount + likelihood_.trial_count());
+  const std::optional<Eigen::Index> fascicle = likelihood_.fascicle_place();
+  noise_mean_.setZero(kNoiseFieldCount + likelihood_.trial_count() + (fascicle ? 1 : 0));
   noise_sd_.setConstant(noise_mean_.size(), beliefs::kTrialTorqueNoise.sd);
+  if (fascicle) noise_sd_[*fascicle] = beliefs::kFascicleError.sd;
   noise_mean_[kTorqueSd] = std::log(beliefs::kTorqueNoise.value * std::max(likelihood_.torque_size_nm(), 1e-9));
   noise_sd_[kTorqueSd] = beliefs::kTorqueNoise.sd;
   noise_mean_[kTorqueTime] = std::log(beliefs::kTorqueNoiseTime.value);
@@ -92,7 +101,7 @@ void Density::take_precision() {
   precision_ = prior_precision(free, unlikeness_);
   if (believed_ == Believed::nothing_exact) return;
   for (std::size_t j = 0; j < free.size(); ++j) {
-    if (!free[j].is(Scope::muscle, kSlack)) continue;
+    if (!exact_[j]) continue;
     precision_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j)) = 1.0 / (kExactLength_m * kExactLength_m);
   }
 }
@@ -218,6 +227,9 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
     h(share, share) += rows;
     h(size, share) += rows;
     h(share, size) += rows;
+    if (const auto fascicle = likelihood_.fascicle_place())
+      h(p + *fascicle, p + *fascicle) +=
+          0.5 * likelihood_.row_weight(r) * static_cast<double>(likelihood_.runs()[r].measured_m.size());
   }
   h(p + kModelErrorSize, p + kModelErrorSize) = 1.0 + 3.0 * std::pow(half_normal(x[p + kModelErrorSize]).slope, 2);
   for (Eigen::Index field = 0; field < kNoiseFieldCount; ++field)

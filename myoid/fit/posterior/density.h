@@ -1,11 +1,16 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "myoid/fit/posterior/likelihood.h"
 #include "myoid/fit/posterior/unlikeness.h"
 
 namespace myoid::fit {
+
+/// Returns true for the slack length of a tendon, a part of the geometry. Measured fascicles tell their tendon.
+[[nodiscard]] bool is_exact_geometry(const Unknown& of, const StudyData& data);
 
 /// The posterior's density over unbounded unknowns x. One entry of x belongs to each entry of the solver's z,
 ///
@@ -45,6 +50,8 @@ class Density {
   [[nodiscard]] Eigen::Index size() const { return parameters().size() + noise_mean_.size(); }
   /// lambda at the reference (Unlikeness::expected).
   [[nodiscard]] double unlikeness() const { return unlikeness_; }
+  /// Returns true for an unknown that `believe` takes to be exact.
+  [[nodiscard]] bool is_exact_geometry(Eigen::Index unknown) const { return exact_[static_cast<std::size_t>(unknown)]; }
   /// Inverse covariance of the priors of z (prior_precision).
   [[nodiscard]] const Eigen::MatrixXd& precision() const { return precision_; }
   [[nodiscard]] Eigen::VectorXd z_of(const Eigen::VectorXd& x) const;
@@ -79,6 +86,7 @@ class Density {
 
   void take_precision();
 
+  std::vector<bool> exact_;  ///< Of each unknown: is_exact_geometry.
   double unlikeness_ = 1.0;
   Believed believed_ = Believed::nothing_exact;
   bool integrates_ = false;

@@ -26,7 +26,9 @@ Eigen::VectorXd diagonal_sums(const Eigen::Ref<const Eigen::MatrixXd>& b) {
   return sums;
 }
 
-constexpr double kSameReference = 1e-6;  // in the solver's scale, ln or SI
+constexpr double kLeastFascicleError = 0.1;  // of its standard deviation, behind L
+constexpr double kNotMeasured_m2 = 1e6;      // variance of a row without a fiber length
+constexpr double kSameReference = 1e-6;      // in the solver's scale, ln or SI
 
 /// Returns the starting values of the unknowns; where a search begins at another fit's answer, that answer.
 Eigen::VectorXd start_of(const ParameterMap& map, const EstimatorOptions& options) {
@@ -67,6 +69,11 @@ void add_noise(const TrialRun& run, const EmgNoise& noise, const Variance& varia
   }
 }
 
+/// Returns the first column of the Toeplitz matrix of an error of measured fiber lengths of unit variance, behind L.
+Eigen::VectorXd fascicle_correlation(const TrialRun& run) {
+  return torque_error(run.reduction, run.interval_s, std::log(beliefs::kFascicleErrorTime.value)).correlation;
+}
+
 }  // namespace
 
 Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, Columns columns, const Recorded* session)
@@ -103,6 +110,12 @@ void Likelihood::weigh_rows() {
     row_weight_.push_back(most > 0.0 ? std::min(1.0, most / of_trial(r)) : 1.0);
 }
 
+std::optional<Eigen::Index> Likelihood::fascicle_place() const {
+  const bool measured =
+      std::any_of(runs_.begin(), runs_.end(), [](const TrialRun& run) { return !run.fascicles.empty(); });
+  return measured ? std::optional(kNoiseFieldCount + trials_) : std::nullopt;
+}
+
 double Likelihood::log_share(std::size_t r, const NoiseValues& noise) const {
   const Eigen::Index at = share_place(r);
   return at < noise.size() ? noise[at] : 0.0;
@@ -122,8 +135,12 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
     const Reduction& reduction = runs_[r].reduction;
     columns_[r] = reduction.apply(unseen_.columns[r]);
     by_slope_[r] = reduction.apply(unseen_.by_slope[r]);
-    const Eigen::Index rows = runs_[r].measured_nm.size(), m = reduction.outputs();
+    const Eigen::Index rows = runs_[r].measured_count(), m = reduction.outputs();
     given_[r].setZero(rows, rows);
+    for (Eigen::Index i = 0; i < runs_[r].measured_m.size(); ++i)
+      given_[r].diagonal()[runs_[r].measured_nm.size() + i] =
+          std::isfinite(runs_[r].measured_m[i]) ? std::pow(kLeastFascicleError * options_.unseen.fascicle_error_m, 2)
+                                                : kNotMeasured_m2;
     for (std::size_t j = 0; j < runs_[r].joints.size(); ++j)
       given_[r]
           .diagonal()
@@ -169,6 +186,28 @@ void Likelihood::add_torque_error(const TrialRun& run, double variance, double l
   }
 }
 
+void Likelihood::add_fascicle_error(const TrialRun& run, double variance, Eigen::MatrixXd& a) const {
+  const Eigen::Index m = run.reduction.outputs();
+  for (Eigen::Index row = run.measured_nm.size(); row < run.measured_count(); row += m)
+    a.block(row, row, m, m) += toeplitz(variance * fascicle_correlation(run));
+}
+
+double Likelihood::fascicle_variance(const NoiseValues& noise) const {
+  const std::optional<Eigen::Index> at = fascicle_place();
+  const double sd_m = options_.unseen.fascicle_error_m;
+  return sd_m * sd_m * (at && *at < noise.size() ? std::exp(2.0 * noise[*at]) : 1.0);
+}
+
+Eigen::VectorXd Likelihood::residual(std::size_t r, const TorqueSignals& signals) const {
+  const TrialRun& run = runs_[r];
+  Eigen::VectorXd left(run.measured_count());
+  left << run.measured_nm, run.measured_m;
+  left -= run.reduction.apply(signals.all());
+  for (Eigen::Index i = 0; i < left.size(); ++i)
+    if (std::isnan(left[i])) left[i] = 0.0;
+  return left;
+}
+
 Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
   Eigen::VectorXd w(static_cast<Eigen::Index>(unseen_.quantities.size()));
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
@@ -197,7 +236,7 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
                                                 const TorqueSignals& signals,
                                                 const NoiseValues& noise) const {
   const Eigen::VectorXd scale = envelope_scale(r, noise);
-  const Eigen::Index rows = runs_[r].measured_nm.size(), n = runs_[r].time_s.size();
+  const Eigen::Index rows = runs_[r].measured_count(), n = runs_[r].time_s.size();
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, rows);
   for (Eigen::Index c = 0; c < scale.size(); ++c) {
     const auto d = signals.by_noise.col(c);
@@ -235,14 +274,14 @@ bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& nois
   const TorqueSignals& signals = block.evaluation->signals();
   Eigen::MatrixXd a = envelope_covariance(r, signals, noise);
   add_torque_error(run, torque_variance(r, noise), noise[kTorqueTime], a);
+  add_fascicle_error(run, fascicle_variance(noise), a);
   a += given_[r];
   block.factor.compute(a);
   if (block.factor.info() != Eigen::Success) return false;
   const double weight = row_weight_[r], log_of_a = log_determinant(block.factor);
   if (weight < 1.0) block.factor.compute(a / weight);
-  const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);
-  block.whitening = block.factor.matrixL().solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
-  const Eigen::VectorXd white = block.whitening * residual;
+  block.whitening = block.factor.matrixL().solve(Eigen::MatrixXd::Identity(a.rows(), a.rows()));
+  const Eigen::VectorXd white = block.whitening * residual(r, signals);
   block.solved = block.whitening.transpose() * white;
   block.unseen = turned_columns(r, all) * all.weights.asDiagonal();
   block.unseen_half.noalias() = block.whitening * block.unseen;
@@ -257,7 +296,7 @@ void Likelihood::pull_back(
     std::size_t r, const NoiseValues& noise, const AllRuns& all, const Block& block, Gradient& gradient) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
-  const Eigen::Index rows = run.measured_nm.size(), m = run.reduction.outputs();
+  const Eigen::Index rows = run.measured_count(), m = run.reduction.outputs();
   const Eigen::Index n = run.time_s.size();
   // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1), and with A = C C', U = C^-1 L S W and G
   // of all runs Sigma^-1 is C'^-1 (1 - U G^-1 U') C^-1. A block's A is that of the measurement over
@@ -284,9 +323,18 @@ void Likelihood::pull_back(
   if (share < noise.size()) gradient.by_noise[share] = gradient.by_noise[kTorqueSd];
   gradient.by_noise[kTorqueTime] = variance * sums.dot(torque.by_log_time);
 
+  if (const std::optional<Eigen::Index> place = fascicle_place(); place && *place < noise.size()) {
+    const Eigen::VectorXd correlation = fascicle_correlation(run);
+    for (Eigen::Index row = run.measured_nm.size(); row < rows; row += m)
+      gradient.by_noise[*place] +=
+          2.0 * fascicle_variance(noise) * diagonal_sums(by_a.block(row, row, m, m)).dot(correlation);
+  }
+
   const Eigen::VectorXd scale = envelope_scale(r, noise);
-  TorqueSignals by{run.reduction.transposed(w),
-                   Eigen::MatrixXd::Zero(signals.by_noise.rows(), signals.by_noise.cols())};
+  const Eigen::VectorXd of_rows = run.reduction.transposed(w);
+  TorqueSignals by{of_rows.head(run.row_count()),
+                   Eigen::MatrixXd::Zero(signals.by_noise.rows(), signals.by_noise.cols()),
+                   of_rows.tail(run.all_rows() - run.row_count())};
   for (Eigen::Index c = 0; c < scale.size(); ++c) {
     const auto d = signals.by_noise.col(c);
     auto by_d = by.by_noise.col(c);

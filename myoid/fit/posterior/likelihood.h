@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,6 +27,10 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 ///   S_z = S_ref + dS/dz a tanh((z - z_ref) / a)  (Unseen::slopes),
 ///   A_ij = [i = j] (L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + (0.002 y_i)^2) + L Q_ij L'
 ///          + kappa^2 sum_c sd_c^2 K_c D_ic D_jc K_c'
+///
+/// Behind the torques y holds the measured fiber lengths of a run, and T^ the model's. Their errors have the covariance
+/// lambda^2 sd^2 exp(-|dt| / 1 s) behind L, sd the study's, and a tenth of sd at the least; lambda is unknown. A row
+/// without a measurement has a residual of 0 and an error of 1 km.
 ///
 /// y holds the torques of all joints of a run; A_ij are the rows of its joints i and j. Torque errors of two joints are
 /// independent. sigma_i is sigma_T times the joint's root mean square torque over that of all joints. A torque errs by
@@ -71,6 +76,8 @@ class Likelihood {
   [[nodiscard]] Eigen::Index share_place(std::size_t run) const { return kNoiseFieldCount + trial_of_run_[run]; }
   /// Returns ln b of the run's trial, or 0 where `noise` has no entry for this trial.
   [[nodiscard]] double log_share(std::size_t run, const NoiseValues& noise) const;
+  /// Index of ln lambda in NoiseValues; none where no fiber length was measured.
+  [[nodiscard]] std::optional<Eigen::Index> fascicle_place() const;
   /// Returns the weight of a row of the run, min(1, a/n).
   [[nodiscard]] double row_weight(std::size_t run) const { return row_weight_[run]; }
   /// Root mean square of the measured torques of all joints.
@@ -108,6 +115,7 @@ class Likelihood {
 
   /// The forecast torque of a run, fitted or not, and its uncertain parts.
   struct RunForecast {
+    Eigen::VectorXd fiber_m;                  ///< n K: the same of TrialRun::fascicles.
     Eigen::VectorXd mean_nm;                  ///< n J: T^ and the unseen quantities' expectation.
     Eigen::MatrixXd by_z;                     ///< d mean / d z, n J x unknowns.
     Eigen::VectorXd variance_nm2;             ///< n J: of measurements about the mean, at fixed z.
@@ -161,6 +169,10 @@ class Likelihood {
   [[nodiscard]] Eigen::MatrixXd envelope_covariance(std::size_t run,
                                                     const TorqueSignals& signals,
                                                     const NoiseValues& noise) const;
+  /// Returns the measured rows of the run without the model's; 0 where a fiber length is absent.
+  [[nodiscard]] Eigen::VectorXd residual(std::size_t run, const TorqueSignals& signals) const;
+  /// Returns lambda^2 sd^2 of measured fiber lengths.
+  [[nodiscard]] double fascicle_variance(const NoiseValues& noise) const;
   /// Returns L S of the run at the unknowns of `all`.
   [[nodiscard]] Eigen::MatrixXd turned_columns(std::size_t run, const AllRuns& all) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
@@ -182,6 +194,8 @@ class Likelihood {
                                                 Eigen::Index other_row) const;
   /// Adds the torque error's covariance at this sigma_T^2 to the rows of each joint.
   void add_torque_error(const TrialRun& run, double variance, double log_time, Eigen::MatrixXd& a) const;
+  /// Adds the covariance of errors of this variance to the rows of each fascicle.
+  void add_fascicle_error(const TrialRun& run, double variance, Eigen::MatrixXd& a) const;
 
   const StudyData& data_;
   EstimatorOptions options_;
@@ -189,7 +203,7 @@ class Likelihood {
   ParameterMap map_;
   std::vector<TrialRun> runs_;
   std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.
-  /// Per run: L Q L' and the least error of the torque, which no unknown changes.
+  /// Per run: L Q L' and the least errors of torque and fiber lengths, which no unknown changes.
   std::vector<Eigen::MatrixXd> given_;
   std::vector<Eigen::Index> trial_of_run_;  ///< Per run: its trial among the fitted trials.
   Eigen::Index trials_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/Cholesky>
@@ -11,6 +12,8 @@
 
 #include "tests/support/crowded_study.h"
 #include "tests/support/elbow_study.h"
+#include "tests/support/exact_sensors.h"
+#include "tests/support/fascicle_study.h"
 #include "tests/support/leg_study.h"
 
 namespace myoid::fit {
@@ -353,6 +356,77 @@ TEST(Likelihood, TheGradientOfTwoJointsIsThatOfDifferences) {
     options.state(muscle.name).rest = 0.02;
   }
   expect_gradient(Likelihood(study.data, options), kNoiseOfLeg);
+}
+
+TEST(Likelihood, TheGradientWithFasciclesIsThatOfDifferences) {
+  StudyData data =
+      test::fascicle_study(
+          elbow_study({.trials = 2, .seconds = 7.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true}), 5)
+          .data;
+  data.trials[1].fascicle_m.topRows(300).setConstant(std::numeric_limits<double>::quiet_NaN());
+  const Likelihood likelihood(data, {});
+  ASSERT_EQ(likelihood.fascicle_place(), kNoise.size());
+  NoiseValues noise(kNoise.size() + 1);
+  noise << kNoise, 0.3;
+  expect_gradient(likelihood, noise);
+}
+
+/// Rigid tendons and an exact geometry leave nothing that torque and fibers share: the lengths add their own density.
+TEST(Likelihood, FasciclesOfRigidTendonsAddTheirOwnDensity) {
+  ElbowStudy study =
+      elbow_study({.trials = 1, .seconds = 7.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true});
+  EstimatorOptions options;
+  options.unseen = test::no_unseen_errors();
+  const StudyData bare = study.data;
+  TrialData& trial = study.data.trials[0];
+  const Eigen::Index n = trial.time_s.size(), absent = n / 3;
+  trial.fascicle_m.setConstant(n, 4, std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index i = absent; i < n; ++i)
+    trial.fascicle_m(i, 1) = 0.1 + 0.004 * std::sin(3.0 * trial.time_s[i]) + 0.01 * trial.time_s[i];
+  const Likelihood with(study.data, options), without(bare, options);
+  const Eigen::VectorXd z = with.parameters().start();
+  NoiseValues noise(kNoiseFieldCount + 2);
+  noise << kNoise.head(kNoiseFieldCount + 1), 0.3;
+  const TrialRun& run = with.runs()[0];
+  const Eigen::MatrixXd l = written_low_pass(run, 1.5);
+  // The run's samples of the measurement, by time.
+  const Eigen::Index samples = run.time_s.size();
+  Eigen::VectorXd measured(samples), fiber(samples);
+  const double slack = study.data.muscles[1].start.tendon_slack_length_m;
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    const Eigen::Index row = std::lround((run.time_s[i] - trial.time_s[0]) * 100.0);
+    measured[i] = trial.fascicle_m(row, 1);
+    fiber[i] = trial.length_m(row, 1) - slack;
+  }
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index j = 0; j < l.rows(); ++j) {
+    Eigen::Index first = 0;
+    while (l(j, first) == 0.0) ++first;
+    if (std::isfinite(measured[first])) rows.push_back(j);
+  }
+  ASSERT_GT(rows.size(), 10U);
+  ASSERT_LT(static_cast<Eigen::Index>(rows.size()), l.rows());
+  Eigen::MatrixXd error(samples, samples);
+  for (Eigen::Index i = 0; i < samples; ++i)
+    for (Eigen::Index j = 0; j < samples; ++j)
+      error(i, j) = std::pow(0.002 * std::exp(0.3), 2) * std::exp(-std::abs(run.time_s[i] - run.time_s[j]));
+  const Eigen::MatrixXd low = l(rows, Eigen::all);
+  Eigen::MatrixXd own = low * error * low.transpose();
+  own.diagonal().array() += std::pow(0.0002, 2);
+  const double weight = written_row_weight(with.runs(), run, options.unseen.independent_rows);
+  const auto log_determinant = [](const Eigen::MatrixXd& m) { return m.ldlt().vectorD().array().log().sum(); };
+  const Eigen::VectorXd seen = low * fiber, one = low * Eigen::VectorXd::Ones(samples);
+  const Eigen::MatrixXd weighted = own / weight;
+  const Eigen::MatrixXd sigma =
+      weighted + 0.05 * 0.05 * seen * seen.transpose() + 0.002 * 0.002 * one * one.transpose();
+  const Eigen::VectorXd residual = low * measured.unaryExpr([](double v) { return std::isnan(v) ? 0.0 : v; }) - seen;
+  const double of_lengths = -0.5 * residual.dot(sigma.ldlt().solve(residual)) - 0.5 * log_determinant(sigma) +
+                            0.5 * log_determinant(weighted) - 0.5 * weight * log_determinant(own);
+  // Of the rows without a length the determinant of their error alone is left.
+  const auto absent_rows = static_cast<double>(l.rows()) - static_cast<double>(rows.size());
+  const double of_absent = -0.5 * weight * absent_rows * std::log(1e6);
+  const double added = with.value(z, noise) - without.value(z, noise.head(kNoiseFieldCount + 1));
+  EXPECT_NEAR(added, of_lengths + of_absent, 1e-6 * std::abs(of_lengths));
 }
 
 TEST(Likelihood, TheUnseenQuantitiesAreThoseOfTheReference) {

@@ -96,9 +96,11 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
       unseen_quantities(data_, options_, map_, recorded_, {run}, point.values, at).columns.front() *
       weights(noise).asDiagonal();
   RunForecast of;
-  of.mean_nm = here.signals().torque_nm + columns * unseen.mean;
-  of.by_z = here.jacobian(map_.size()) + columns * unseen.by_z;
-  of.variance_nm2 = (columns * unseen.covariance).cwiseProduct(columns).rowwise().sum();
+  const Eigen::VectorXd mean = here.signals().all() + columns * unseen.mean;
+  of.mean_nm = mean.head(run.row_count());
+  of.fiber_m = mean.tail(run.all_rows() - run.row_count());
+  of.by_z = (here.jacobian(map_.size()) + columns * unseen.by_z).topRows(run.row_count());
+  of.variance_nm2 = (columns * unseen.covariance).cwiseProduct(columns).rowwise().sum().head(run.row_count());
   for (std::size_t j = 0; j < run.joints.size(); ++j)
     of.variance_nm2.segment(run.first_row(j), run.time_s.size()).array() +=
         std::exp(2.0 * noise[kTorqueSd]) * std::pow(recorded_.size_share(run.joints[j]), 2);
@@ -165,7 +167,7 @@ Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z, const Nois
     const Eigen::Index m = runs_[r].measured_nm.size();
     result.measured_nm.segment(first, m) = runs_[r].measured_nm;
     result.predicted_nm.segment(first, m) =
-        runs_[r].reduction.apply(evaluation.signals().torque_nm) + turned_columns(r, all) * expected;
+        runs_[r].reduction.apply(evaluation.signals().torque_nm) + (turned_columns(r, all) * expected).head(m);
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto j = static_cast<std::size_t>(i / runs_[r].reduction.outputs());
       result.rows_of_joint[static_cast<std::size_t>(runs_[r].joints[j])].push_back(first + i);

@@ -72,7 +72,7 @@ Eigen::VectorXd with_tendons_of_the_model(const Density& density, const Eigen::V
   Eigen::VectorXd z = density.z_of(x);
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const Unknown& tendon = map.free()[static_cast<std::size_t>(j)];
-    if (!tendon.is(Scope::muscle, kSlack)) continue;
+    if (!density.is_exact_geometry(j)) continue;
     const Eigen::Index fiber = map.find(Scope::muscle, kFiberLength, tendon.targets.front().owner);
     if (fiber >= 0 && map.free()[static_cast<std::size_t>(fiber)].targets.size() == 1)
       z[fiber] += z[j] - tendon.prior.mean;
@@ -242,7 +242,7 @@ ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::si
   const Eigen::VectorXd draws = of.sample.z.row(at).unaryExpr([&](double z) { return value(z); }).transpose();
   Reading given{value(of.given.value[at]), value(of.given.low[at]), value(of.given.high[at])};
   // Exact in the second reading, which then determines nothing of it.
-  if (p.is(Scope::muscle, kSlack)) given.low = given.high = given.value;
+  if (is_exact_geometry(p, of.data)) given.low = given.high = given.value;
   judge_row(of, unknown, draws, target.owner, {value(p.bounds.lower), value(p.bounds.upper)}, given, e);
   return e;
 }

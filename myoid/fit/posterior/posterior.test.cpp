@@ -1,9 +1,13 @@
 #include "myoid/fit/posterior/posterior.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +16,7 @@
 
 #include "tests/support/elbow_study.h"
 #include "tests/support/exact_sensors.h"
+#include "tests/support/fascicle_study.h"
 #include "tests/support/leg_study.h"
 
 namespace myoid::fit {
@@ -111,6 +116,51 @@ TEST(IdentifyByPosterior, IntervalsHoldThePersonAndThoseOfExactGeometryAreInside
     }
   }
   EXPECT_GE(held, all - 1);
+}
+
+/// FASCICLE_PERSONS asks for more persons.
+TEST(IdentifyByPosterior, FasciclesTellTheTendonAndTheFiber) {
+  const char* asked = std::getenv("FASCICLE_PERSONS");
+  const int persons = asked != nullptr ? std::atoi(asked) : 3;
+  EstimatorOptions options;
+  options.unseen = test::no_unseen_errors();
+  std::map<std::string, double> held, all, widths_with, widths_without;
+  for (int person = 0; person < persons; ++person) {
+    const auto seed = static_cast<std::uint64_t>(person) + 41;
+    const test::FascicleStudy study = test::fascicle_study(elbow_study({.trials = 3,
+                                                                        .seconds = 8.0,
+                                                                        .emg_cv = 0.1,
+                                                                        .torque_sd_nm = 0.5,
+                                                                        .truth_from_prior = true,
+                                                                        .with_priors = true,
+                                                                        .seed = seed}),
+                                                           seed + 1000);
+    const IdentificationResult with = identify_by_posterior(study.data, options);
+    const IdentificationResult without = identify_by_posterior(test::without_fascicles(study.data), options);
+    ASSERT_EQ(with.termination, math::Termination::converged) << with.message;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::string& muscle = study.data.muscles[k].name;
+      for (const auto& [name, field] : {std::pair{std::string("tendon_slack_length"), kSlack},
+                                        {std::string("optimal_fiber_length"), kFiberLength},
+                                        {std::string("tendon_strain"), kTendonStrain}}) {
+        const ParameterEstimate& e = find(with, muscle, name);
+        const double truth = study.truth[k][field];
+        held[name] += truth >= *e.ci_low && truth <= *e.ci_high;
+        all[name] += 1.0;
+        widths_with[name] += *e.ci_high - *e.ci_low;
+        if (field == kTendonStrain) continue;  // held without fascicles
+        const ParameterEstimate& before = find(without, muscle, name);
+        widths_without[name] += *before.ci_high - *before.ci_low;
+      }
+    }
+  }
+  for (const auto& [name, count] : all) {
+    std::cout << name << " held " << held[name] << " of " << count << ", mean width " << widths_with[name] / count
+              << ", without fascicles " << widths_without[name] / count << "\n";
+    EXPECT_GE(held[name], 0.8 * count) << name;
+  }
+  EXPECT_LT(widths_with["tendon_slack_length"], 0.5 * widths_without["tendon_slack_length"]);
+  EXPECT_LT(widths_with["optimal_fiber_length"], 0.8 * widths_without["optimal_fiber_length"]);
 }
 
 TEST(IdentifyByPosterior, TwoJointsAndTheMuscleThatCrossesBothComeBack) {

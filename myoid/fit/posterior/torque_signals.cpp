@@ -9,6 +9,7 @@ namespace myoid::fit {
 namespace {
 
 constexpr double kActivationStep = 0.02;
+const std::vector<ParameterMap::Chain> kNoChains;
 
 /// Returns the activations at an envelope larger by kActivationStep: a (1 + h p).
 std::vector<Activation> more_active(std::vector<Activation> activation, double exponent) {
@@ -30,12 +31,25 @@ bool is_proportional(const MuscleValues& values, const std::vector<ParameterMap:
          });
 }
 
+/// Adds the gradient by `variables` of a function whose gradient is `by`, n, given their derivatives, v x n.
+void add_gradient(const std::vector<Eigen::Index>& variables,
+                  const Eigen::MatrixXd& by_variable,
+                  const Eigen::VectorXd& by,
+                  Eigen::VectorXd& by_z) {
+  const Eigen::VectorXd gradient = by_variable * by;
+  for (std::size_t v = 0; v < variables.size(); ++v) by_z[variables[v]] += gradient[static_cast<Eigen::Index>(v)];
+}
 void add_gradient(const MuscleRows& rows, const Eigen::VectorXd& by_force, Eigen::VectorXd& by_z) {
-  const Eigen::VectorXd by = rows.by_variable * by_force;
-  for (std::size_t v = 0; v < rows.variables.size(); ++v) by_z[rows.variables[v]] += by[static_cast<Eigen::Index>(v)];
+  add_gradient(rows.variables, rows.by_variable, by_force, by_z);
 }
 
 }  // namespace
+
+Eigen::VectorXd TorqueSignals::all() const {
+  Eigen::VectorXd rows(torque_nm.size() + fiber_m.size());
+  rows << torque_nm, fiber_m;
+  return rows;
+}
 
 RunEvaluation::RunEvaluation(
     const TrialRun& run, const ParameterMap& map, EmgLag lag, const ModelValues& values, const ChainsByOwner* chains)
@@ -72,17 +86,23 @@ RunEvaluation::RunEvaluation(
     muscles_[k].channel = map.channel_of_muscle(k);
     add_muscle(k, values.muscles[k]);
   }
+  signals_.fiber_m.resize(run.all_rows() - run.row_count());
+  for (std::size_t i = 0; i < run.fascicles.size(); ++i) {
+    const std::size_t k = run.fascicles[i];
+    fibers_.push_back(fiber_rows(muscles_[k].at, run.length_m.col(static_cast<Eigen::Index>(k)), values.muscles[k],
+                                 chains == nullptr ? kNoChains : chains->of_muscle[k]));
+    signals_.fiber_m.segment(static_cast<Eigen::Index>(i) * n, n) = fibers_.back().length_m;
+  }
 }
 
 void RunEvaluation::add_muscle(std::size_t k, const MuscleValues& values) {
-  static const std::vector<ParameterMap::Chain> kNone;
   Muscle& m = muscles_[k];
   const auto column = static_cast<Eigen::Index>(k);
   const auto c = static_cast<std::size_t>(m.channel);
-  const auto& of_muscle = chains_ == nullptr ? kNone : chains_->of_muscle[k];
+  const auto& of_muscle = chains_ == nullptr ? kNoChains : chains_->of_muscle[k];
   const auto evaluate = [&](const std::vector<Activation>& a, MuscleRows& rows) {
     evaluate_muscle(a, run_.length_m.col(column), run_.velocity_mps.col(column), values, of_muscle,
-                    chains_ == nullptr ? kNone : chains_->of_channel[c], rows);
+                    chains_ == nullptr ? kNoChains : chains_->of_channel[c], rows);
   };
   evaluate(activations_[c], m.at);
   m.proportional = is_proportional(values, of_muscle);
@@ -123,6 +143,10 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
       }
     }
   }
+  for (std::size_t i = 0; i < fibers_.size() && by.fiber_m.size() > 0; ++i) {
+    add_gradient(muscles_[run_.fascicles[i]].at.variables, fibers_[i].by_variable,
+                 by.fiber_m.segment(static_cast<Eigen::Index>(i) * n, n), by_z);
+  }
   // The noise moves with the envelope when the delay changes.
   for (std::size_t c = 0; c < chains_->of_channel.size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
@@ -141,7 +165,7 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
 
 Eigen::MatrixXd RunEvaluation::jacobian(Eigen::Index unknowns) const {
   const Eigen::Index n = run_.time_s.size();
-  Eigen::MatrixXd by_z = Eigen::MatrixXd::Zero(run_.row_count(), unknowns);
+  Eigen::MatrixXd by_z = Eigen::MatrixXd::Zero(run_.all_rows(), unknowns);
   for (std::size_t j = 0; j < run_.joints.size(); ++j) {
     const auto motion = run_.motion.middleRows(run_.first_row(j), n);
     auto of_joint = by_z.middleRows(run_.first_row(j), n);
@@ -154,6 +178,12 @@ Eigen::MatrixXd RunEvaluation::jacobian(Eigen::Index unknowns) const {
             run_.arm_m.col(k).segment(run_.first_row(j), n).array() *
             rows.by_variable.row(static_cast<Eigen::Index>(v)).transpose().array();
     }
+  }
+  for (std::size_t i = 0; i < fibers_.size(); ++i) {
+    const std::vector<Eigen::Index>& variables = muscles_[run_.fascicles[i]].at.variables;
+    for (std::size_t v = 0; v < variables.size(); ++v)
+      by_z.col(variables[v]).segment(run_.first_row_of_fascicle(i), n) +=
+          fibers_[i].by_variable.row(static_cast<Eigen::Index>(v)).transpose();
   }
   return by_z;
 }

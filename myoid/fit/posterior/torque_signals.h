@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "myoid/fit/measurement/fiber.h"
 #include "myoid/fit/measurement/muscle_rows.h"
 #include "myoid/fit/measurement/parameters.h"
 #include "myoid/fit/posterior/trial_run.h"
@@ -17,6 +18,12 @@ struct TorqueSignals {
   /// n J x channels: D_c, the change of torque by one standard deviation of rectified EMG, relative to the envelope
   /// (TrialRun::envelope_sd): d T^ / d ln u_c n(u) / (sd u), with n(u) / (sd u) from noise_over_envelope.
   Eigen::MatrixXd by_noise;
+  /// n K: lengths of the fibers of TrialRun::fascicles. The noise of an envelope, which moves a fiber by some 0.5 mm,
+  /// is left out.
+  Eigen::VectorXd fiber_m{};
+
+  /// Returns all n (J + K) rows.
+  [[nodiscard]] Eigen::VectorXd all() const;
 };
 
 /// The torque signals of one run at one point, and all quantities that carry a gradient from the
@@ -36,9 +43,11 @@ class RunEvaluation {
   [[nodiscard]] const std::vector<std::vector<Activation>>& activations() const { return activations_; }
   /// Returns a muscle's tension, with its derivatives by length and rate.
   [[nodiscard]] const MuscleRows& muscle(std::size_t k) const { return muscles_[k].at; }
+  /// Returns the fibers of the k-th of TrialRun::fascicles.
+  [[nodiscard]] const FiberRows& fibers(std::size_t k) const { return fibers_[k]; }
   /// Adds to `by_z` the gradient of a function whose gradient by the signals is `by`.
   void pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) const;
-  /// Returns d T^ / d z, n J x unknowns.
+  /// Returns d T^ / d z and behind it that of the fibers' lengths, n (J + K) x unknowns.
   [[nodiscard]] Eigen::MatrixXd jacobian(Eigen::Index unknowns) const;
 
  private:
@@ -57,6 +66,7 @@ class RunEvaluation {
   const ChainsByOwner* chains_ = nullptr;
   std::vector<std::vector<Activation>> activations_;
   std::vector<Muscle> muscles_;
+  std::vector<FiberRows> fibers_;  ///< Of TrialRun::fascicles.
   TorqueSignals signals_;
   Eigen::VectorXd exponent_;              ///< Of each channel.
   Eigen::MatrixXd gain_, gain_by_delay_;  ///< n x channels: n(u) / (sd u), and its slope.

@@ -78,6 +78,19 @@ void add_joint(const TrialData& view,
     run.motion.middleRows(first, n) = motion(rows, Eigen::all);
 }
 
+/// Adds the fascicles that these rows of the trial measure.
+void add_fascicles(const TrialData& trial, const std::vector<Eigen::Index>& rows, TrialRun& run) {
+  if (trial.fascicle_m.size() == 0) return;
+  const Eigen::Index m = run.reduction.outputs();
+  for (Eigen::Index k = 0; k < trial.fascicle_m.cols(); ++k) {
+    const Eigen::VectorXd length_m = run.reduction.apply(Eigen::VectorXd(trial.fascicle_m(rows, k)));
+    if (!length_m.array().isFinite().any()) continue;
+    run.fascicles.push_back(static_cast<std::size_t>(k));
+    run.measured_m.conservativeResize(run.measured_m.size() + m);
+    run.measured_m.tail(m) = length_m;
+  }
+}
+
 TrialRun make_run(const TrialData& trial,
                   const std::vector<Eigen::Index>& rows,
                   const Drives& drives,
@@ -99,6 +112,7 @@ TrialRun make_run(const TrialData& trial,
   run.dynamics_nm.resize(trial.dynamics_nm.size() > 0 ? run.row_count() : 0);
   run.measured_nm.resize(static_cast<Eigen::Index>(joints) * run.reduction.outputs());
   for (std::size_t j = 0; j < joints; ++j) add_joint(of_joint(trial, j), rows, j, map, run);
+  add_fascicles(trial, rows, run);
   add_envelopes(drives, options, map, run);
   return run;
 }

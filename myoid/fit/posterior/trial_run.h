@@ -36,11 +36,19 @@ struct TrialRun {
   Eigen::VectorXd rest{};               ///< Per EMG channel: resting over full level, 0 where not known.
   double interval_s = 0.0;
   Reduction reduction;
-  Eigen::VectorXd measured_nm{};  ///< m J: L y.
+  Eigen::VectorXd measured_nm{};         ///< m J: L y.
+  std::vector<std::size_t> fascicles{};  ///< K muscles with measured fiber lengths.
+  Eigen::VectorXd measured_m{};          ///< m K: these lengths behind L; NaN where L meets an absent one.
 
   /// Returns the first row of the run's j-th joint among the n J rows.
   [[nodiscard]] Eigen::Index first_row(std::size_t j) const { return static_cast<Eigen::Index>(j) * time_s.size(); }
   [[nodiscard]] Eigen::Index row_count() const { return first_row(joints.size()); }
+  /// Returns the first row of the k-th of `fascicles`, whose rows stand behind those of all joints.
+  [[nodiscard]] Eigen::Index first_row_of_fascicle(std::size_t k) const { return first_row(joints.size() + k); }
+  /// Number of rows of joints and fascicles, n (J + K).
+  [[nodiscard]] Eigen::Index all_rows() const { return first_row_of_fascicle(fascicles.size()); }
+  /// Number of measured values behind L, m (J + K).
+  [[nodiscard]] Eigen::Index measured_count() const { return measured_nm.size() + measured_m.size(); }
 };
 
 /// Returns all runs of the calibration trials, of their `fitted_stretches` at EstimatorOptions::max_rate_hz, in order.

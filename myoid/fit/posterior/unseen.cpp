@@ -46,6 +46,7 @@ struct Collector {
     const std::size_t channels = map_.channels().size();
     for (std::size_t c = 0; c < channels; ++c) {
       add(map_.channels()[c] + ".gain_drift", Source::electrodes, spreads_.gain_drift, kGainDriftSize);
+      quantities_.back().of_session = true;
       for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque * of.run.session; });
       if (spreads_.effort > 0.0) {
         add(map_.channels()[c] + ".effort", Source::electrodes, spreads_.effort);
@@ -71,9 +72,29 @@ struct Collector {
       for (std::size_t r = 0; r < runs_.size(); ++r) {
         const Eigen::VectorXd& all = at_[r].signals().torque_nm;
         const Eigen::VectorXd& own = runs_[r].dynamics_nm.size() > 0 ? runs_[r].dynamics_nm : all;
-        columns_[r].back() = (device ? all - own : own).array();
+        columns_[r].back().head(runs_[r].row_count()) = (device ? all - own : own).array();
       }
     }
+  }
+
+  /// Adds the errors of the k-th muscle's measured fiber lengths.
+  void add_fascicles(std::size_t k) {
+    if (!measures_fascicles(data_, k)) return;
+    const auto for_fascicle = [&](const auto& lengths) {
+      for (std::size_t r = 0; r < runs_.size(); ++r) {
+        for (std::size_t i = 0; i < runs_[r].fascicles.size(); ++i) {
+          if (runs_[r].fascicles[i] == k)
+            columns_[r].back().segment(runs_[r].first_row_of_fascicle(i), runs_[r].time_s.size()) =
+                lengths(at_[r].fibers(i));
+        }
+      }
+    };
+    add(data_.muscles[k].name + ".fascicle_scale", Source::geometry, spreads_.fascicle_scale);
+    quantities_.back().of_session = true;
+    for_fascicle([](const FiberRows& fibers) { return fibers.length_m.array().eval(); });
+    add(data_.muscles[k].name + ".fascicle_offset", Source::geometry, spreads_.fascicle_offset_m);
+    quantities_.back().of_session = true;
+    for_fascicle([](const FiberRows& fibers) { return Eigen::ArrayXd::Ones(fibers.length_m.size()).eval(); });
   }
 
   void add_model_errors(std::size_t k) {
@@ -160,18 +181,18 @@ struct Collector {
       }
     }
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      unseen.columns.push_back(joined(columns_[r], runs_[r].row_count()));
-      unseen.by_slope.push_back(joined(by_slope_[r], runs_[r].row_count()));
+      unseen.columns.push_back(joined(columns_[r], runs_[r].all_rows()));
+      unseen.by_slope.push_back(joined(by_slope_[r], runs_[r].all_rows()));
     }
     return unseen;
   }
 
   /// A muscle at one joint of one run: its torque r F, the derivatives of this torque by length and
-  /// rate, and length and rate themselves.
+  /// rate, and length and rate themselves. Of a measured fascicle r is the change of its length by the force.
   struct OfMuscle {
     const TrialRun& run;
     const RunEvaluation& at;
-    int joint;
+    int joint;  ///< -1: a fascicle.
     Eigen::ArrayXd torque, by_length, by_velocity, length, velocity;
   };
 
@@ -250,7 +271,7 @@ struct Collector {
 
   void add(std::string name, Source source, double weight, std::optional<NoiseField> size = {}) {
     quantities_.push_back({std::move(name), source, weight, size, {}});
-    for (std::size_t r = 0; r < runs_.size(); ++r) columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
+    for (std::size_t r = 0; r < runs_.size(); ++r) columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].all_rows()));
   }
 
   void multiplies_strength_of(std::size_t k) { quantities_.back().strength_of.push_back(k); }
@@ -264,18 +285,27 @@ struct Collector {
     const auto column = static_cast<Eigen::Index>(k);
     const Eigen::Index n = run.time_s.size();
     const MuscleRows& rows = at.muscle(k);
-    Eigen::ArrayXd part = Eigen::ArrayXd::Zero(run.row_count());
-    for (std::size_t j = 0; j < run.joints.size(); ++j) {
-      const auto arm = run.arm_m.col(column).segment(run.first_row(j), n).array();
+    Eigen::ArrayXd part = Eigen::ArrayXd::Zero(run.all_rows());
+    const auto add_rows = [&](Eigen::Index first, int joint, const auto& arm, const Eigen::ArrayXd& by_length) {
       const OfMuscle of{run,
                         at,
-                        run.joints[j],
+                        joint,
                         arm * rows.force_n.array(),
-                        arm * rows.by_length.array(),
+                        by_length,
                         arm * rows.by_velocity.array(),
                         run.length_m.col(column).array(),
                         run.velocity_mps.col(column).array()};
-      fill(of, Eigen::Ref<Eigen::ArrayXd>(part.segment(run.first_row(j), n)));
+      fill(of, Eigen::Ref<Eigen::ArrayXd>(part.segment(first, n)));
+    };
+    for (std::size_t j = 0; j < run.joints.size(); ++j) {
+      const auto arm = run.arm_m.col(column).segment(run.first_row(j), n).array();
+      add_rows(run.first_row(j), run.joints[j], arm, arm * rows.by_length.array());
+    }
+    for (std::size_t i = 0; i < run.fascicles.size(); ++i) {
+      const auto by_force = at.fibers(i).by_force.array();
+      if (run.fascicles[i] == k)
+        add_rows(run.first_row_of_fascicle(i), -1, by_force,
+                 at.fibers(i).by_length.array() + by_force * rows.by_length.array());
     }
     return part;
   }
@@ -290,8 +320,7 @@ struct Collector {
     const Unknown& of = map_.free()[static_cast<std::size_t>(unknown)];
     slopes_.push_back(
         {quantity, unknown, of.prior.sd > 0.0 ? of.prior.sd : kSlopeReach * (of.bounds.upper - of.bounds.lower)});
-    for (std::size_t r = 0; r < runs_.size(); ++r)
-      by_slope_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
+    for (std::size_t r = 0; r < runs_.size(); ++r) by_slope_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].all_rows()));
     return slopes_.size() - 1;
   }
 
@@ -373,6 +402,7 @@ Unseen unseen_quantities(const StudyData& data,
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     collector.add_geometry(k);
     collector.add_model_errors(k);
+    collector.add_fascicles(k);
   }
   collector.center_lags();
   collector.add_electrodes();

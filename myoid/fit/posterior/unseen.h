@@ -23,10 +23,10 @@ struct UnseenQuantity {
   double weight = 0.0;                   ///< Standard deviation, over the size if there is one.
   std::optional<NoiseField> size = {};   ///< The hyperparameter whose exponential multiplies the weight.
   std::vector<std::size_t> strength_of;  ///< Muscles whose F_max it multiplies.
+  bool of_session = false;               ///< Another in every session: a drift of gains, the place of a probe.
 
-  /// Returns true if the quantity is of geometry or sensors and the same in every session of a person. A drift of the
-  /// gains is the session's own.
-  [[nodiscard]] bool lasts() const { return source != Source::model && size != kGainDriftSize; }
+  /// Returns true if the quantity is of geometry or sensors and the same in every session of a person.
+  [[nodiscard]] bool lasts() const { return source != Source::model && !of_session; }
 };
 
 /// All unseen quantities of a study, and their columns S in each run, at reference values of the unknowns. A relative
@@ -46,6 +46,9 @@ struct UnseenQuantity {
 /// |da/dt|. Model error: the muscle's torque times polynomials of length, ln(activation), speed and lag, and a constant
 /// and a slope of the joint, as ErrorShapes; where the muscles share a free delay, a lag is its difference from their
 /// mean.
+///
+/// Measured fiber lengths have rows of their own: what changes a muscle's force stretches its tendon, and what changes
+/// its length moves its fibers. Fascicles: a scale and an offset of the lengths of each measured muscle.
 struct Unseen {
   /// A column of S whose shape changes with one of a muscle's unknowns.
   struct Slope {
@@ -54,7 +57,7 @@ struct Unseen {
     double reach = 1.0;
   };
   std::vector<UnseenQuantity> quantities;
-  std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n J x quantities [N m].
+  std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n (J + K) x quantities [N m], of fascicles [m].
   /// The entries of dS/dz that are not 0: with c the part of a column that one muscle makes, all
   /// runs one after the other,
   ///
@@ -62,7 +65,7 @@ struct Unseen {
   ///
   /// so that the column turns and keeps its size.
   std::vector<Slope> slopes;
-  std::vector<Eigen::MatrixXd> by_slope;  ///< Per run: n J x slopes.
+  std::vector<Eigen::MatrixXd> by_slope;  ///< Per run: n (J + K) x slopes.
   /// d ln S / dz of each column, quantities x unknowns. A column that multiplies the strength of
   /// muscles grows with the root of their F_max (geometric mean), because F + x sqrt(F F_ref) is an
   /// error that is symmetric in ln F, as a factor of F is. F + x F_ref is symmetric in newtons.

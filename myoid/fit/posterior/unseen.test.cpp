@@ -11,6 +11,7 @@
 #include "myoid/fit/posterior/torque_signals.h"
 
 #include "tests/support/elbow_study.h"
+#include "tests/support/fascicle_study.h"
 #include "tests/support/leg_study.h"
 
 namespace myoid::fit {
@@ -31,7 +32,7 @@ struct AtStart {
       TrialRun changed = run;
       ModelValues values = map.values(map.start());
       change(changed, values);
-      const Eigen::VectorXd one = RunEvaluation(changed, map, EmgLag::delay, values, nullptr).signals().torque_nm;
+      const Eigen::VectorXd one = RunEvaluation(changed, map, EmgLag::delay, values, nullptr).signals().all();
       all.conservativeResize(all.size() + one.size());
       all.tail(one.size()) = one;
     }
@@ -105,6 +106,38 @@ TEST(Unseen, AMomentArmMovesLengthAndRateToo) {
                         run.length_m.col(k).array() += by * (run.length_m.col(k).array() - middle);
                       });
   }
+}
+
+TEST(Unseen, AFasciclesLengthFollowsTheMusclesLengthAndTheStretchOfItsTendon) {
+  test::ElbowStudy elbow = test::elbow_study({.trials = 1, .seconds = 6.0, .with_priors = true});
+  // Rigid tendons, whose strain is unseen, and elastic ones.
+  StudyData rigid = elbow.data;
+  rigid.trials[0].fascicle_m = rigid.trials[0].length_m;
+  const AtStart elastic(test::fascicle_study(std::move(elbow), 2).data), stiff(std::move(rigid));
+  const auto expect_fibers = [](const AtStart& at, const std::string& name, double step, const auto& change) {
+    const Eigen::Index rows = at.runs[0].all_rows() - at.runs[0].row_count();
+    const auto moved = [&](double by) {
+      return at.torque([&](TrialRun& run, ModelValues& values) { change(by, run, values); }).tail(rows).eval();
+    };
+    const Eigen::VectorXd difference = (moved(step) - moved(-step)) / (2.0 * step);
+    ASSERT_GT(difference.norm(), 0.0);
+    EXPECT_LT((at.column(name).tail(rows) - difference).norm(), 0.02 * difference.norm()) << name;
+  };
+  for (const AtStart* at : {&elastic, &stiff}) {
+    const auto [low, high] = recorded_range(*at, 0);
+    expect_fibers(*at, "BIC.moment_arm", 1e-4, [&](double by, TrialRun& run, ModelValues&) {
+      run.velocity_mps.col(0) *= 1.0 + by;
+      run.length_m.col(0).array() += by * (run.length_m.col(0).array() - 0.5 * (low + high));
+    });
+    EXPECT_EQ(at->column("torque_scale").tail(at->runs[0].all_rows() - at->runs[0].row_count()).norm(), 0.0);
+  }
+  // The strain of a rigid tendon has one side only.
+  const auto strained = [](double by) {
+    return [by](TrialRun&, ModelValues& values) { values.muscles[0][kTendonStrain] = by; };
+  };
+  const Eigen::Index rows = stiff.runs[0].all_rows() - stiff.runs[0].row_count();
+  const Eigen::VectorXd shorter = (stiff.torque(strained(1e-5)) - stiff.torque(strained(0.0))).tail(rows) / 1e-5;
+  EXPECT_LT((stiff.column("BIC.tendon_strain").tail(rows) - shorter).norm(), 0.02 * shorter.norm());
 }
 
 TEST(Unseen, AMomentArmAtOneOfTwoJointsMovesTheLengthThatThisJointMakes) {
