@@ -136,6 +136,13 @@ ordered_json published_json(const fit::PublishedSearch& search) {
           {"plain_elsewhere", search.plain_elsewhere}};
 }
 
+/// Root mean square error of each muscle's predicted fiber length against the measured one.
+ordered_json fibers_json(const fit::FiberScores& scores) {
+  ordered_json of = ordered_json::object();
+  for (const fit::FiberScore& fiber : scores.fibers) of[fiber.muscle] = number_or_null(fiber.rms_m());
+  return of;
+}
+
 /// Converts a trial. `number` writes numbers that method paper does not have.
 template <typename Number>
 ordered_json trial_json(const fit::TrialFit& t, Number number) {
@@ -148,7 +155,8 @@ ordered_json trial_json(const fit::TrialFit& t, Number number) {
           {"band_rmse_nm", number(t.band.rmse_nm())},
           {"band_nrmse_range", number(t.band.nrmse_range())},
           {"band_r2", number(t.band.r2())},
-          {"covered", number(fit::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}};
+          {"covered", number(fit::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))},
+          {"fiber_length_rms_m", fibers_json(t)}};
 }
 
 ordered_json method_json(const IdentificationResult& method) {
@@ -212,6 +220,7 @@ ordered_json fold_json(const fit::Fold& f) {
           {"constant", score_json(f.constant)},
           {"lag_s", number_or_null(f.lag_s)},
           {"covered", number_or_null(f.covered)},
+          {"fiber_length_rms_m", fibers_json(f)},
           {"unseen_effort", {{"channel", f.unseen.channel}, {"ratio", number_or_null(f.unseen.ratio)}}},
           {"converged", f.converged},
           {"emg_lag", fit::name(f.lag)},

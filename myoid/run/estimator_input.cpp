@@ -13,6 +13,7 @@
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/resting_joints.h"
 #include "myoid/study/intake/emg_cover.h"
+#include "myoid/study/intake/read_fascicles.h"
 #include "myoid/study/study_model.h"
 
 namespace myoid::run {
@@ -79,6 +80,7 @@ fit::TrialData trial_data(const study::Study& study,
     add_motion(trial.motion.joints, resting, name, data.more_joints.back());
   }
   data.activation = activation;
+  if (trial.input.fascicles) data.fascicle_m = study::fascicles_at(*trial.input.fascicles, study.muscles, data.time_s);
   data.excluded = trial.spec.exclude.windows;
   if (trial.forces.uncarried)
     data.excluded.insert(data.excluded.end(), trial.forces.uncarried->stretches.begin(),

@@ -213,6 +213,7 @@ struct TrialSpec {
   std::optional<std::filesystem::path> external_loads;   ///< OpenSim's ExternalLoads (.xml).
   std::optional<std::filesystem::path> load_cell;        ///< File of the load cell's channels.
   std::optional<PlateSpec> plates;
+  std::optional<std::filesystem::path> fascicles;  ///< Measured fiber lengths [m], in columns named as the muscles.
   GivenSpec given;
   Use use = Use::calibration;
   std::optional<double> held_mass_kg;  ///< Empty: the study does not say what was held.

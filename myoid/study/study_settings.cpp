@@ -338,6 +338,12 @@ void visit(fit::UnseenSpreads& beliefs, SettingVisitor& v) {
   v.number("independent_rows", beliefs.independent_rows,
            {.says = "Rows (of 0.22 s) of a trial, per joint, that count as independent evidence; 0: all.",
             .limits = zero_or_more("")});
+  v.number("fascicle_sd_m", beliefs.fascicle_error_m,
+           {.says = "Error of a measured fascicle length.", .limits = above_zero("m")});
+  v.number("fascicle_scale_sd", beliefs.fascicle_scale,
+           {.says = "Relative error of the scale of these lengths.", .limits = kSpread});
+  v.number("fascicle_offset_sd_m", beliefs.fascicle_offset_m,
+           {.says = "Error that all of them share.", .limits = zero_or_more("m")});
 }
 
 void visit(NormSpec& norm, SettingVisitor& v) {

@@ -98,6 +98,8 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
                   "markers)."});
   v.must(!trial.external_loads || !trial.load_cell, "load_cell",
          "give either 'external_loads' or 'load_cell', not both");
+  v.path("fascicles", trial.fascicles,
+         {.says = "Measured lengths of [fascicles](#fascicles), in columns named as the muscles: `TA [mm]`."});
   v.table("force_plates", trial.plates, {.says = "Force plates under the person."});
   if (trial.plates && trial.plates->file.empty()) {
     v.must(trial.markers.has_value(), "force_plates",

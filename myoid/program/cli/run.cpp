@@ -68,6 +68,21 @@ void print_method(const fit::IdentificationResult& method, std::size_t muscle_co
   }
 }
 
+/// Prints the errors of predicted fiber lengths, a line for each muscle of each trial.
+template <typename Scored>
+void print_fibers(std::string_view of, const std::vector<Scored>& scored) {
+  bool first = true;
+  for (const Scored& one : scored) {
+    for (const fit::FiberScore& fiber : one.fibers) {
+      if (first)
+        say("\nfiber lengths predicted for {} beside the measured fascicles\n{:<20} {:<20} {:>10}\n", of, "trial",
+            "muscle", "RMS [mm]");
+      first = false;
+      say("{:<20} {:<20} {:>10.2f}\n", in_column(one.trial), in_column(fiber.muscle), 1e3 * fiber.rms_m());
+    }
+  }
+}
+
 void print_predictions(const run::StudyResult& result) {
   if (!result.folds.empty()) {
     const std::string_view left_out = choice_name(result.source.study.identify.folds);
@@ -83,9 +98,11 @@ void print_predictions(const run::StudyResult& result) {
           in_column(several ? fmt::format("{}, {}", f.trial, f.joint) : f.trial), f.identified.rmse_nm(),
           fit::r2_text(f.identified.r2()), f.literature.rmse_nm(), fit::r2_text(f.literature.r2()));
     }
+    print_fibers("what was left out", result.folds);
   }
   for (const fit::IdentificationResult& method : result.fit.methods) {
     if (method.method != fit::Method::torque) continue;
+    print_fibers("all trials by the whole fit", method.trials);
     bool first = true;
     for (const fit::TrialFit& t : method.trials) {
       if (t.calibration) continue;

@@ -17,6 +17,7 @@
 #include "myoid/recording/tables/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/study/intake/emg_cover.h"
+#include "myoid/study/intake/read_fascicles.h"
 #include "myoid/study/intake/read_given.h"
 #include "myoid/study/intake/trial_emg.h"
 #include "myoid/study/intake/trial_loads.h"
@@ -35,11 +36,12 @@ void require_files(const TrialSpec& trial) {
         path, 0,
         fmt::format("there is no such file for {}; a path in a study counts from the folder of the study", key));
   };
-  for (const auto& [key, path] : {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
-                                  Key{"external_torque", &trial.external_torque},
-                                  Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell},
-                                  Key{"lengths", &trial.given.lengths}, Key{"velocities", &trial.given.velocities},
-                                  Key{"torques", &trial.given.torques}, Key{"forces", &trial.given.forces}}) {
+  for (const auto& [key, path] :
+       {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
+        Key{"external_torque", &trial.external_torque}, Key{"external_loads", &trial.external_loads},
+        Key{"load_cell", &trial.load_cell}, Key{"fascicles", &trial.fascicles}, Key{"lengths", &trial.given.lengths},
+        Key{"velocities", &trial.given.velocities}, Key{"torques", &trial.given.torques},
+        Key{"forces", &trial.given.forces}}) {
     if (*path) require(key, **path);
   }
   for (const std::filesystem::path& path : trial.given.moment_arms) require("moment_arms", path);
@@ -218,6 +220,10 @@ TrialInput read_trial_input(const Study& study, const TrialSpec& trial, const bo
   if (trial.external_torque) {
     remember(*trial.external_torque);
     input.external_torque = read_external_torque(study, trial, input.remarks);
+  }
+  if (trial.fascicles) {
+    remember(*trial.fascicles);
+    input.fascicles = read_fascicles(study, *trial.fascicles, input.remarks);
   }
   input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.remarks);
   return input;

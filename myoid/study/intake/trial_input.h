@@ -36,6 +36,7 @@ struct TrialInput {
   std::optional<TimeSeries> emg;              ///< [V], or dimensionless for envelopes and activations.
   std::optional<TimeSeries> external_torque;  ///< [N m]
   std::optional<body::ExternalLoads> loads;
+  std::optional<TimeSeries> fascicles;  ///< [m], in columns named as the study's muscles; NaN: absent.
   GivenStages given;
   std::optional<TrialClock> emg_clock;  ///< Steps that put the EMG on the clock of the motion.
   std::vector<Remark> remarks;          ///< Notes and warnings about the files.
