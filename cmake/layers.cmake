@@ -73,7 +73,7 @@ set(MYOID_LAYER_opensim core math files tables recording signals model osim kine
 set(MYOID_LAYER_projects core math files tables osim opensim)
 set(MYOID_LAYER_virtual_person core math files muscle model osim arm beliefs
     measurement study)
-set(MYOID_LAYER_twin core math files muscle tables recording c3d arm intervals study run
+set(MYOID_LAYER_twin core math files muscle tables recording c3d arm beliefs intervals study run
     virtual_person)
 set(MYOID_LAYER_cohort core math files tables recording intervals page study design results)
 set(MYOID_LAYER_realtime core files measurement kinematics model muscle study)

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/fit/beliefs/beliefs.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/math/butterworth.h"
 #include "myoid/ground/math/random.h"
@@ -370,6 +372,34 @@ TimeSeries record_torque(const Protocol& protocol,
     quantize(shown, kTorqueSteps_pernm);
   }
   return {time_s, {{"elbow_flexion_moment", Unit::newton_meter}}, shown};
+}
+
+TimeSeries record_fascicles(const Protocol& protocol,
+                            const Performance& performance,
+                            double duration_s,
+                            std::uint64_t seed) {
+  using namespace fit::beliefs;
+  constexpr double kRate_hz = 30.0, kStepsPerMeter = 1e5;
+  const auto n = static_cast<Eigen::Index>(duration_s * kRate_hz) + 1;
+  const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kRate_hz);
+  const double kept = std::exp(-1.0 / (kRate_hz * kFascicleErrorTime.value)), added = std::sqrt(1.0 - kept * kept);
+  Eigen::MatrixXd length_m(n, std::ssize(kArmMuscles));
+  std::vector<Channel> channels;
+  for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {
+    const std::string name(kArmMuscles[m]);
+    math::Random probe = stream(seed, "ultrasound", name),
+                 frames = stream(seed, "fascicle", performance.script().protocol.name + "." + name);
+    const double scale = 1.0 + kFascicleScale.sd * probe.normal(), offset_m = kFascicleOffset.sd * probe.normal();
+    double error = frames.normal();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      length_m(i, static_cast<Eigen::Index>(m)) =
+          scale * performance.at(time_s[i]).fiber_length_m[m] + offset_m + protocol.truth.sensors.fascicle_sd_m * error;
+      error = kept * error + added * frames.normal();
+    }
+    channels.push_back({name, Unit::meter});
+  }
+  quantize(length_m, kStepsPerMeter);
+  return {time_s, std::move(channels), std::move(length_m)};
 }
 
 }  // namespace myoid::lab

@@ -69,6 +69,14 @@ struct EmgClock {
                                        const Eigen::VectorXd& external_torque_nm,
                                        std::uint64_t seed);
 
+/// Returns the fascicle lengths [m] that ultrasound shows of each muscle at 30 Hz, in all of these times: those of the
+/// fibers times a scale plus an offset, drawn from the beliefs of the identification and the same in all trials, and an
+/// error (SensorTruth) that lasts a second.
+[[nodiscard]] TimeSeries record_fascicles(const Protocol& protocol,
+                                          const Performance& performance,
+                                          double duration_s,
+                                          std::uint64_t seed);
+
 /// Returns true if the brachialis has a (wire) electrode in this protocol.
 [[nodiscard]] bool has_brachialis_electrode(const Protocol& protocol);
 

@@ -280,6 +280,32 @@ TEST(Instruments, EmgOfADifferentClockIsTheSameSignalShifted) {
   }
 }
 
+/// A line, the same in two trials of one person, leads from the fibers to what is shown.
+TEST(Ultrasound, ShowsFibersByAScaleAndAnOffsetOfThePerson) {
+  Protocol protocol = quiet(kSwing);
+  const VirtualArm arm(protocol.subject);
+  const HillSet muscles = arm.literature;
+  Tiredness<4> fresh;
+  const auto line_of = [&](std::uint64_t of_trial) {
+    const ExactPerformance performance(arm, muscles, make_script(protocol.trials[0], protocol.control, of_trial), 0.05,
+                                       fresh);
+    const TimeSeries shown = record_fascicles(protocol, performance, 5.0, 7);
+    EXPECT_EQ(shown.sample_count(), 151);
+    Eigen::MatrixXd fiber(shown.sample_count(), 2);
+    fiber.col(1).setOnes();
+    for (Eigen::Index i = 0; i < fiber.rows(); ++i)
+      fiber(i, 0) = performance.at(shown.time_s()[i]).fiber_length_m[kBiceps];
+    const Eigen::Vector2d line = fiber.colPivHouseholderQr().solve(shown.column("BIC"));
+    EXPECT_LT((fiber * line - shown.column("BIC")).cwiseAbs().maxCoeff(), 1.2e-5);  // steps of 0.01 mm
+    return line;
+  };
+  const Eigen::Vector2d one = line_of(1), other = line_of(2);
+  EXPECT_LT((one - other).cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_NEAR(one[0], 1.0, 0.2);
+  EXPECT_NE(one[0], 1.0);
+  EXPECT_LT(std::abs(one[1]), 0.01);
+}
+
 Eigen::VectorXd channel(const VirtualRecording& r, std::size_t muscle) {
   return r.trials[0].emg.column(std::string(kArmMuscles[muscle])) / r.truth.instruments.greatest_v[muscle];
 }

@@ -26,6 +26,7 @@ void add_trial(const VirtualTrial& trial, const std::string& stem, RecordingForm
   if (trial.external_torque) {
     text += fmt::format("external_torque = {}\n", toml_text(stem + "_torque.sto"));
   }
+  if (trial.fascicles) text += fmt::format("fascicles = {}\n", toml_text(stem + "_fascicles.sto"));
   text += fmt::format("held_mass_kg = {}\n", toml_number(p.held_mass_kg));
 }
 
@@ -106,8 +107,11 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
     text += fmt::format("\n[[muscle]]\nname = \"{}\"\nosim = [{}]\n", muscle, modelled_as(i, protocol.seven_heads));
     text += i == kBrachialis && !own_brachialis ? "emg = { same_as = \"BIC\" }         # deep: no electrode on it\n"
                                                 : fmt::format("emg = \"{}\"\n", muscle);
-    text += speed_is_known ? "fixed = [\"max_shortening_speed\", \"tendon_slack_length\"]    # both are known\n"
-                           : "fixed = [\"tendon_slack_length\"]    # the tendon is the model's\n";
+    if (recording.protocol.truth.sensors.fascicle_sd_m > 0.0)
+      text += speed_is_known ? "fixed = [\"max_shortening_speed\"]    # known; fascicles tell the tendon\n" : "";
+    else
+      text += speed_is_known ? "fixed = [\"max_shortening_speed\", \"tendon_slack_length\"]    # both are known\n"
+                             : "fixed = [\"tendon_slack_length\"]    # the tendon is the model's\n";
   }
   const NameIds stems = file_stems(recording);
   for (const VirtualTrial& trial : recording.trials) add_trial(trial, stems.of(trial.protocol.name), format, text);

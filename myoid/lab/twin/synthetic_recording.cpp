@@ -237,12 +237,15 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
                        .markers = record_markers(protocol, arm, truth.instruments, *performance, seed),
                        .emg = record_emg(protocol, truth.instruments, *performance, emg_time, seed),
                        .external_torque = std::nullopt,
+                       .fascicles = std::nullopt,
                        .truth = true_trial(*performance, truth, protocol.motion.rate_hz)};
     trial.truth.emg_clock = emg_time;
     if (performance->script().against_dynamometer()) {
       trial.external_torque = record_torque(protocol, *performance, trial.truth.torque.time_s(),
                                             trial.truth.torque.column("elbow_flexion_external_moment"), seed);
     }
+    if (protocol.truth.sensors.fascicle_sd_m > 0.0)
+      trial.fascicles = record_fascicles(protocol, *performance, performance->script().duration_s, seed);
     recording.trials.push_back(std::move(trial));
   }
   return recording;

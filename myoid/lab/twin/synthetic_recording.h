@@ -58,6 +58,7 @@ struct VirtualTrial {
   /// elbow_flexion_moment [N m]: torque of the dynamometer on the forearm about the axis of
   /// flexion, positive in flexion. The muscles' torque is M(q) qddot + ... - gravity - this torque.
   std::optional<TimeSeries> external_torque;
+  std::optional<TimeSeries> fascicles;  ///< Lengths by ultrasound [m], per muscle.
   TrueTrial truth;
 };
 

@@ -55,6 +55,7 @@ std::vector<study::TrialInput> inputs_of(lab::VirtualRecording& recording) {
     input.markers = std::move(trial.markers);
     input.emg = std::move(trial.emg);
     input.external_torque = std::move(trial.external_torque);
+    input.fascicles = std::move(trial.fascicles);
   }
   return inputs;
 }

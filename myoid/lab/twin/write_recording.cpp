@@ -48,6 +48,7 @@ void write_trial(const VirtualRecording& recording,
     write(stem + "_emg.sto", trial.emg, recording.protocol.level == Level::noise_free ? "activation" : "raw EMG [V]");
   }
   if (trial.external_torque) write(stem + "_torque.sto", *trial.external_torque, "torque");
+  if (trial.fascicles) write(stem + "_fascicles.sto", *trial.fascicles, "fascicle lengths [m]");
 
   const fs::path truth = "truth";
   write(truth / (stem + "_motion.sto"), trial.truth.motion, "true motion");

@@ -75,8 +75,8 @@ void check_level(const TomlTable& table, Level level, const TruthSpec& truth) {
     table.fail(
         "curves",
         "found \"paper\", which persons of levels L0 and L1 have; a person at L2 has \"de_groote\" or \"millard\"");
-  for (const char* key :
-       {"emg_exponent", "crosstalk", "emg_gain_drift", "emg_noise", "torque_scale", "torque_offset_nm"}) {
+  for (const char* key : {"emg_exponent", "crosstalk", "emg_gain_drift", "emg_noise", "torque_scale",
+                          "torque_offset_nm", "fascicle_sd_m"}) {
     if (level == Level::noise_free && table.has(key))
       table.fail(key, "the sensors of level L0 are exact; remove the key, or choose level L1");
   }

@@ -64,6 +64,7 @@ struct SensorTruth {
   bool emg_noise = false;              ///< The EMG is independent of the muscles.
   double torque_scale = 1.0;           ///< The dynamometer shows scale * torque + offset.
   double torque_offset_nm = 0.0;
+  double fascicle_sd_m = 0.0;  ///< Error of fascicle lengths by ultrasound; 0: none were measured.
 };
 
 /// The origin of the true muscle parameters.

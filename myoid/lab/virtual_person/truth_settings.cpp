@@ -68,6 +68,9 @@ void visit_sensors(SensorTruth& sensors, study::SettingVisitor& v) {
            {.says = "The dynamometer shows scale · torque + offset.", .limits = study::within(0.5, 2.0)});
   v.number("torque_offset_nm", sensors.torque_offset_nm,
            {.says = "The offset of the above.", .limits = study::within(-20.0, 20.0, "N m")});
+  v.number("fascicle_sd_m", sensors.fascicle_sd_m,
+           {.says = "Above 0: lengths of fascicles with this error, and with a scale and an offset of each muscle.",
+            .limits = study::within(0.0, 0.02, "m")});
 }
 
 std::string text_of(const study::SettingValue& value) {
