@@ -22,5 +22,10 @@ for path in sorted(recordings.glob("*_dynamometer.csv")):
         writer.writerow(["time [s]", "ankle_angle_r [deg]", "ankle_angle_r_moment [Nm]"])
         for time, torque, crank in list(csv.reader(source))[1:]:
             writer.writerow([time, f"{-(float(crank) + 15):.2f}", f"{-float(torque):.2f}"])
+for path in sorted(recordings.glob("*_fascicle.csv")):
+    with path.open() as source, (out / path.name).open("w", newline="") as target:
+        writer = csv.writer(target)
+        writer.writerow(["time [s]", "tib_ant_r [mm]"])
+        writer.writerows(row[:2] for row in list(csv.reader(source))[1:])
 for path in recordings.glob("*_emg.csv"):
     shutil.copy(path, out)

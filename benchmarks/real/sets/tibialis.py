@@ -59,6 +59,14 @@ def recorded(bench):
     return given
 
 
+def fiber_length(task, parameters):
+    with parameters.open() as file:
+        row = next(row for row in csv.DictReader(file) if row["parameter"] == "optimal_fiber_length")
+    low, high = (1000 * float(row[key]) for key in ("ci_low", "ci_high"))
+    return Row(task, "mm", 1000 * float(row["estimate"]), {"ultrasound": 75.0}, asked="holds 75",
+               note=f"{low:.0f} to {high:.0f}")
+
+
 def rows(bench):
     given = recorded(bench)
     others = given.baselines("ankle_angle_r", ["tib_ant_r"])
@@ -70,12 +78,7 @@ def rows(bench):
             for name, fold, other in zip(STRETCHES + FIXED, found, others):
                 yield Row(f"stretch {name}" if name in STRETCHES else f"fixed {name}", "R2", fold["identified"]["r2"], other,
                           asked=">= 0.96" if name in STRETCHES else ">= 0.9")
-        with (bench.folder / "out/parameters.csv").open() as file:
-            row = next(row for row in csv.DictReader(file) if row["parameter"] == "optimal_fiber_length")
-        low, high = (1000 * float(row[key]) for key in ("ci_low", "ci_high"))
-        yield Row(f"fiber length, tendon of {1000 * slack:.0f} mm", "mm", 1000 * float(row["estimate"]),
-                  {"ultrasound": 75.0}, asked="holds 75",
-                  note=f"{low:.0f} to {high:.0f}")
+        yield fiber_length(f"fiber length, tendon of {1000 * slack:.0f} mm", bench.folder / "out/parameters.csv")
     yield from by_run(bench)
 
 
@@ -89,3 +92,18 @@ def by_run(bench):
     for name, fold in folds(bench.folder / "run").items():
         yield Row(f"{name} by run", "R2", fold["identified"]["r2"], {LITERATURE: fold["literature_with_gain"]["r2"]},
                   asked=">= 0.96")
+    yield from by_fascicles(bench, place, text)
+
+
+def by_fascicles(bench, place, text):
+    """The same study with the fascicles of all active trials; each stretch is left out in turn, with its fascicles."""
+    for name in [path.name.removesuffix("_fascicle.csv") for path in place.glob("*_fascicle.csv")]:
+        torque = f'external_torque = "{name}_dynamometer.csv"\n'
+        text = text.replace(torque, torque + f'fascicles = "{name}_fascicle.csv"\n')
+    (place / "fascicles.toml").write_text(text)
+    bench.run("run", place / "fascicles.toml", "--out", bench.folder / "fascicles")
+    for name, fold in folds(bench.folder / "fascicles").items():
+        yield Row(f"{name} with fascicles", "R2", fold["identified"]["r2"],
+                  {LITERATURE: fold["literature_with_gain"]["r2"]}, asked=">= 0.96")
+        yield Row(f"{name}, fibers left out", "mm", 1000 * fold["fiber_length_rms_m"]["tib_ant_r"], asked="<= 3")
+    yield fiber_length("fiber length, fascicles measured", bench.folder / "fascicles/parameters.csv")
