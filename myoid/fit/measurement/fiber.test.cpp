@@ -21,6 +21,8 @@ MuscleValues example() {
   p[kSlack] = 0.22;
   p[kPennation] = 0.2;
   p[kTendonStrain] = 0.05;
+  p[kPassiveStrain] = 0.6;
+  p[kPassiveShape] = 4.0;
   p[kShare] = 1.0;
   return p;
 }

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "myoid/fit/posterior/reduction.h"
+#include "myoid/fit/measurement/reduction.h"
 
 namespace myoid::fit {
 

@@ -7,9 +7,9 @@
 
 #include "myoid/fit/measurement/envelope.h"
 #include "myoid/fit/measurement/parameters.h"
+#include "myoid/fit/measurement/reduction.h"
 #include "myoid/fit/measurement/study_data.h"
 #include "myoid/fit/posterior/noise_model.h"
-#include "myoid/fit/posterior/reduction.h"
 #include "myoid/ground/core/time_series.h"
 
 namespace myoid::fit {

@@ -1,4 +1,4 @@
-#include "myoid/fit/posterior/reduction.h"
+#include "myoid/fit/measurement/reduction.h"
 
 #include <algorithm>
 #include <cmath>
