@@ -26,7 +26,7 @@ def test_run_gives_the_numbers_of_the_program_to_the_last_bit(recording, result,
         assert (result.path / file).read_bytes() == (tmp_path / "cli" / file).read_bytes()
     head, first = (line.split(",") for line in (tmp_path / "cli/parameters.csv").read_text().splitlines()[:2])
     assert result.parameters.columns == head and result.parameters[0]["estimate"] == float(first[6])
-    verdicts = {"identified", "weak", "prior_dominated", "not_identifiable", "non_physical"}
+    verdicts = {"identified", "reproducible", "weak", "prior_dominated", "not_identifiable", "non_physical"}
     assert set(result.parameters["verdict"]) <= verdicts and len(result.parameters.where(method="torque")) > 20
     assert len(myoid.Table.read(recording.parent / "truth.csv")) > 10
 
@@ -149,7 +149,7 @@ def test_review(tmp_path):
     data = Path(os.environ.get("MYOID_DATA", "none")) / "ceinms-rt-leg"
     if not data.is_dir():
         pytest.skip("needs the shared recordings")
-    found = myoid.review(data, out=tmp_path / "opinion", start=20, end=26)
+    found = myoid.review(data, out=tmp_path / "opinion")
     assert [row["calibration"] for row in found.torques] == [True, False]
     # Their subject was fitted to the calibration's trial.
     assert all(row["left_out_r2"] > row["their_r2"] for row in found.torques if not row["calibration"])
