@@ -100,7 +100,7 @@ class Posterior:
         self.log_prior = -0.5 * (self.log_lambda / 0.3) ** 2 - np.log(high - low).sum(axis=1)
         self.judged_sd = sd[self.judged]
         names, common_sd = get("name"), get("common_sd")
-        self.sharp = common_sd > 0.0
+        self.sharp = (common_sd > 0.0) & (names == "emg_gain")
         common = (names[:, None] == names) * np.outer(common_sd, common_sd)
         self.precision = np.linalg.inv(common + np.diag(sd * sd))
         self.logarithmic = get("logarithmic")

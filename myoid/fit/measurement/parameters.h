@@ -35,9 +35,9 @@ struct Unknown {
   [[nodiscard]] double to_value(double z) const;
   [[nodiscard]] bool is(Scope scope, int number) const { return field->scope == scope && field->field == number; }
   [[nodiscard]] bool acts_on(int target_owner) const;
-  /// Numbers that share an uncertainty have sharp ends at their bounds.
+  /// Gains that share an uncertainty have sharp ends at their bounds, which are near: 5 and 100 % of the maximum.
   [[nodiscard]] math::BoundShape bound_shape() const {
-    return common_sd > 0.0 ? math::BoundShape::sharp : math::BoundShape::gradual;
+    return common_sd > 0.0 && is(Scope::channel, kGain) ? math::BoundShape::sharp : math::BoundShape::gradual;
   }
   /// Returns 1 / sd² of the number's own prior; 0 without a prior.
   [[nodiscard]] double prior_precision() const;
