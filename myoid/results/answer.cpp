@@ -16,6 +16,7 @@
 #include "myoid/results/parameter_tables.h"
 #include "myoid/results/voluntary_report.h"
 #include "myoid/run/design/design_study.h"
+#include "myoid/run/effort_prior.h"
 #include "myoid/run/prediction_gates.h"
 
 namespace myoid::results {
@@ -204,7 +205,8 @@ std::vector<TrialRemark> trial_remarks(const run::StudyResult& result) {
   const std::vector<run::OutlyingFold> outlying = run::outlying_folds(result.folds);
   const auto in_words = [](const Remark& remark) {
     if (remark.code == RemarkCode::general || remark.code == RemarkCode::reading) return std::string("see its remarks");
-    return page::spelled(name(remark.code)) + (remark.about.empty() ? "" : ": " + remark.about);
+    return page::spelled(name(remark.code)) + (remark.about.empty() ? "" : ": " + remark.about) +
+           (remark.likewise.empty() ? "" : fmt::format(", likewise in {} more", remark.likewise.size()));
   };
   std::vector<TrialRemark> found;
   for (const run::TrialResult& trial : result.trials) {
@@ -262,6 +264,9 @@ std::string next_sentence(const run::StudyResult& result, const std::vector<page
   if (std::ranges::find(gates, page::GateStatus::fail, &page::Gate::status) != gates.end())
     return "First mend what failed, and run again: recordings that are planned on such numbers may tell nothing.";
   if (!result.next || result.next->plan.empty()) return "";
+  const std::string first = run::from_maximal_effort(result.source.study.emg)
+                                ? ""
+                                : "Record a maximal contraction of every muscle: no movement stands in for it. ";
   const run::DesignStudyResult& next = *result.next;
   const std::size_t named = std::min<std::size_t>(2, next.plan.size());
   std::vector<std::string> movements;
@@ -271,12 +276,13 @@ std::string next_sentence(const run::StudyResult& result, const std::vector<page
   const int more = run::identified_count(then) - run::identified_count(next.beforehand);
   constexpr double kLittle = 0.95;  // of the interval
   if (more <= 0 && narrower > kLittle * now)
-    return fmt::format(
-        "Further movements tell little more: {} would leave the median 95 % interval at +-{:.0f} % (now +-{:.0f} %).",
-        fmt::join(movements, "; "), narrower, now);
-  return fmt::format("Record next: {}. The median 95 % interval would be +-{:.0f} % (now +-{:.0f} %){}.",
-                     fmt::join(movements, "; "), narrower, now,
-                     more > 0 ? fmt::format(", and {} more would be identified", more) : "");
+    return first + fmt::format(
+                       "Further movements tell little more: {} would leave the median 95 % interval at +-{:.0f} % (now "
+                       "+-{:.0f} %).",
+                       fmt::join(movements, "; "), narrower, now);
+  return first + fmt::format("Record next: {}. The median 95 % interval would be +-{:.0f} % (now +-{:.0f} %){}.",
+                             fmt::join(movements, "; "), narrower, now,
+                             more > 0 ? fmt::format(", and {} more would be identified", more) : "");
 }
 
 std::string trials_sentence(const run::StudyResult& result, std::size_t most) {

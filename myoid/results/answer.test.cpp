@@ -87,6 +87,10 @@ TEST(TrialsSentence, NamesTheWorstTrialsFirst) {
   EXPECT_EQ(trials_sentence(result), "No trial has a remark.");
   result.trials[1].faults = {{.code = RemarkCode::emg_clipped, .about = "BIC"}};
   result.trials[2].remarks = {{.code = RemarkCode::general}};
+  const std::string alone = trials_sentence(result);
+  result.trials[1].faults[0].likewise = {"t2", "t3"};
+  EXPECT_GT(trials_sentence(result).size(), alone.size());  // what all trials have speaks against none alone
+  result.trials[1].faults[0].likewise.clear();
   result.trials[3].motion.failure = "no markers";
   EXPECT_EQ(trials_sentence(result),
             "Trials with remarks: t3 (could not be computed), t1 (EMG clipped: BIC), t2 (see its remarks).");
@@ -140,6 +144,12 @@ TEST(AnswerText, AsksForAMovementOnlyIfItTellsMore) {
   EXPECT_THAT(text_after(0.0198, Verdict::weak), HasSubstr("Further movements tell little more"));
   EXPECT_THAT(text_after(0.012, Verdict::weak), HasSubstr("Record next: "));
   EXPECT_THAT(text_after(0.0198, Verdict::identified), HasSubstr("and 1 more would be identified"));
+  // Movements make up for no maximal contraction: the advice begins with one where none was recorded.
+  result.source.study.emg = {.kind = study::EmgKind::raw, .has_mvc = false};
+  const std::string without = next_sentence(result, {});
+  result.source.study.emg.has_mvc = true;
+  const std::string with = next_sentence(result, {});
+  EXPECT_TRUE(without.ends_with(with) && without.size() > with.size()) << without;
 }
 
 TEST(FitSentences, TakeTheR2OfTrialsWhoseTorqueVaries) {

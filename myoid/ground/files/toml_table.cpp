@@ -279,6 +279,10 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
         throw ReadError(file, line, "not valid TOML: a '{}' in the middle of a value", c);
       // Elsewhere a quote is a mistake and opens no text; after a point it opens one only in a dotted key.
       const bool begins = opens || (before == '.' && !place.in_value);
+      const auto is_digit = [](char of) { return of >= '0' && of <= '9'; };
+      if (c == ',' && place.in_value && place.brackets.empty() && is_digit(before) && i + 1 < text.size() &&
+          is_digit(text[i + 1]))
+        throw ReadError(file, line, "not valid TOML: a number with a comma; write it with a point");
       place.pass(c);
       if (c != ' ' && c != '\t' && c != '\r') before = c;
       if ((c == '"' || c == '\'') && !begins)

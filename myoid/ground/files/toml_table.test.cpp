@@ -61,6 +61,21 @@ TEST(NearestWord, ForgivesCaseAndOneSlipButNotAnotherWord) {
   EXPECT_FALSE(nearest_word("banana", {"BIC", "TRI"}).has_value());
 }
 
+TEST(ParseToml, ACommaInANumberIsNamed) {
+  const auto message = [](const std::string& text) {
+    try {
+      (void)parse_toml(text, "f.toml");
+    } catch (const ReadError& error) {
+      return std::string(error.what());
+    }
+    return std::string("read");
+  };
+  const std::string comma = message("a = 1\nmass_kg = 1,25\n");
+  EXPECT_NE(comma, message("a = 1\nmass_kg = 1;25\n"));
+  for (const char* right : {"a = [1,2]\n", "a = {b = 1,c = 2}\n", "a = '1,25'\n", "a = 1 # 2,5\n", "'1,2' = 3\n"})
+    EXPECT_EQ(message(right), "read") << right;
+}
+
 TEST(ParseToml, LettersBeyondAsciiStandInQuotesAndRemarksOnly) {
   // Found by fuzzing: U+FEBA after a key, and alone after an incomplete byte-order mark.
   for (const std::string text : {"a\xEF\xBB\xBA", "\xEF\xBB\xBE", "# \xC2\xB5\n\xC2\xB5 = 1", "a = \"x\" \xC3\xA9",
