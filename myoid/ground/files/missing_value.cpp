@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <map>
 
 #include "myoid/ground/core/numbers.h"
@@ -14,27 +12,12 @@ namespace {
 constexpr double kLeast = 999.0;  ///< Fewer nines are usual numbers.
 constexpr double kFarther = 3.0;  ///< Times the largest other number.
 
-/// Returns true for numbers that programs write where nothing was measured.
-bool may_stand_for_none(double x) {
-  const double size = std::abs(x);
-  if (!(size >= kLeast)) return false;
-  if (x == std::numeric_limits<std::int16_t>::min() || x == std::numeric_limits<std::int32_t>::min()) return true;
-  constexpr double kMostDigits = 1e9;
-  for (const double shift : {1.0, 10.0, 100.0}) {
-    const double digits = size * shift;
-    if (digits > kMostDigits) return false;
-    const double nines = std::pow(10.0, std::round(std::log10(digits + 1.0))) - 1.0;
-    if (std::abs(digits - nines) < 1e-6) return true;
-  }
-  return false;
-}
-
 /// Replaces the numbers in one column and returns how often each was there.
 std::map<double, Eigen::Index> take_out_of(Eigen::Ref<Eigen::VectorXd> column) {
   std::map<double, Eigen::Index> counts;
   double largest = 0.0;
   for (const double x : column) {
-    if (may_stand_for_none(x)) {
+    if (may_stand_for_missing(x)) {
       ++counts[x];
     } else if (std::isfinite(x)) {
       largest = std::max(largest, std::abs(x));
@@ -48,6 +31,19 @@ std::map<double, Eigen::Index> take_out_of(Eigen::Ref<Eigen::VectorXd> column) {
 }
 
 }  // namespace
+
+bool may_stand_for_missing(double number) {
+  const double size = std::abs(number);
+  if (!(size >= kLeast)) return false;
+  constexpr double kMostDigits = 1e9;
+  for (const double shift : {1.0, 10.0, 100.0}) {
+    const double digits = size * shift;
+    if (digits > kMostDigits) return false;
+    const double nines = std::pow(10.0, std::round(std::log10(digits + 1.0))) - 1.0;
+    if (std::abs(digits - nines) < 1e-6) return true;
+  }
+  return false;
+}
 
 std::vector<std::optional<double>> take_out_missing(Eigen::MatrixXd& values,
                                                     const std::vector<std::string>& names,

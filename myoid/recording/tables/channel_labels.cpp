@@ -136,7 +136,7 @@ TableColumn take_label_apart(const std::string& text) {
     const std::string inside = column.name.substr(begin + 1, end - begin - 1);
     const auto rate = rate_in_cell(inside);
     auto unit = rate ? std::nullopt : parse_file_unit(inside);
-    // Of a clock "min" are minutes, of other columns the least value.
+    // The word "min" means minutes behind a clock's name, and the least value behind another.
     if (!rate && equal_ignoring_case(inside, "min") && names_clock(column.name.substr(0, begin)))
       unit = ScaledUnit{Unit::second, 60.0};
     if (!rate && !unit) continue;

@@ -92,7 +92,7 @@ struct TableRemark {
 /// The rows as numbers: NaN where a cell is empty, "n/a", "-" or a word for "not a number".
 struct TableNumbers {
   Eigen::MatrixXd clock, values;  ///< One column for each requested one.
-  /// Of each value column: the number that stands for a missing value (`take_out_missing`).
+  /// The number that stands for a missing value in each value column (`take_out_missing`).
   std::vector<std::optional<double>> missing;
   std::vector<std::size_t> lines;  ///< Line number of each row, counted from 1.
   std::vector<TableRemark> remarks;

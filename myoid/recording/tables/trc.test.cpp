@@ -103,6 +103,16 @@ TEST(Trc, AMarkerAtExactlyZeroIsMissingAndThisIsSaid) {
   EXPECT_EQ(file.repairs.at(0).line, 7U);
 }
 
+TEST(Trc, AMarkerOfNinesAloneIsMissingAndThisIsSaid) {
+  for (const auto& [cells, missing] : {std::pair("-9999\t-9999\t-9999", true), {"-9999\t200\t-9999", false}}) {
+    std::string text = format_trc(two_markers(), "f.trc");
+    text.replace(text.find("100\t200\t300"), 11, cells);
+    const MarkerFile file = parse_trc(text, "f.trc");
+    EXPECT_EQ(file.markers.missing(0, 0), missing) << cells;
+    EXPECT_EQ(file.repairs.size(), missing ? 1U : 0U) << cells;
+  }
+}
+
 TEST(Trc, MendsCarriageReturnsAMissingBlankLineAndWrongCounts) {
   const std::string text =
       "PathFileType\t4\t(X/Y/"

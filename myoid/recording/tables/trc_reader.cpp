@@ -11,6 +11,7 @@
 #include "myoid/ground/core/index.h"
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/core/units.h"
+#include "myoid/ground/files/missing_value.h"
 #include "myoid/recording/tables/blank_columns.h"
 #include "myoid/recording/tables/marker_layouts.h"
 #include "myoid/recording/tables/table_clock.h"
@@ -369,22 +370,27 @@ class TrcFrames {
     }
   }
 
-  /// Makes a gap of a marker at 0 0 0, beyond kFarthest_m or without one of its coordinates.
+  /// Makes a gap of a marker at 0 0 0, beyond kFarthest_m, without one of its coordinates, or with a number that stands
+  /// for a missing one three times.
   void mark_missing(std::size_t line) {
     const auto row = static_cast<Eigen::Index>(time_.size());
     for (std::size_t m = 0; m < header_.names.size(); ++m) {
       auto position = values_.block<1, 3>(row, static_cast<Eigen::Index>(3 * m));
       const bool zero = (position.array() == 0.0).all();
       const bool far = (position.array().abs() > kFarthest_m).any();
+      const bool none =
+          (position.array() == position[0]).all() && may_stand_for_missing(position[0] / header_.unit.to_si);
       if (zero) mark(zero_line_, line);
+      if (none) mark(none_line_, line);
       if (far) mark(far_line_, line);
       if (position.hasNaN() && !position.array().isNaN().all()) mark(partial_line_, line);
-      if (zero || far || !position.allFinite()) position.setConstant(kNan);
+      if (zero || far || none || !position.allFinite()) position.setConstant(kNan);
     }
   }
 
   void state_what_was_mended() {
     note(zero_line_, "a marker at exactly 0 0 0 is taken as missing");
+    note(none_line_, "a marker has nines for all three coordinates (-9999 -9999 -9999); taken as missing");
     note(far_line_, "a marker is more than 1000 km away; taken as missing");
     note(comma_line_, "comma decimals read as decimal points");
     note(short_line_, "a row ends early; the markers behind its end are taken as missing");
@@ -421,7 +427,7 @@ class TrcFrames {
   std::vector<double> time_;
   Eigen::MatrixXd values_;
   std::vector<Repair> repairs_;
-  std::size_t zero_line_ = 0, far_line_ = 0, repeated_line_ = 0, short_line_ = 0;
+  std::size_t zero_line_ = 0, none_line_ = 0, far_line_ = 0, repeated_line_ = 0, short_line_ = 0;
   std::size_t surplus_line_ = 0, comma_line_ = 0, partial_line_ = 0;
 };
 
