@@ -422,7 +422,7 @@ TEST(Likelihood, FasciclesOfRigidTendonsAddTheirOwnDensity) {
   const Eigen::VectorXd residual = low * measured.unaryExpr([](double v) { return std::isnan(v) ? 0.0 : v; }) - seen;
   const double of_lengths = -0.5 * residual.dot(sigma.ldlt().solve(residual)) - 0.5 * log_determinant(sigma) +
                             0.5 * log_determinant(weighted) - 0.5 * weight * log_determinant(own);
-  // Of the rows without a length the determinant of their error alone is left.
+  // A row without a length adds the determinant of its error alone.
   const auto absent_rows = static_cast<double>(l.rows()) - static_cast<double>(rows.size());
   const double of_absent = -0.5 * weight * absent_rows * std::log(1e6);
   const double added = with.value(z, noise) - without.value(z, noise.head(kNoiseFieldCount + 1));

@@ -353,7 +353,7 @@ Eigen::VectorXd joined(const std::vector<Eigen::MatrixXd>& runs, Eigen::Index co
 }
 
 TEST(Unseen, ColumnsTurnWithTheNumbersOfTheirMuscleAndKeepTheirSize) {
-  const AtStart at(elbow_study({.trials = 2, .seconds = 6.0, .with_priors = true}).data);
+  const AtStart at(test::elbow_study({.trials = 2, .seconds = 6.0, .with_priors = true}).data);
   const Recorded session = recorded(at.runs, at.map.held().muscles);
   const Eigen::VectorXd z = at.map.start();
   const Unseen all = at.unseen(session, z, steps_from(z, at.map, EmgLag::delay, at.runs));

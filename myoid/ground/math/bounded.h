@@ -2,7 +2,7 @@
 
 namespace myoid::inline ground::math {
 
-/// How a number without bounds, x, becomes a share t of the way from a lower to an upper bound, 0 < t < 1:
+/// The map of a number without bounds, x, to a share t of the way from a lower to an upper bound, 0 < t < 1:
 ///
 ///   gradual: t = 1 / (1 + exp(-x))
 ///   sharp:   t = w ln (1 + exp(y / w)) - w ln (1 + exp((y - 1) / w)),    y = (2 + x) / 4,    w = 1/20.
