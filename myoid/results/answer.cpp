@@ -141,20 +141,22 @@ std::string truth_sentence(const run::StudyResult& result, const IdentificationR
 
 std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
 
-/// Returns a reason in at most two lines, with the expected value where there is room.
-std::string reason_lines(const page::Gate& gate, std::size_t width) {
+/// Returns a reason in at most `most` lines, with the expected value where there is room.
+std::string reason_lines(const page::Gate& gate, std::size_t width, std::size_t most) {
   const std::string found = with_short_words(fmt::format("- {}: {}", gate.name, gate.value), width);
   std::string text = wrapped(fmt::format("{} (expected: {})", found, gate.threshold), width);
-  for (std::size_t room = 2 * width; line_count(text) > 2; room -= width / 8)
+  for (std::size_t room = most * width; line_count(text) > most; room -= width / 8)
     text = wrapped(elided(found, room), width);
   return text;
 }
 
-std::string light_lines(const std::vector<page::Gate>& gates, std::size_t width) {
+/// Returns the light with its reasons, each in at most `most` lines.
+std::string light_lines(const std::vector<page::Gate>& gates, std::size_t width, std::size_t most) {
+  if (gates.empty()) return "";
   const page::Light light = page::light_of(gates);
   std::string text = wrapped(fmt::format("{}. {}{}", light.head, light.answered, light.leads_to), width);
   for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i)
-    text += reason_lines(light.reasons[i], width);
+    text += reason_lines(light.reasons[i], width, most);
   std::vector<std::string> others;  // by name, so that nothing that colors the page is hidden
   for (std::size_t i = kMostReasons; i < light.reasons.size(); ++i) others.push_back(light.reasons[i].name);
   if (!others.empty()) text += wrapped(fmt::format("- and {}", fmt::join(others, "; ")), width);
@@ -296,18 +298,21 @@ std::string trials_sentence(const run::StudyResult& result, std::size_t most) {
 }
 
 std::string answer_text(const run::StudyResult& result, const std::vector<page::Gate>& gates, std::size_t width) {
-  constexpr std::size_t kMostLines = 24;
-  const std::string light = gates.empty() ? "" : light_lines(gates, width) + "\n";
+  constexpr std::size_t kMostLines = 24, kFewestRows = 4;
   std::string rest = wrapped(fit_sentences(result, false), width);
   for (const std::string& more : {trials_sentence(result), next_sentence(result, gates)})
     if (!more.empty()) rest += wrapped(more, width);
-  const std::size_t taken = line_count(light) + line_count(rest) + 4;  // a heading, a legend, a line between
   const IdentificationResult* best = run::best_method(result.fit);
-  std::string rows;
-  if (best != nullptr && taken < kMostLines)
-    rows = row_lines(answer_rows(*best, result.fit_input.data.muscles.size(), std::min(kMostRows, kMostLines - taken)),
-                     width);
-  return light + rows + (rows.empty() ? "" : "\n") + rest;
+  std::vector<AnswerRow> rows;
+  if (best != nullptr) rows = answer_rows(*best, result.fit_input.data.muscles.size(), kMostRows);
+  const auto room = [&](const std::string& light) {  // a heading, a legend, a line between
+    return kMostLines - std::min(kMostLines, line_count(light) + line_count(rest) + 5);
+  };
+  std::string light = light_lines(gates, width, 2);
+  if (room(light) < std::min(rows.size(), kFewestRows)) light = light_lines(gates, width, 1);
+  rows.resize(std::min(rows.size(), room(light)));
+  if (!light.empty()) light += "\n";
+  return light + row_lines(rows, width) + (rows.empty() ? "" : "\n") + rest;
 }
 
 }  // namespace myoid::results
