@@ -81,7 +81,18 @@ std::vector<EstimateLine> told_lines(const IdentificationResult& method, std::si
   return lines;
 }
 
-/// Returns how many parameters the fit identifies, in sentences.
+/// Returns "the greatest torque of 3 of 4 muscles"; empty: none is identified.
+std::string identified_torques(const IdentificationResult& fit) {
+  int total = 0, sure = 0;
+  for (const VoluntaryLine& line : voluntary_lines(fit)) {
+    if (line.curve->of_joint) continue;
+    ++total;
+    sure += line.torque->verdict == Verdict::identified;
+  }
+  return sure == 0 ? "" : fmt::format("the greatest torque of {} of {} muscle{}", sure, total, total == 1 ? "" : "s");
+}
+
+/// Returns how many numbers the fit identifies, in sentences.
 std::string count_sentences(const IdentificationResult& fit, std::size_t muscle_count, bool with_names) {
   int total = 0, sure = 0, repeat = 0, weak = 0;
   for (const ParameterEstimate& e : fit.estimates) {
@@ -91,13 +102,16 @@ std::string count_sentences(const IdentificationResult& fit, std::size_t muscle_
     if (e.verdict == Verdict::reproducible) ++repeat;
     if (e.verdict == Verdict::weak) ++weak;
   }
-  std::string text = sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
-                               : fmt::format("This recording identifies {} of {} parameters", sure, total);
+  const std::string torques = identified_torques(fit);
+  std::string text = "This recording identifies ";
+  if (!torques.empty()) text += torques + " and ";
+  text += sure == 0 ? fmt::format("none of {} parameters with certainty", total)
+                    : fmt::format("{} of {} parameters", sure, total);
   if (sure > 0 && with_names) text += ": " + identified_numbers(fit, muscle_count);
   text += ".";
   if (repeat > 0)
-    text += fmt::format(" {} {} reproducible: given geometry and sensors, for comparing sessions of this person.",
-                        repeat, repeat == 1 ? "is" : "are");
+    text += fmt::format(" {} {} reproducible: good for comparing sessions of this person, not as a size.", repeat,
+                        repeat == 1 ? "is" : "are");
   if (weak > 0) text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
   return text;
 }
@@ -120,11 +134,14 @@ std::string fold_sentence(const run::StudyResult& result) {
   if (ours.empty()) return "";
   const std::string of =
       ours.size() == result.folds.size() ? "median" : fmt::format("median of {} that vary", ours.size());
-  return fmt::format(
-      " The {} of {}s left out of the fit is predicted with an R2 of {:.2f} ({}; 1 is perfect, the literature's "
-      "muscles with a best gain reach {:.2f}).",
-      run::torque_of(result.fit) == nullptr ? "force" : "torque", choice_name(result.source.study.identify.folds),
-      math::median(std::move(ours)), of, math::median(std::move(theirs)));
+  const auto share = [](std::vector<double> r2) {
+    const double x = math::median(std::move(r2));
+    return x > 0.99 ? "more than 99 %" : x > 0.0 ? fmt::format("{:.0f} %", 100.0 * x) : std::string("nothing");
+  };
+  return fmt::format(" Of the {} in {}s left out of the fit these muscles explain {} (R2, {}); the literature's, {}.",
+                     run::torque_of(result.fit) == nullptr ? "force" : "torque",
+                     choice_name(result.source.study.identify.folds), share(std::move(ours)), of,
+                     share(std::move(theirs)));
 }
 
 /// Returns how many intervals of a virtual person hold the truth; empty: no truth is known.
@@ -238,12 +255,8 @@ std::vector<AnswerRow> answer_rows(const IdentificationResult& method, std::size
   for (const VoluntaryLine& line : voluntary_lines(method)) {
     if (!is_told(*line.torque)) continue;
     const bool placed = line.angle != nullptr && is_told(*line.angle);
-    const fit::VoluntaryCurve& curve = *line.curve;
-    const std::string owner = curve.of_joint ? fmt::format("{} together{}", page::spelled(curve.joint),
-                                                           curve.direction > 0 ? "" : " (negative direction)")
-                                             : line.name;
-    rows.push_back(row_of(owner + (maximal ? ", greatest torque" : ", at the largest EMG"), *line.torque,
-                          placed ? line.place : ""));
+    rows.push_back(row_of(short_name(*line.curve) + (maximal ? ", greatest torque" : ", at the largest EMG"),
+                          *line.torque, placed ? line.place : ""));
   }
   for (const EstimateLine& line : told_lines(method, muscle_count))
     rows.push_back(

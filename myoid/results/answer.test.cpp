@@ -162,11 +162,11 @@ TEST(FitSentences, TakeTheR2OfTrialsWhoseTorqueVaries) {
     return f;
   };
   result.folds = {fold(1.0, 0.5), fold(0.0, 0.7), fold(0.01, 0.7)};
-  EXPECT_THAT(fit_sentences(result, false), HasSubstr("R2 of 0.75 (median of 1 that vary"));
+  EXPECT_THAT(fit_sentences(result, false), HasSubstr("75 % (R2, median of 1 that vary"));
   result.folds.resize(1);
-  EXPECT_THAT(fit_sentences(result, false), HasSubstr("R2 of 0.75 (median;"));
+  EXPECT_THAT(fit_sentences(result, false), HasSubstr("75 % (R2, median)"));
   result.folds = {fold(0.01, 0.7)};
-  EXPECT_THAT(fit_sentences(result, false), ::testing::Not(HasSubstr("R2 of")));
+  EXPECT_THAT(fit_sentences(result, false), ::testing::Not(HasSubstr("R2")));
 }
 
 }  // namespace

@@ -28,6 +28,13 @@ std::string with_unit(double value, Unit unit) {
   return page::format_value(value * plain.per_si) + (plain.symbol.empty() ? "" : fmt::format(" {}", plain.symbol));
 }
 
+/// Returns the place of a number in the sentence: strength, the other numbers of muscles, then electrodes and joint.
+int rank(const fit::ParameterEstimate& e) {
+  if (fit::is_nuisance(e)) return 3;
+  if (fit::is_voluntary(e.parameter)) return 0;
+  return e.parameter == "max_isometric_force" ? 1 : 2;
+}
+
 /// Returns the owners for people: "Biceps" of BIC, "elbow flexion" of a joint; several as they are.
 std::string owner_of(const ComparedParameter& p) { return page::spelled(page::plain_muscle(p.muscle)); }
 
@@ -98,9 +105,11 @@ std::string changes_sentence(const RunComparison& comparison) {
   constexpr std::size_t kNamed = 4;
   if (!comparison.failed.empty())
     return fmt::format("No number is compared: {}. Mend that first.", fmt::join(comparison.failed, "; "));
+  std::vector<const ComparedParameter*> counted = counted_parameters(comparison);
+  std::ranges::stable_sort(counted, {}, [](const ComparedParameter* p) { return rank(p->first); });
   std::vector<std::string> found;
   std::size_t same = 0, untold = 0;
-  for (const ComparedParameter* p : counted_parameters(comparison)) {
+  for (const ComparedParameter* p : counted) {
     if (p->change == Change::differs) found.push_back(change_text(*p));
     same += p->change == Change::no_change;
     untold += p->change == Change::cannot_tell;

@@ -20,6 +20,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/json_text.h"
 #include "myoid/ground/core/normal.h"
+#include "myoid/ground/files/result_folder.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/page/read_gates.h"
 #include "myoid/page/tables.h"
@@ -73,8 +74,7 @@ bool repeats_a_muscle(const Run& run, const ParameterEstimate& e) {
 
 Run read_run(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "parameters.json";
-  if (!std::filesystem::exists(path))
-    throw ReadError(folder, 0, "holds no results (parameters.json); run the study (myoid run) and give its folder");
+  require_results(folder, "parameters.json");
   Run run;
   try {
     const json content = parse_json(read_text_file(path));

@@ -154,7 +154,7 @@ page::Panel panel_of(const VoluntaryCurve& curve) {
   const bool over_angle = curve.angle_rad.size() > 0;
   const std::vector<double> x =
       page::to_vector(over_angle ? Eigen::VectorXd(curve.angle_rad / kDegree) : Eigen::VectorXd(1e3 * curve.length_m));
-  page::Panel panel{.title = plain_name(curve)};
+  page::Panel panel{.title = short_name(curve)};
   panel.x = over_angle ? page::Axis{.label = page::spelled(curve.joint), .unit = "deg"}
                        : page::Axis{.label = "length of muscle and tendon", .unit = "mm"};
   panel.y = {.label = "torque", .unit = "N m", .lower = 0.0};
@@ -177,6 +177,7 @@ page::Figure figure_of(const IdentificationResult& method) {
                       .panels = {},
                       .columns = 2};
   for (const VoluntaryLine& line : voluntary_lines(method)) figure.panels.push_back(panel_of(*line.curve));
+  if (figure.panels.size() > 4) figure.columns = 3;
   figure.bad = "The band is as high as the curve, or the curve still rises at the end of the recorded angles.";
   figure.act =
       "Record efforts against greater loads to narrow the band, and a wider range of angles to find where the curve is "
@@ -198,6 +199,11 @@ std::vector<VoluntaryLine> voluntary_lines(const IdentificationResult& method) {
   return lines;
 }
 
+std::string short_name(const VoluntaryCurve& curve) {
+  if (!curve.of_joint) return plain_name(curve);
+  return fmt::format("{} together{}", page::spelled(curve.joint), curve.direction > 0 ? "" : " (negative direction)");
+}
+
 bool is_told(const ParameterEstimate& e) {
   return e.verdict == fit::Verdict::identified || e.verdict == fit::Verdict::reproducible ||
          e.verdict == fit::Verdict::weak;
@@ -210,17 +216,22 @@ std::vector<std::string> voluntary_sentences(const IdentificationResult& method)
 }
 
 std::string voluntary_headline(const IdentificationResult& method) {
+  std::vector<VoluntaryLine> lines = voluntary_lines(method);
+  std::erase_if(lines, [](const VoluntaryLine& line) { return !is_told(*line.torque); });
+  if (lines.empty()) return "";
+  const auto verdict = [](const VoluntaryLine& line) { return page::spelled(fit::name(line.torque->verdict)); };
+  const bool alike = std::ranges::all_of(
+      lines, [&](const VoluntaryLine& line) { return line.torque->verdict == lines.front().torque->verdict; });
   std::vector<std::string> parts;
-  for (const VoluntaryLine& line : voluntary_lines(method)) {
-    if (!is_told(*line.torque)) continue;
+  for (const VoluntaryLine& line : lines) {
     const bool placed = line.angle != nullptr && is_told(*line.angle);
-    parts.push_back(fmt::format("{} {} N m ({}){}", line.name, size_text(*line.torque),
+    parts.push_back(fmt::format("{} {} N m ({}{}){}", line.name, size_text(*line.torque),
                                 page::format_interval(*line.torque->ci_low, *line.torque->ci_high),
-                                placed ? " at " + line.place : ""));
+                                alike ? "" : ", " + verdict(line), placed ? " at " + line.place : ""));
   }
-  if (parts.empty()) return "";
   const bool maximal = std::ranges::all_of(method.voluntary, &VoluntaryCurve::from_mvc);
-  return fmt::format("Greatest voluntary torque{} (95 % interval): {}. ", maximal ? "" : " at the largest recorded EMG",
+  return fmt::format("Greatest voluntary torque{} (95 % interval{}): {}. ",
+                     maximal ? "" : " at the largest recorded EMG", alike ? ", " + verdict(lines.front()) : "",
                      fmt::join(parts, "; "));
 }
 

@@ -22,6 +22,9 @@ struct VoluntaryLine {
 /// muscle's line, and has none of its own.
 [[nodiscard]] std::vector<VoluntaryLine> voluntary_lines(const fit::IdentificationResult& method);
 
+/// Returns "Biceps", or "elbow flexion together" of a joint's muscles.
+[[nodiscard]] std::string short_name(const fit::VoluntaryCurve& curve);
+
 /// Returns true if the recording tells the number for the person, or for sessions of the person.
 [[nodiscard]] bool is_told(const fit::ParameterEstimate& e);
 
@@ -35,7 +38,9 @@ struct VoluntaryLine {
 
 /// Returns the torques that the recording tells, as the report's first sentence with a blank behind it; empty: none.
 ///
-///   Greatest voluntary torque (95 % interval): Biceps 43 N m (36 to 50) at 92°; Triceps 52 N m (47 to 58).
+///   Greatest voluntary torque (95 % interval, identified): Biceps 43 N m (36 to 50) at 92°; Triceps 52 N m (47 to 58).
+///
+/// Each number has a verdict of its own where they differ.
 [[nodiscard]] std::string voluntary_headline(const fit::IdentificationResult& method);
 
 /// Returns the section of the greatest voluntary torques: the sentences, a table, and the torque over the angle.

@@ -84,13 +84,28 @@ TEST(VoluntarySentences, WithoutAnglesHaveNone) {
 TEST(VoluntaryHeadline, HoldsOnlyTorquesAndAnglesThatTheRecordingTells) {
   IdentificationResult method = biceps();
   EXPECT_EQ(voluntary_headline(method),
-            "Greatest voluntary torque (95 % interval): Biceps 41.0 N m (38.0 to 44.0) at 85°. ");
+            "Greatest voluntary torque (95 % interval, identified): Biceps 41.0 N m (38.0 to 44.0) at 85°. ");
   method.voluntary[0].from_mvc = false;
   method.estimates[1].verdict = Verdict::not_identifiable;
   EXPECT_EQ(voluntary_headline(method),
-            "Greatest voluntary torque at the largest recorded EMG (95 % interval): Biceps 41.0 N m (38.0 to 44.0). ");
+            "Greatest voluntary torque at the largest recorded EMG (95 % interval, identified): "
+            "Biceps 41.0 N m (38.0 to 44.0). ");
   method.estimates[0].verdict = Verdict::not_identifiable;
   EXPECT_EQ(voluntary_headline(method), "");
+}
+
+TEST(VoluntaryHeadline, SaysEachVerdictWhereTheyDiffer) {
+  IdentificationResult method = biceps();
+  IdentificationResult other = biceps();
+  method.voluntary.push_back(other.voluntary[0]);
+  method.voluntary[1].owner = "TRI";
+  for (ParameterEstimate& e : other.estimates) {
+    e.muscle = "TRI";
+    e.verdict = Verdict::weak;
+    method.estimates.push_back(e);
+  }
+  EXPECT_THAT(voluntary_headline(method), HasSubstr("38.0 to 44.0, identified"));
+  EXPECT_THAT(voluntary_headline(method), HasSubstr("38.0 to 44.0, weak"));
 }
 
 TEST(VoluntaryCsv, HasARowForEachPlace) {

@@ -8,6 +8,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/result_folder.h"
 #include "myoid/ground/files/text_file.h"
 
 namespace myoid::study {
@@ -31,6 +32,7 @@ std::ptrdiff_t common_end(const fs::path& a, const fs::path& b) {
 }  // namespace
 
 RunRecord read_run_record(const fs::path& folder) {
+  require_results(folder, "run.json");
   const fs::path path = folder / "run.json";
   RunRecord record{.folder = folder};
   try {

@@ -44,6 +44,19 @@ bool is_of_earlier_version(const fs::path& folder) {
          says("simulation.json", {"\"program\": \"myoid\""}) || says("outcome.json", {"\"outcome\"", "\"build\""});
 }
 
+void require_results(const fs::path& folder, std::string_view name) {
+  std::error_code error;
+  if (fs::exists(folder / name, error)) return;
+  std::vector<fs::path> inside;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    if (std::error_code none; fs::exists(it->path() / name, none)) inside.push_back(it->path());
+  std::ranges::sort(inside);
+  throw ReadError(folder, 0,
+                  fmt::format("holds no results ({}); {}", name,
+                              inside.empty() ? "run the study (myoid run) and give its folder"
+                                             : fmt::format("did you mean {}?", inside.front().string())));
+}
+
 void require_results_place(const fs::path& folder) {
   std::error_code ignored;
   const fs::path whole = fs::weakly_canonical(folder, ignored);

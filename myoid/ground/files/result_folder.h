@@ -14,6 +14,10 @@ namespace myoid::inline ground {
 /// Returns true for a folder of results of a version of this program that kept no list of its files.
 [[nodiscard]] bool is_of_earlier_version(const std::filesystem::path& folder);
 
+/// Throws ReadError for a folder without the file `name` of a run's results ("run.json"). The error names a folder in
+/// it that holds the file.
+void require_results(const std::filesystem::path& folder, std::string_view name);
+
 /// Throws InvalidInput, with the remedy, for the root of the file system: results need a folder of their own.
 void require_results_place(const std::filesystem::path& folder);
 

@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kCommand = "myoid run study.toml --out results";
 
@@ -50,6 +51,19 @@ TEST(ResultFolder, ThatWasLeftUnfinishedIsTakenOverByTheSameCommandAlone) {
   EXPECT_THROW(ResultFolder(folder / "out", "myoid so --out out", false), InvalidInput);
   EXPECT_THAT(ResultFolder(folder / "out", kCommand, false).note(),
               HasSubstr("is taken over from a command that did not finish"));
+}
+
+TEST(RequireResults, NamesTheFolderInsideThatHoldsThem) {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder / "demo/result");
+  const auto message = [&](const char* of) {
+    return test::message_of<ReadError>([&] { require_results(folder / of, "run.json"); });
+  };
+  EXPECT_THAT(message("demo"), Not(HasSubstr("result?")));
+  write_file(folder / "demo/result/run.json", "{}");
+  EXPECT_THAT(message("demo"), HasSubstr((folder / "demo/result").string()));
+  EXPECT_THAT(message("absent"), HasSubstr("run the study"));
+  EXPECT_NO_THROW(require_results(folder / "demo/result", "run.json"));
 }
 
 TEST(ResultFolder, IsRefusedWhereItIsAFileOrHasNoName) {

@@ -27,20 +27,28 @@ namespace {
 
 bool color_wanted() { return isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
 
-/// Draws at most ten times a second; shared by the threads that report.
+/// Draws a bar ten times a second at most, or a line every ten seconds where there is no terminal; shared by the threads
+/// that report.
 struct ProgressBar {
+  using Clock = std::chrono::steady_clock;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
   std::mutex mutex;
-  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point last{};
+  Clock::time_point begin = Clock::now();
+  Clock::time_point last = terminal ? Clock::time_point{} : begin;
 
   void draw(double share, std::string_view what) {
     const std::scoped_lock lock(mutex);
-    const auto now = std::chrono::steady_clock::now();
-    if (share < 1.0 && now - last < std::chrono::milliseconds(100)) return;
+    const auto now = Clock::now();
+    const bool last_of_bar = terminal && share >= 1.0;
+    if (!last_of_bar && now - last < std::chrono::milliseconds(terminal ? 100 : 10'000)) return;
     last = now;
     const double elapsed_s = std::chrono::duration<double>(now - begin).count();
     const std::string left =
         share > 0.02 && share < 1.0 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share) : "";
+    if (!terminal) {
+      say_error("  {:.0f} %, {}{}{}\n", 100.0 * share, what, left.empty() ? "" : ", about ", left);
+      return;
+    }
     const int filled = static_cast<int>(share * 24.0);
     std::fputs("\r\033[K", stderr);
     say_error("[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share, left, what);
@@ -134,7 +142,7 @@ program::Call Context::call() const {
 
 Progress Context::progress() const {
   Progress progress{.report = {}, .stop = stop.get_token()};
-  if (!quiet && isatty(STDERR_FILENO) != 0) {
+  if (!quiet) {
     const auto bar = std::make_shared<ProgressBar>();
     progress.report = [bar](double share, std::string_view what) { bar->draw(share, what); };
   }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,19 +10,18 @@
 #include "myoid/fit/intervals/estimate_columns.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/json_text.h"
+#include "myoid/ground/files/result_folder.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::run {
 
 using fit::ParameterEstimate;
 
 EarlierRun read_earlier_run(const std::filesystem::path& folder) {
+  require_results(folder, "parameters.json");
   const std::filesystem::path file = folder / "parameters.json";
-  std::ifstream stream(file);
-  if (!stream)
-    throw ReadError(
-        file, 0, "there is no such file; --after must name the folder of a finished `myoid run` or `myoid identify`");
   try {
-    const nlohmann::json all = parse_json(std::string(std::istreambuf_iterator<char>(stream), {}));
+    const nlohmann::json all = parse_json(read_text_file(file));
     for (const nlohmann::json& method : all.at("methods")) {
       if (method.at("method") != "torque") continue;
       EarlierRun run;
