@@ -81,7 +81,7 @@ std::vector<EstimateLine> told_lines(const IdentificationResult& method, std::si
   return lines;
 }
 
-/// Returns "the greatest torque of 3 of 4 muscles"; empty: none is identified.
+/// Returns "the greatest torque of 3 of 4 muscles", or that at the largest EMG; empty: none is identified.
 std::string identified_torques(const IdentificationResult& fit) {
   int total = 0, sure = 0;
   for (const VoluntaryLine& line : voluntary_lines(fit)) {
@@ -89,7 +89,11 @@ std::string identified_torques(const IdentificationResult& fit) {
     ++total;
     sure += line.torque->verdict == Verdict::identified;
   }
-  return sure == 0 ? "" : fmt::format("the greatest torque of {} of {} muscle{}", sure, total, total == 1 ? "" : "s");
+  const bool maximal = std::ranges::all_of(fit.voluntary, &fit::VoluntaryCurve::from_mvc);
+  return sure == 0
+             ? ""
+             : fmt::format("the {} of {} of {} muscle{}", maximal ? "greatest torque" : "torque at the largest EMG",
+                           sure, total, total == 1 ? "" : "s");
 }
 
 /// Returns how many numbers the fit identifies, in sentences.
