@@ -28,7 +28,7 @@ struct Fascicles {
 
   TimeSeries read(const std::string& text) {
     std::ofstream(folder / "us.csv") << text;
-    return read_fascicles(study, folder / "us.csv", remarks);
+    return read_fascicles(study, load_model(study), folder / "us.csv", remarks);
   }
 };
 
@@ -46,9 +46,17 @@ TEST(ReadFascicles, RefusesNoMuscleNoLengthAndAnotherUnit) {
   Fascicles of;
   EXPECT_THROW((void)of.read("time [s],fascicle [mm]\n0,50\n0.1,52\n"), ReadError);
   EXPECT_THROW((void)of.read("time [s],TA [mm]\n0,\n0.1,\n"), ReadError);
-  EXPECT_THROW((void)of.read("time [s],TA\n0,50\n0.1,52\n"), ReadError);        // m, in truth mm
-  EXPECT_THROW((void)of.read("time [s],TA [deg]\n0,50\n0.1,52\n"), ReadError);  // a pennation angle
+  EXPECT_THROW((void)of.read("time [s],TA\n0,50\n0.1,52\n"), ReadError);         // m, in truth mm
+  EXPECT_THROW((void)of.read("time [s],TA [deg]\n0,50\n0.1,52\n"), ReadError);   // a pennation angle
+  EXPECT_THROW((void)of.read("time [s],TA [mm]\n0,5.0\n0.1,5.2\n"), ReadError);  // cm, of fibers of 8 cm
   EXPECT_THROW((void)of.read("time [s],TA [pixel]\n0,50\n0.1,52\n"), ReadError);
+}
+
+TEST(ReadFascicles, RefusesTimesThatTheMotionDoesNotHave) {
+  Fascicles of;
+  const TimeSeries found = of.read("time [s],TA [mm]\n100,50\n101,52\n");
+  EXPECT_THROW(require_times_of_motion("us.csv", found, Eigen::Vector2d(0.0, 20.0)), ReadError);
+  EXPECT_NO_THROW(require_times_of_motion("us.csv", found, Eigen::Vector2d(0.0, 100.0)));
 }
 
 TEST(ReadFascicles, LiesOnStraightLinesAndIsAbsentWhereNothingWasMeasured) {
