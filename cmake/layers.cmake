@@ -56,7 +56,7 @@ set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics
 set(MYOID_LAYER_intake core math files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model osim kinematics dynamics study
     intake)
-set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs measurement
+set(MYOID_LAYER_design core math files muscle arm kinematics dynamics beliefs measurement
     intervals posterior page study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
     measurement intervals posterior methods page phases study intake checks design)

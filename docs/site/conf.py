@@ -32,7 +32,7 @@ PARTS = [
     ("First minutes", ["What it is <README>", "docs/quickstart", "docs/tutorial", "docs/gallery", "examples/README"]),
     ("How to", ["docs/guide/how-to", "docs/guide/troubleshooting", "docs/guide/recording-well", "docs/guide/study", "docs/guide/report",
                 "docs/guide/verdicts", "docs/guide/packages", "docs/guide/commands", "docs/guide/*"]),
-    ("Is it right?", ["docs/scoreboard", "docs/theory/evidence", "docs/opensim-tools", "docs/performance",
+    ("Is it right?", ["docs/validation", "docs/scoreboard", "docs/theory/evidence", "docs/opensim-tools", "docs/performance",
                       "docs/remarks", "docs/damaged-files", "examples/*"]),
     ("Theory", ["docs/theory/identification", "docs/theory/*"]),
     ("Working on Myoid", ["docs/architecture", "CONTRIBUTING", "SECURITY", "docs/notation", "docs/index",

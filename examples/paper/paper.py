@@ -366,8 +366,6 @@ def elbow(program, out, data, model):
     return {
         "elbow gains": markdown(["", *MUSCLES.values()], [["gain of F_max", *(f"{gain[m]:.2f}" for m in MUSCLES)]]),
         "elbow searches": markdown(["F_max", "minima", "steps", "plain steps reach"], searches),
-        "elbow Table I": estimates(fits["times the gain"], "shortening"),
-        "elbow Table II": estimates(fits["times the gain"], "lengthening"),
     }
 
 
