@@ -154,6 +154,37 @@ TableColumn take_label_apart(const std::string& text) {
   return column;
 }
 
+namespace {
+
+/// Returns the end of a number that begins at `at` of `text`. A comma belongs to the number where a unit of rates or
+/// nothing stands behind the digits after it and commas part no cells.
+std::size_t end_of_number(std::string_view text, std::size_t at) {
+  const auto digits = [&](std::size_t from, bool points) {
+    while (from < text.size() && ((text[from] >= '0' && text[from] <= '9') || (points && text[from] == '.'))) ++from;
+    return from;
+  };
+  const std::size_t whole = digits(at, true);
+  if (whole >= text.size() || text[whole] != ',') return whole;
+  const std::size_t end = digits(whole + 1, false);
+  if (end == whole + 1) return whole;
+  const std::string behind = word_at(text, std::min(text.find_first_not_of(" [(", end), text.size()));
+  const bool other_separator = text.substr(0, at).find_first_of(";\t") != std::string_view::npos;
+  return behind == "hz" || behind == "khz" || other_separator ? end : whole;
+}
+
+/// Returns the rate of "2000", "1925,926", "2,0", or "2,000" in Hz, which are thousands: nothing is sampled at 2 Hz.
+std::optional<double> number_of_rate(std::string_view text, bool kilo) {
+  const auto number = parse_number(text);
+  const std::size_t comma = text.find(',');
+  if (number || comma == std::string_view::npos) return number;
+  constexpr double kSlowest_hz = 20.0;
+  const auto decimal = parse_comma_number(text);
+  if (!decimal || kilo || *decimal >= kSlowest_hz || text.size() - comma != 4) return decimal;
+  return parse_number(std::string(text.substr(0, comma)) + std::string(text.substr(comma + 1)));
+}
+
+}  // namespace
+
 std::optional<StatedRate> rate_in_line(std::string_view line) {
   const std::string text = lower(line);
   for (const char* word : {"sampling frequency", "sampling rate", "sample rate", "samplerate", "sample frequency",
@@ -168,11 +199,11 @@ std::optional<StatedRate> rate_in_line(std::string_view line) {
       if (!before.empty()) unit = before;
       i += std::max<std::size_t>(1, before.size());
     }
-    std::size_t end = i;
-    while (end < text.size() && ((text[end] >= '0' && text[end] <= '9') || text[end] == '.')) ++end;
-    const auto number = parse_number(std::string_view(text).substr(i, end - i));
+    std::size_t end = end_of_number(text, i);
+    const std::string_view digits = std::string_view(text).substr(i, end - i);
     while (end < text.size() && std::string_view(" \t;[(").find(text[end]) != std::string_view::npos) ++end;
     if (const std::string behind = word_at(text, end); !behind.empty()) unit = behind;
+    const auto number = number_of_rate(digits, unit == "khz");
     if (!number) continue;
     if (unit == "mhz" || unit == "ghz" || unit == "ms" || unit == "us" || unit == "ns")
       return StatedRate{.hz = 0.0, .other_unit = unit};

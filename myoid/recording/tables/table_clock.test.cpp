@@ -117,6 +117,13 @@ TEST(ChannelLabels, UnitsAndRatesAreTakenOffTheName) {
   EXPECT_EQ(rate_in_line("Sampling rate: 2000 Hz")->hz, 2000.0);
   for (const char* line : {"Sampling rate: 2 kHz", "Sampling rate: 2.0kHz", "sampling rate [kHz]: 2", "rate;2;kHz"})
     EXPECT_EQ(rate_in_line(line)->hz, 2000.0) << line;
+  for (const char* line :
+       {"Sampling rate;2,0 kHz", "Sampling rate: 2,000 kHz", "Sampling rate: 2,000 Hz", "rate;2,0;kHz"})
+    EXPECT_EQ(rate_in_line(line)->hz, 2000.0) << line;
+  for (const char* line : {"Sampling rate;1925,926 Hz", "Sampling rate: 1925,926Hz", "Sampling rate\t1925,926"})
+    EXPECT_EQ(rate_in_line(line)->hz, 1925.926) << line;
+  EXPECT_EQ(rate_in_line("Sampling rate: 148,148 Hz")->hz, 148.148);
+  EXPECT_EQ(rate_in_line("rate,2000,1,EMG")->hz, 2000.0);  // cells between commas
   EXPECT_EQ(rate_in_line("Sampling rate: 0.002 MHz")->other_unit, "mhz");
   EXPECT_EQ(rate_in_line("Sampling rate: 5 ms")->other_unit, "ms");
   EXPECT_EQ(rate_in_cell("2 kHz"), 2000.0);
@@ -142,6 +149,7 @@ TEST(TableLayout, ANumberStandsBehindItsWordInItsCellOrBelowIt) {
   EXPECT_EQ(stated_number(text, 4, '\t', {"rate"}), 100.0);
   EXPECT_EQ(stated_number(text, 4, '\t', {"count"}), 7.0);
   EXPECT_FALSE(stated_number(text, 3, '\t', {"count"}));
+  EXPECT_EQ(stated_number(TableText("Rate;1925,926 Hz\nA;B\n"), 2, ';', {"rate"}), 1925.926);
   EXPECT_EQ(stated_text(text, 4, '\t', "record"), "7");
 }
 

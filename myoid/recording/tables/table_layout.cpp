@@ -13,11 +13,11 @@ namespace {
 /// Reads the number at the beginning of a cell: "2000 Hz", "100.5".
 std::optional<double> leading_number(std::string_view cell) {
   cell = trim(cell);
-  std::size_t end = 0;
-  while (end < cell.size() && ((cell[end] >= '0' && cell[end] <= '9') || cell[end] == '.' || cell[end] == '-')) ++end;
+  const std::size_t end = std::min(cell.find_first_not_of("0123456789.,-"), cell.size());
   const std::string_view behind = trim(cell.substr(end));
   if (!behind.empty() && !equal_ignoring_case(behind, "hz")) return std::nullopt;
-  return parse_number(cell.substr(0, end));
+  const auto number = parse_number(cell.substr(0, end));
+  return number ? number : parse_comma_number(cell.substr(0, end));
 }
 
 std::string_view without_colon(std::string_view cell) {
