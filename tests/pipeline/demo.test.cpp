@@ -3,11 +3,14 @@
 #include <filesystem>
 #include <iterator>
 #include <regex>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/ground/files/quoted_text.h"
+#include "myoid/ground/files/result_names.h"
 
 #include "browser.h"
 #include "program.h"
@@ -31,6 +34,14 @@ TEST(Demo, AnswersInAtMost25LinesAndItsIntervalsHoldTheTruth) {
   EXPECT_THAT(demo.err, testing::AllOf(HasSubstr("\nreads the recordings ... "), HasSubstr("\nfits the muscles ... ")));
   EXPECT_TRUE(std::filesystem::exists(folder / "first look/result/report.html"));
   EXPECT_TRUE(std::filesystem::exists(folder / "first look/recording/truth.csv"));
+  // The list that protects a user's own files, and the names of trials, knows every file of a run.
+  std::vector<std::string> unknown;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "first look/result")) {
+    const std::string name = entry.path().filename().string();
+    const bool listed = std::ranges::find(myoid::result_names(), name) != myoid::result_names().end();
+    if (entry.is_regular_file() && !listed && !name.ends_with("_identified.osim")) unknown.push_back(name);
+  }
+  EXPECT_THAT(unknown, testing::IsEmpty());
   const std::filesystem::path page = folder / "first look/result/report.html";
   EXPECT_LE(std::filesystem::file_size(page), 3'000'000U);
   if (myoid::test::there_is("chromium")) {

@@ -12,7 +12,7 @@
 
 namespace myoid::test {
 
-/// The law of the muscles once more, from science.md alone (equations 1 to 4, 5.4, 5.5), and files read by nothing of
+/// The law of the muscles once more, from the equations of docs/theory alone, and files read by nothing of
 /// this project: numbers that the program prints are computed anew from what it wrote. Envelopes between samples by
 /// cubics, the rest by lines, equation (1) by exact steps of a tenth of a millisecond.
 

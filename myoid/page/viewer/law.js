@@ -1,4 +1,4 @@
-// The law of one muscle: the same equations, in the same order, as identification/muscle_law.cpp.
+// The law of one muscle: the same equations, in the same order, as fit/measurement/muscle_law.cpp.
 // `p`: the muscle's numbers in the order of MuscleField there.
 export const FIELD = {
   maxForce: 0, fiberLength: 1, width: 2, curvature: 3, product: 4, plateau: 5, speed: 6, slack: 7, pennation: 8,

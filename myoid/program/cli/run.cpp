@@ -10,6 +10,7 @@
 #include "myoid/fit/intervals/score.h"
 #include "myoid/ground/files/output_file.h"
 #include "myoid/ground/files/quoted_text.h"
+#include "myoid/ground/files/result_names.h"
 #include "myoid/page/report.h"
 #include "myoid/program/cli/command_help.h"
 #include "myoid/program/cli/context.h"
@@ -195,7 +196,7 @@ void tell_gates(const std::vector<page::Gate>& gates, const Context& context) {
 program::RunResult compute_run(Context& context, program::RunOptions options) {
   const auto begin = std::chrono::steady_clock::now();
   context.prepare_folder(options.out, program::kStageFolder);
-  protect_files(options.out, program::kRunFiles, {options.study});
+  protect_files(options.out, run_result_names(), {options.study});
   options.store = std::filesystem::path(options.out) / program::kStageFolder;
   program::RunResult result = program::run(options);
   const auto computed = std::chrono::steady_clock::now();

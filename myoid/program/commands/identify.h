@@ -22,13 +22,6 @@ struct IdentifyResult {
 /// cannot meet.
 [[nodiscard]] IdentifyResult identify(const IdentifyOptions& options);
 
-/// Beginnings of the names of the files that `write_identify` writes beside folders.
-inline const std::vector<std::string_view> kIdentifyFiles = [] {
-  std::vector<std::string_view> names = kRunFiles;
-  names.emplace_back("study.");
-  return names;
-}();
-
 /// Writes as `write_run`, and the study as study.toml.
 void write_identify(IdentifyResult& result, const std::filesystem::path& folder);
 

@@ -20,11 +20,6 @@ namespace myoid::program {
 /// Folder in the folder of the results with the stages that a repeated run need not compute again.
 inline constexpr const char* kStageFolder = ".stages";
 
-/// Names of the results beside the folders of trials, figures and tables.
-inline const std::vector<std::string_view> kRunFiles{"report.",          "run.json",   "methods.",     "parameters.",
-                                                     "fold_parameters.", "posterior.", "predictions.", "solvers.",
-                                                     "ceinms_",          "nmsm."};
-
 /// Options of the whole pipeline, from a study's recordings to muscle parameters.
 struct RunOptions {
   Call call;
