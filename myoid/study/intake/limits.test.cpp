@@ -188,9 +188,11 @@ void add_efforts(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
   rows.push_back(
       {"a torque of another unit", "warning",
        fmt::format("in every effort below {:g} % of the joint's strength", percent(l.joints.least_torque_share))});
-  rows.push_back({"a torque in another unit than the other trials'", "error",
-                  fmt::format("over that of the active muscles it is {:g} times the others' median, or {:g} times less",
-                              l.likeness.torque_more, l.likeness.torque_less)});
+  rows.push_back(
+      {"a torque in another unit than the other trials'", "warning",
+       fmt::format("over that of the active muscles it is {:g} times the others' median, or {:g} times less; "
+                   "an error beyond {:g} times either way",
+                   l.likeness.torque_more, l.likeness.torque_less, l.likeness.torque_unit)});
   rows.push_back({"", "not checked",
                   fmt::format("fewer than {} other trials; muscles of which antagonists leave less than {:g} %",
                               l.likeness.fewest_others, percent(l.likeness.unopposed))});
