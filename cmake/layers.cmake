@@ -83,7 +83,7 @@ set(MYOID_LAYER_steps core math files muscle tables c3d recording signals model 
 set(MYOID_LAYER_commands core files tables recording osim arm measurement intervals methods page study
     checks design run scene opensim projects exports results draft contents identify_files review virtual_person
     twin cohort steps)
-set(MYOID_LAYER_cli core math files intervals methods page study results contents review cohort mat commands
+set(MYOID_LAYER_cli core math files methods page study design results contents review cohort mat commands
     steps)
 
 # Rooms that compute little themselves: they read, write, judge and call the rooms below.

@@ -48,6 +48,19 @@ Report small_report() {
   return report;
 }
 
+TEST(TableText, HasColumnsSideBySideWithoutReasons) {
+  const Table table{.title = "Parameters",
+                    .columns = {"muscle", "l_m⁰ [m]", "why"},
+                    .rows = {text_row({"BIC", "0.12 ± 0.01", "seen"}), text_row({"Brachialis", "–", ""})}};
+  EXPECT_EQ(table_text(table),
+            "Parameters\n"
+            "muscle      l_m⁰ [m]\n"
+            "BIC         0.12 ± 0.01\n"
+            "Brachialis  –\n");
+  const std::string shown = table_text({.columns = {"name"}, .rows = {text_row({std::string(300, 'x') + "\x1b[2J"})}});
+  EXPECT_EQ(shown, "name\n" + std::string(99, 'x') + "…\n");
+}
+
 TEST(Report, ThePageNeedsNothingElse) {
   const std::string page = html(small_report());
   EXPECT_THAT(page, Not(HasSubstr("<script")));

@@ -1,5 +1,6 @@
 #include "myoid/page/tables.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -17,6 +18,11 @@ std::string csv_number(const std::vector<double>& values, std::size_t k) {
   return k < values.size() && std::isfinite(values[k]) ? fmt::format("{}", values[k]) : std::string();
 }
 
+/// Returns the number of characters of a text in UTF-8.
+std::size_t characters(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
 }  // namespace
 
 std::string csv_line(const std::vector<std::string>& cells) {
@@ -31,6 +37,29 @@ std::string table_csv(const Table& table) {
     std::vector<std::string> texts;
     for (const Cell& cell : row) texts.push_back(cell.text);
     text += csv_line(texts);
+  }
+  return text;
+}
+
+std::string table_text(const Table& table) {
+  constexpr std::size_t kMostInCell = 100;
+  std::vector<std::size_t> width;
+  std::vector<std::vector<std::string>> lines(1 + table.rows.size());
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (table.columns[c] == "why") continue;
+    lines[0].push_back(table.columns[c]);
+    for (std::size_t r = 0; r < table.rows.size(); ++r)
+      lines[1 + r].push_back(elided(ground::visible_text(table.rows[r][c].text), kMostInCell));
+    std::size_t widest = 0;
+    for (const std::vector<std::string>& line : lines) widest = std::max(widest, characters(line.back()));
+    width.push_back(widest);
+  }
+  std::string text = table.title.empty() ? "" : table.title + '\n';
+  for (const std::vector<std::string>& line : lines) {
+    std::string cells;
+    for (std::size_t c = 0; c < line.size(); ++c)
+      cells += line[c] + std::string(width[c] - characters(line[c]) + 2, ' ');
+    text += cells.substr(0, cells.find_last_not_of(' ') + 1) + '\n';
   }
   return text;
 }

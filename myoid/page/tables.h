@@ -14,6 +14,10 @@ namespace myoid::page {
 /// Returns one row of it, with the end of the line.
 [[nodiscard]] std::string csv_line(const std::vector<std::string>& cells);
 
+/// Returns the table for a terminal: the title, then the columns side by side, a line a row. Reasons (a column "why"),
+/// captions, badges and hints are left out; a long cell ends in an ellipsis.
+[[nodiscard]] std::string table_text(const Table& table);
+
 /// Returns a table's row of plain texts.
 [[nodiscard]] std::vector<Cell> text_row(std::vector<std::string> texts);
 

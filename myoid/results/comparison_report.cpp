@@ -77,28 +77,11 @@ page::ChangeForest changes_of(const RunComparison& comparison) {
 
 page::Section method_section(const RunComparison& comparison, fit::Method of) {
   const std::string method(name(of));
-  page::Table table{.id = "compared_" + method,
-                    .title = "Parameters",
-                    .caption = "Number with its 95 % interval. p-values are adjusted for their number (Holm).",
-                    .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
-                                session_name("second", comparison.second_date), "difference", "%", "verdict"}};
-  for (const ComparedParameter& p : comparison.parameters) {
-    if (p.first.method != of) continue;
-    const PlainUnit unit = page::plain_unit(p.first.unit);
-    table.rows.push_back({{owner_name(p)},
-                          {number_name(p.first)},
-                          {unit.symbol.empty() ? "–" : std::string(unit.symbol)},
-                          {value_text(shown(p.of_first, unit))},
-                          {value_text(shown(p.of_second, unit))},
-                          {page::format_value(p.difference * unit.per_si)},
-                          {percent_text(p)},
-                          {verdict(p), badge(p.change), change_text(p)}});
-  }
   return {.id = "method_" + method,
           .heading = rests_on_measurement(of) ? "All numbers of method " + method
                                               : "Method " + method + ": shown, not compared",
           .folded = !rests_on_measurement(of),
-          .tables = {std::move(table)}};
+          .tables = {compared_table(comparison, of, true)}};
 }
 
 page::Section errors_section(const RunComparison& comparison) {
@@ -120,6 +103,28 @@ std::string headline(const RunComparison& comparison) {
 }
 
 }  // namespace
+
+page::Table compared_table(const RunComparison& comparison, fit::Method of, bool all) {
+  page::Table table{.id = fmt::format("compared_{}", name(of)),
+                    .title = fmt::format("Parameters (method {})", name(of)),
+                    .caption = "Number with its 95 % interval. p-values are adjusted for their number (Holm).",
+                    .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
+                                session_name("second", comparison.second_date), "difference", "%", "p", "verdict"}};
+  for (const ComparedParameter& p : comparison.parameters) {
+    if (p.first.method != of || (!all && p.change == Change::cannot_tell)) continue;
+    const PlainUnit unit = page::plain_unit(p.first.unit);
+    table.rows.push_back({{owner_name(p)},
+                          {number_name(p.first)},
+                          {unit.symbol.empty() ? "–" : std::string(unit.symbol)},
+                          {value_text(shown(p.of_first, unit))},
+                          {value_text(shown(p.of_second, unit))},
+                          {page::format_value(p.difference * unit.per_si)},
+                          {percent_text(p)},
+                          {p.p_value ? fmt::format("{:.2g}", *p.p_value) : "–"},
+                          {verdict(p), badge(p.change), change_text(p)}});
+  }
+  return table;
+}
 
 page::Report comparison_report(const RunComparison& comparison) {
   page::Report page{

@@ -109,12 +109,6 @@ Table branch_table(const IdentificationResult& method,
 
 }  // namespace
 
-std::string published_sentence(const PublishedSearch& search) {
-  const std::string who = fmt::format("{}, {}: ", search.muscle, name(search.fit_case));
-  if (without_search(search)) return who + search.message;
-  return fmt::format("{}{}; plain steps: {}", who, ended(search), plain_ended(search));
-}
-
 std::vector<Table> paper_tables(const IdentificationResult& method) {
   Table searches{.id = "published_searches",
                  .title = "The searches",

@@ -10,10 +10,6 @@
 
 namespace myoid::results {
 
-/// Says how a search of method `paper` ended and how plain steps fared: "BIC, shortening: minimum of the published
-/// criterion after 9 steps; plain steps: diverged after 5".
-[[nodiscard]] std::string published_sentence(const fit::PublishedSearch& search);
-
 /// Returns the source paper's tables I and II (shortening, lengthening) with its columns, start and estimate of each
 /// muscle in two rows, and a table of the searches.
 [[nodiscard]] std::vector<page::Table> paper_tables(const fit::IdentificationResult& method);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +11,7 @@
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/ground/core/numbers.h"
+#include "myoid/page/tables.h"
 #include "myoid/results/prediction_files.h"
 #include "myoid/run/prediction_gates.h"
 
@@ -35,9 +38,12 @@ std::vector<double> after_delay(const Eigen::VectorXd& predicted, const Eigen::V
   return curve;
 }
 
-/// Returns the name of the trial, and of the joint if there are several.
+/// Returns the name of the trial, and of the joint (or the muscle, of method `force`) if there are several.
 std::string title_of(const run::StudyResult& result, const std::string& trial, const std::string& joint) {
-  return result.source.study.model.more_coordinates.empty() ? trial : fmt::format("{}, {}", trial, joint);
+  const bool several =
+      !result.source.study.model.more_coordinates.empty() ||
+      std::ranges::any_of(result.folds, [&](const fit::Fold& f) { return f.joint != result.folds.front().joint; });
+  return several ? fmt::format("{}, {}", trial, joint) : trial;
 }
 
 /// Draws measured, literature's and identified torque, and the band about the last.
@@ -172,6 +178,29 @@ Figure held_back_figure(const run::StudyResult& result, const fit::Identificatio
   return figure;
 }
 
+/// Returns the errors of fiber lengths, a row for each muscle of each trial that has measured fascicles; without rows
+/// if no trial has.
+template <typename Scored>
+Table fibers_table(std::string id, std::string_view of, const std::vector<Scored>& scored) {
+  Table table{.id = std::move(id),
+              .title = fmt::format("Fiber lengths predicted for {} beside the measured fascicles", of),
+              .columns = {"trial", "muscle", "RMS [mm]"}};
+  for (const Scored& one : scored)
+    for (const fit::FiberScore& fiber : one.fibers)
+      table.rows.push_back(page::text_row({one.trial, fiber.muscle, fmt::format("{:.2f}", 1e3 * fiber.rms_m())}));
+  return table;
+}
+
+/// Returns the section on measured fascicles; empty if no trial has any.
+std::optional<Section> fibers_section(const run::StudyResult& result, const fit::IdentificationResult* torque) {
+  Section section{.id = "fascicles", .heading = "Fiber lengths beside measured fascicles"};
+  section.tables = {fibers_table("fibers_held_out", "what was left out", result.folds),
+                    fibers_table("fibers", "all trials by the whole fit",
+                                 torque != nullptr ? torque->trials : std::vector<fit::TrialFit>())};
+  std::erase_if(section.tables, [](const Table& table) { return table.rows.empty(); });
+  return section.tables.empty() ? std::nullopt : std::optional(std::move(section));
+}
+
 std::string range_text(const Eigen::VectorXd& values, int decimals) {
   return fmt::format("{:.{}f} to {:.{}f}", values.minCoeff(), decimals, values.maxCoeff(), decimals);
 }
@@ -194,6 +223,7 @@ std::vector<Section> validation_sections(const run::StudyResult& result) {
                         .tables = {held_back_table(result, *torque)},
                         .figures = {held_back_figure(result, *torque)}});
   }
+  if (auto fibers = fibers_section(result, torque)) sections.push_back(std::move(*fibers));
   return sections;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/units.h"
+#include "myoid/page/tables.h"
 
 namespace myoid::results {
 namespace {
@@ -53,6 +54,17 @@ TEST(TorqueReport, EveryJointOfATrialHasItsRowAndItsPanel) {
     EXPECT_EQ(section.tables[0].rows[1][0].text, "squat, ankle");
     EXPECT_EQ(section.figures.at(0).panels.size(), 2U);
   }
+}
+
+TEST(TorqueReport, MeasuredFasciclesHaveATableOfWhatWasLeftOutAndOneOfTheWholeFit) {
+  run::StudyResult result = two_joints();
+  result.folds[0].fibers = {{.muscle = "TA", .n = 4.0, .sse_m2 = 4.0 * 0.002 * 0.002}};
+  result.fit.methods[0].trials[0].fibers = {{.muscle = "TA", .n = 1.0, .sse_m2 = 0.001 * 0.001}};
+  const std::vector<page::Section> sections = validation_sections(result);
+  ASSERT_EQ(sections.size(), 3U);
+  ASSERT_EQ(sections[2].tables.size(), 2U);
+  EXPECT_EQ(page::table_csv(sections[2].tables[0]), "trial,muscle,RMS [mm]\nsquat,TA,2.00\n");
+  EXPECT_EQ(page::table_csv(sections[2].tables[1]), "trial,muscle,RMS [mm]\nsquat,TA,1.00\n");
 }
 
 TEST(TorqueReport, RangesOfSeveralJointsStandInTheOrderOfTheCoordinates) {

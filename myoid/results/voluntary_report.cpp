@@ -74,18 +74,6 @@ std::string spelled_verdict(const ParameterEstimate& e) { return page::spelled(f
 
 std::string size_text(const ParameterEstimate& e) { return page::format_beside(e.estimate, e.ci_low, e.ci_high); }
 
-std::string sentence(const VoluntaryLine& line) {
-  const ParameterEstimate& torque = *line.torque;
-  std::string text = fmt::format("{}: {} N m", line.name, size_text(torque));
-  if (line.angle != nullptr) text += " at " + line.place;
-  text += fmt::format(", 95 % {} N m", page::format_interval(*torque.ci_low, *torque.ci_high));
-  if (line.angle != nullptr)
-    text += fmt::format(" and {} to {}", degrees(*line.angle->ci_low), degrees(*line.angle->ci_high));
-  text += fmt::format(" ({}", spelled_verdict(torque));
-  if (line.angle != nullptr && line.angle->verdict != torque.verdict) text += "; angle " + spelled_verdict(*line.angle);
-  return text + (line.curve->from_mvc ? ")" : "; at the largest recorded EMG, no maximal contraction was recorded)");
-}
-
 /// Returns "41 at 60°/s, 73 at 120°/s" of the powers of a curve.
 std::string powers_text(const IdentificationResult& method, const VoluntaryCurve& curve) {
   std::vector<std::string> powers;
@@ -207,12 +195,6 @@ std::string short_name(const VoluntaryCurve& curve) {
 bool is_told(const ParameterEstimate& e) {
   return e.verdict == fit::Verdict::identified || e.verdict == fit::Verdict::reproducible ||
          e.verdict == fit::Verdict::weak;
-}
-
-std::vector<std::string> voluntary_sentences(const IdentificationResult& method) {
-  std::vector<std::string> sentences;
-  for (const VoluntaryLine& line : voluntary_lines(method)) sentences.push_back(sentence(line));
-  return sentences;
 }
 
 std::string voluntary_headline(const IdentificationResult& method) {

@@ -19,7 +19,8 @@ struct VoluntaryLine {
 };
 
 /// Returns the lines in the order of IdentificationResult::voluntary. A joint's torque that one muscle makes is that
-/// muscle's line, and has none of its own.
+/// muscle's line, and has none of its own. Muscles have their plain names (page/muscle_names.h). The place is "110° or
+/// beyond" where the torque is greatest at the end of the recorded range.
 [[nodiscard]] std::vector<VoluntaryLine> voluntary_lines(const fit::IdentificationResult& method);
 
 /// Returns "Biceps", or "elbow flexion together" of a joint's muscles.
@@ -28,14 +29,6 @@ struct VoluntaryLine {
 /// Returns true if the recording tells the number for the person, or for sessions of the person.
 [[nodiscard]] bool is_told(const fit::ParameterEstimate& e);
 
-/// Returns a sentence for each of `voluntary_lines`:
-///
-///   Biceps: 41.2 N m at 85°, 95 % 38.1 to 44.6 N m and 78° to 91° (identified; angle weak)
-///
-/// Muscles have their plain names (page/muscle_names.h). "at 110° or beyond" where the torque is greatest at the end
-/// of the recorded range.
-[[nodiscard]] std::vector<std::string> voluntary_sentences(const fit::IdentificationResult& method);
-
 /// Returns the torques that the recording tells, as the report's first sentence with a blank behind it; empty: none.
 ///
 ///   Greatest voluntary torque (95 % interval, identified): Biceps 43 N m (36 to 50) at 92°; Triceps 52 N m (47 to 58).
@@ -43,7 +36,7 @@ struct VoluntaryLine {
 /// Each number has a verdict of its own where they differ.
 [[nodiscard]] std::string voluntary_headline(const fit::IdentificationResult& method);
 
-/// Returns the section of the greatest voluntary torques: the sentences, a table, and the torque over the angle.
+/// Returns the section of the greatest voluntary torques: a table, and the torque over the angle.
 [[nodiscard]] page::Section voluntary_section(const run::StudyResult& result, const fit::IdentificationResult& method);
 
 /// Returns the curves, one row per owner and place, with the columns of docs/guide/run.md.

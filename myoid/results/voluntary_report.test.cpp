@@ -14,7 +14,6 @@ using fit::Verdict;
 using fit::VoluntaryCurve;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 
 ParameterEstimate row(const std::string& parameter, Unit unit, double low, double value, double high, Verdict verdict) {
   ParameterEstimate e{.muscle = "BIC", .tied_to = {}, .parameter = parameter, .unit = unit};
@@ -48,37 +47,40 @@ IdentificationResult biceps() {
   return method;
 }
 
-TEST(VoluntarySentences, SayTorqueAngleAndIntervals) {
-  EXPECT_THAT(voluntary_sentences(biceps()),
-              ElementsAre("Biceps: 41.0 N m at 85°, 95 % 38.0 to 44.0 N m and 78° to 91° (identified; angle weak)"));
+/// Returns the row of the first curve in the section's table.
+std::vector<std::string> row_of(const IdentificationResult& method) {
+  const page::Section section = voluntary_section({}, method);
+  std::vector<std::string> texts;
+  for (const page::Cell& cell : section.tables.at(0).rows.at(0)) texts.push_back(cell.text);
+  return texts;
 }
 
-TEST(VoluntarySentences, AnOptimumAtTheEndIsAtOrBeyond) {
+TEST(VoluntaryTable, SaysTorqueAngleAndIntervals) {
+  EXPECT_THAT(row_of(biceps()), ElementsAre("Biceps (BIC)", "41.0", "38.0 to 44.0", "identified", "85°", "78 to 91",
+                                            "weak", "40.0 at 60°/s", "39.5 to 42.5"));
+}
+
+TEST(VoluntaryTable, AnOptimumAtTheEndIsAtOrBeyond) {
   IdentificationResult method = biceps();
   method.voluntary[0].torque_nm = Eigen::Vector3d(35.0, 41.0, 45.0);
-  EXPECT_THAT(voluntary_sentences(method)[0], HasSubstr("at 85° or beyond,"));
+  EXPECT_EQ(row_of(method)[4], "85° or beyond");
+  EXPECT_EQ(voluntary_lines(method)[0].place, "85° or beyond");
 }
 
-TEST(VoluntarySentences, OfAJointNameItsMusclesFirst) {
+TEST(VoluntaryTable, OfAJointNamesItsMusclesFirst) {
   IdentificationResult method = biceps();
   method.voluntary[0].of_joint = true;
   method.voluntary[0].direction = -1;
   method.voluntary[0].muscles = {"BIC", "BRA"};
-  EXPECT_THAT(voluntary_sentences(method)[0], testing::AllOf(testing::StartsWith("Biceps + Brachialis together ("),
-                                                             HasSubstr(", negative direction): 41.0")));
+  EXPECT_EQ(voluntary_lines(method)[0].name, "Biceps + Brachialis together (elbow flexion, negative direction)");
 }
 
-TEST(VoluntarySentences, WithoutAMaximalContractionSaySo) {
-  IdentificationResult method = biceps();
-  method.voluntary[0].from_mvc = false;
-  EXPECT_THAT(voluntary_sentences(method)[0], HasSubstr("at the largest recorded EMG"));
-}
-
-TEST(VoluntarySentences, WithoutAnglesHaveNone) {
+TEST(VoluntaryTable, WithoutAnglesHasNone) {
   IdentificationResult method = biceps();
   method.voluntary[0].angle_rad.resize(0);
   method.estimates.erase(method.estimates.begin() + 1);
-  EXPECT_THAT(voluntary_sentences(method)[0], Not(HasSubstr("°")));
+  EXPECT_EQ(row_of(method)[4], "–");
+  EXPECT_EQ(row_of(method)[5], "–");
 }
 
 TEST(VoluntaryHeadline, HoldsOnlyTorquesAndAnglesThatTheRecordingTells) {

@@ -410,9 +410,9 @@ TEST(IdentifyFromFiles, ATrialThatIsHeldBackIsNotListedAsFitted) {
   ASSERT_EQ(predictions.size(), 1U);
   EXPECT_EQ(predictions[0].at("trial"), "2 (l2)");
   EXPECT_EQ(predictions[0].at("fitted"), "false");
-  const std::size_t list = run.out.find("\nvalidation trials");
+  const std::size_t list = run.out.find("\nTrials held back for validation\n");
   ASSERT_NE(list, std::string::npos) << run.out;
-  EXPECT_EQ(run.out.find("\n1 (l1)", list), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.substr(list, run.out.find("\n\n", list) - list).find("\n1 (l1)"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("\n2 (l2)", list), std::string::npos) << run.out;
 }
 
@@ -469,7 +469,7 @@ TEST(IdentifyFromFiles, SeveralTrialsOfForcesPredictEachOther) {
   arguments.emplace_back("--verbose");
   const Finished run = myoid(arguments);
   EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("muscle force predicted"));
+  EXPECT_THAT(run.out, HasSubstr("Leave-one-trial-out prediction of the muscle force"));
   EXPECT_THAT(run.out, HasSubstr("1 (l1), A"));
   EXPECT_THAT(run.out, HasSubstr("3 (l3), B"));
 }

@@ -57,8 +57,12 @@ class Results:
 
     def voluntary(self, run, owner):
         """The row of a muscle or of a joint's muscles in the table of greatest voluntary torques, as the report has it."""
-        with open(self.folder / run / "tables" / "voluntary_torque.csv", encoding="utf-8") as file:
-            return next(line for line in csv.DictReader(file) if line["muscle or joint"].startswith(owner))
+        return next(row for row in self.table(run, "voluntary_torque") if row["muscle or joint"].startswith(owner))
+
+    def table(self, run, name):
+        """The rows of a table of the report."""
+        with open(self.folder / run / "tables" / f"{name}.csv", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
 
     def true(self, muscle, parameter):
         with open(self.folder / "tutorial_person" / "truth.csv", encoding="utf-8") as file:
@@ -146,9 +150,8 @@ def expected(estimate, scale, form):
 
 
 def planned(r):
-    before, = r.found(ELBOW, r"are identified now, median 95 % interval \+-(\d+) %")
-    steps = re.findall(r"identified, \+-(\d+) %", r.printed[ELBOW])
-    return [before, steps[-1]]
+    before, *_, after = r.table(ELBOW, "next_recording")
+    return [re.search(r"\d+", row["median interval"]).group() for row in (before, after)]
 
 
 def moved(r):

@@ -1,19 +1,17 @@
 #include "myoid/program/commands/compare.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/ground/core/json_text.h"
 #include "myoid/page/json_values.h"
-#include "myoid/page/plain_unit.h"
-#include "myoid/page/report.h"
+#include "myoid/page/tables.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
 #include "myoid/results/change_sentences.h"
+#include "myoid/results/comparison_report.h"
 
 namespace myoid::program {
 namespace {
@@ -50,30 +48,12 @@ nlohmann::ordered_json to_json(const results::RunComparison& comparison) {
 
 /// Prints the sentence and the numbers that both sessions tell; with `all` the others, too.
 void print(const results::RunComparison& comparison, bool all) {
-  std::size_t owner = 6, parameter = 16;
-  const auto labelled = [](const results::ComparedParameter& p) {
-    const std::string_view unit = page::plain_unit(p.first.unit).symbol;
-    return unit.empty() ? p.first.parameter : fmt::format("{} [{}]", p.first.parameter, unit);
-  };
-  for (const results::ComparedParameter& p : comparison.parameters) {
-    owner = std::max(owner, in_column(p.muscle).size());
-    parameter = std::max(parameter, labelled(p).size());
-  }
-  say("{}\n\n", results::changes_sentence(comparison));
-  for (const std::string& sentence : {results::unlike_sentence(comparison), results::reading_sentence(comparison)})
+  for (const std::string& sentence : {results::changes_sentence(comparison), results::unlike_sentence(comparison),
+                                      results::reading_sentence(comparison)})
     if (!sentence.empty()) say("{}\n\n", sentence);
-  say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", "muscle", owner, "parameter [unit]", parameter, "first",
-      "second", "difference", "%", "p", "verdict");
-  for (const results::ComparedParameter& p : comparison.parameters) {
-    if (!results::rests_on_measurement(p.first.method) || (!all && p.change == results::Change::cannot_tell))
-      continue;  // in the report
-    const double per_si = page::plain_unit(p.first.unit).per_si;
-    say("{:<{}}  {:<{}} {:>10} {:>10} {:>11} {:>7} {:>9}  {}\n", in_column(p.muscle), owner, labelled(p), parameter,
-        page::format_value(per_si * p.of_first.value), page::format_value(per_si * p.of_second.value),
-        page::format_value(per_si * p.difference),
-        p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value)),
-        p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", results::name(p.change));
-  }
+  for (const fit::Method method : results::methods_of(comparison))
+    if (results::rests_on_measurement(method))
+      say("{}", page::table_text(results::compared_table(comparison, method, all)));
   for (const std::string& remark : sentences(comparison.remarks)) say("{}\n", remark);
 }
 

@@ -1,39 +1,25 @@
 #include "myoid/program/commands/design.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/ground/core/json_text.h"
+#include "myoid/page/tables.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
+#include "myoid/run/design/design_report.h"
 
 namespace myoid::program {
 namespace {
 
 using fit::ParameterEstimate;
 
+/// Prints the plan and the targets as the report of a run has them; a sentence where no movement is left.
 void print_plan(const run::DesignStudyResult& result) {
-  say("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest", "median 95 %", "identified");
-  say("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
-      fmt::format("of {}", result.beforehand.size()));
-  say("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
-      run::median_half_width(result.beforehand), run::identified_count(result.beforehand));
-  for (std::size_t i = 0; i < result.plan.size(); ++i) {
-    const run::PlannedMovement& m = result.plan[i];
-    say("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1, m.movement.description(), m.movement.duration_s,
-        m.rest_before_s, run::median_half_width(m.expected), run::identified_count(m.expected));
-  }
-  if (result.plan.empty()) return;
-  say("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}", "target", "beforehand");
-  for (std::size_t i = 0; i < result.plan.size(); ++i) say(" {:>7}", i + 1);
-  say("  verdict\n");
-  for (std::size_t t = 0; t < result.beforehand.size(); ++t) {
-    const ParameterEstimate& before = result.beforehand[t];
-    say("{:<38} {:>11.1f}", before.muscle + "." + before.parameter, run::relative_half_width(before));
-    for (const run::PlannedMovement& m : result.plan) say(" {:>7.1f}", run::relative_half_width(m.expected[t]));
-    say("  {}\n", fit::name(result.plan.back().expected[t].verdict));
-  }
+  const page::Section section = run::next_recording_section(result);
+  if (section.tables.empty()) say("{}\n", fmt::join(section.paragraphs, "\n"));
+  for (const page::Table& table : section.tables) say("{}\n", page::table_text(table));
 }
 
 nlohmann::ordered_json estimates_json(const std::vector<ParameterEstimate>& estimates) {

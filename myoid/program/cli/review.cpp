@@ -4,6 +4,7 @@
 
 #include "myoid/ground/core/json_text.h"
 #include "myoid/page/json_values.h"
+#include "myoid/page/tables.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
@@ -58,14 +59,9 @@ ordered_json to_json(const results::SecondOpinion& opinion) {
           {"says", results::review_sentences(opinion)}};
 }
 
-std::string r2_text(const std::optional<fit::Score>& score) { return score ? fit::r2_text(score->r2()) : "-"; }
-
 void print(const results::SecondOpinion& opinion) {
   for (const std::string& sentence : results::review_sentences(opinion)) say("{}\n", sentence);
-  say("\n{:<24} {:<20} {:<12} {:>9} {:>21}\n", "trial", "joint", "their use", "their R2", "Myoid's R2, left out");
-  for (const results::ReviewedTorque& t : opinion.torques)
-    say("{:<24} {:<20} {:<12} {:>9} {:>21}\n", in_column(t.trial), in_column(t.joint),
-        t.is_calibrating ? "calibration" : "other", r2_text(t.theirs), r2_text(t.ours));
+  say("\n{}", page::table_text(results::torque_table(opinion)));
 }
 
 void carry_out(Context& context, const ReviewOptions& o, const CLI::App& /*command*/) {

@@ -123,25 +123,6 @@ page::Cell error_cell(const std::optional<fit::Score>& score) {
   return {score ? page::format_value(score->rmse_nm()) : "–"};
 }
 
-Table torque_table(const SecondOpinion& opinion) {
-  Table table{.id = "torques",
-              .title = "Torque by joint and trial",
-              .caption =
-                  "Theirs: by the calibrated subject and its own law, all muscles of the joint. Myoid's: by a fit "
-                  "without this trial.",
-              .columns = {"trial", "joint", "their use", "their R2", "their error [N m]", "Myoid's R2, left out",
-                          "Myoid's error [N m]"}};
-  for (const ReviewedTorque& t : opinion.torques)
-    table.rows.push_back({{t.trial},
-                          {joint_name(t.joint)},
-                          {t.is_calibrating ? "calibration" : "other"},
-                          r2_cell(t.theirs),
-                          error_cell(t.theirs),
-                          r2_cell(t.ours),
-                          error_cell(t.ours)});
-  return table;
-}
-
 page::Figure torque_figure(const SecondOpinion& opinion) {
   page::Figure figure{.id = "review_torques",
                       .title = "Measured and predicted torque",
@@ -257,6 +238,25 @@ std::string next_text(const SecondOpinion& opinion) {
 }
 
 }  // namespace
+
+page::Table torque_table(const SecondOpinion& opinion) {
+  Table table{.id = "torques",
+              .title = "Torque by joint and trial",
+              .caption =
+                  "Theirs: by the calibrated subject and its own law, all muscles of the joint. Myoid's: by a fit "
+                  "without this trial.",
+              .columns = {"trial", "joint", "their use", "their R2", "their error [N m]", "Myoid's R2, left out",
+                          "Myoid's error [N m]"}};
+  for (const ReviewedTorque& t : opinion.torques)
+    table.rows.push_back({{t.trial},
+                          {joint_name(t.joint)},
+                          {t.is_calibrating ? "calibration" : "other"},
+                          r2_cell(t.theirs),
+                          error_cell(t.theirs),
+                          r2_cell(t.ours),
+                          error_cell(t.ours)});
+  return table;
+}
 
 std::vector<std::string> review_sentences(const SecondOpinion& opinion) {
   std::vector<std::string> sentences;

@@ -32,7 +32,7 @@ page::Table plan_table(const DesignStudyResult& design) {
       {"", "movement", "duration", "rest before", "median interval", "identified"},
       {}};
   table.rows.push_back({{"0"},
-                        {"what this recording tells"},
+                        {"what is known beforehand"},
                         {"-"},
                         {"-"},
                         {fmt::format("+- {:.0f} %", median_half_width(design.beforehand))},
@@ -53,16 +53,19 @@ page::Table targets_table(const DesignStudyResult& design) {
   page::Table table{
       "next_recording_targets",
       "What they would tell",
-      "Half 95 % interval now and after all of the movements above, and the verdict that may then be expected.",
-      {"muscle", "parameter", "now", "then", "verdict then"},
+      "Half 95 % interval now, after each of the movements above and then, after all of them, and the verdict that may "
+      "then be expected.",
+      {"muscle", "parameter", "now"},
       {}};
-  const std::vector<ParameterEstimate>& then = design.plan.back().expected;
-  for (std::size_t t = 0; t < then.size(); ++t) {
-    table.rows.push_back({{then[t].muscle},
-                          {then[t].parameter},
-                          {half_width_text(design.beforehand[t])},
-                          {half_width_text(then[t])},
-                          {std::string(fit::name(then[t].verdict)), plan_badge(then[t].verdict)}});
+  for (std::size_t i = 1; i < design.plan.size(); ++i) table.columns.push_back(fmt::format("after {}", i));
+  table.columns.insert(table.columns.end(), {"then", "verdict then"});
+  for (std::size_t t = 0; t < design.beforehand.size(); ++t) {
+    const ParameterEstimate& before = design.beforehand[t];
+    std::vector<Cell> row{{before.muscle}, {before.parameter}, {half_width_text(before)}};
+    for (const PlannedMovement& m : design.plan) row.push_back({half_width_text(m.expected[t])});
+    const Verdict then = design.plan.back().expected[t].verdict;
+    row.push_back({std::string(fit::name(then)), plan_badge(then)});
+    table.rows.push_back(std::move(row));
   }
   return table;
 }

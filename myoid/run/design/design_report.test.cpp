@@ -24,18 +24,24 @@ TEST(NextRecording, EveryMovementHasTheIntervalThatFollowsIt) {
   first.movement.duration_s = 11.0;
   first.rest_before_s = 30.0;
   first.expected = {estimate(500.0, 50.0, fit::Verdict::identified)};
-  design.plan = {first};
+  PlannedMovement second = first;
+  second.expected = {estimate(500.0, 25.0, fit::Verdict::identified)};
+  design.plan = {first, second};
   const page::Section section = next_recording_section(design);
   ASSERT_EQ(section.tables.size(), 2U);
   const auto& plan = section.tables[0].rows;
-  ASSERT_EQ(plan.size(), 2U);
+  ASSERT_EQ(plan.size(), 3U);
   EXPECT_EQ(plan[0][4].text, "+- 50 %");
   EXPECT_EQ(plan[0][5].text, "0 of 1");
   EXPECT_EQ(plan[1][3].text, "30 s");
   EXPECT_EQ(plan[1][4].text, "+- 10 %");
   EXPECT_EQ(plan[1][5].text, "1 of 1");
-  EXPECT_EQ(section.tables[1].rows[0][2].text, "+- 50 %");
-  EXPECT_EQ(section.tables[1].rows[0][3].text, "+- 10 %");
+  const page::Table& targets = section.tables[1];
+  EXPECT_EQ(targets.columns,
+            (std::vector<std::string>{"muscle", "parameter", "now", "after 1", "then", "verdict then"}));
+  EXPECT_EQ(targets.rows[0][2].text, "+- 50 %");
+  EXPECT_EQ(targets.rows[0][3].text, "+- 10 %");
+  EXPECT_EQ(targets.rows[0][4].text, "+- 5 %");
 }
 
 TEST(NextRecording, WithoutAPossibleMovementItSaysWhatToDo) {
