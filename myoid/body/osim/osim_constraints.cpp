@@ -80,7 +80,7 @@ void read_constraints(OsimReading& r, pugi::xml_node set) {
 }
 
 void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& owner) {
-  if (!is_enabled(r, node, "isEnforced")) return;
+  if (!r.xml.flag(node, "isEnforced", true)) return;
   const std::string kind = node.name();
   const std::string name = OsimXml::name_of(node);
   if (kind == "CoordinateCouplerConstraint") {
@@ -90,8 +90,8 @@ void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& own
     r.model.constraints.push_back(
         {name, kind, FrameConstraint{first.body, second.body, first.X_BF, second.X_BF, true}});
   } else if (kind == "PointConstraint") {
-    const FixedFrame first = frame_of(r, node, "body_1", owner, "body_1");
-    const FixedFrame second = frame_of(r, node, "body_2", owner, "body_2");
+    const FixedFrame first = frame_of(r, node, "body_1", owner);
+    const FixedFrame second = frame_of(r, node, "body_2", owner);
     FrameConstraint law{first.body, second.body, first.X_BF, second.X_BF, false};
     law.X_BF1.p = first.X_BF * r.xml.vec3(node, "location_body_1", Vec3::Zero());
     law.X_BF2.p = second.X_BF * r.xml.vec3(node, "location_body_2", Vec3::Zero());
@@ -103,7 +103,7 @@ void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& own
                                    DistanceConstraint{first.body, second.body, first.p_B, second.p_B,
                                                       r.xml.number(node, "constant_distance", 0.0)}});
   } else if (kind == "PointOnLineConstraint") {
-    const FixedFrame line = frame_of(r, node, "line_body", owner, "line_body");
+    const FixedFrame line = frame_of(r, node, "line_body", owner);
     const Vec3 direction = line.X_BF.R * direction_of(r, node, "line_direction_vec", Vec3::UnitX());
     const BodyPoint start = point_of(r, node, owner, "line_body", "point_on_line");
     const BodyPoint follower = point_of(r, node, owner, "follower_body", "point_on_follower");

@@ -41,7 +41,7 @@ std::optional<Surface> read_surface(OsimReading& r, pugi::xml_node force, const 
                      : fmt::format("there is no contact geometry '{}'", name));
     return {};
   }
-  const FixedFrame frame = frame_of(r, node, "frame", "/contactgeometryset/" + name, "body_name");
+  const FixedFrame frame = frame_of(r, node, "frame", "/contactgeometryset/" + name);
   Surface surface{name, frame.body, frame.X_BF * pose_of(r, node, "location", "orientation"), {}, {}};
   if (kind == "ContactSphere") {
     surface.radius_m = r.xml.number(node, "radius", 0.0);

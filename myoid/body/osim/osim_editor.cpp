@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/body/osim/osim_update_parts.h"
+#include "myoid/body/osim/osim_updater.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/index.h"
 #include "myoid/ground/files/text_file.h"
@@ -62,6 +63,12 @@ void scale_meshes(const OsimXml& xml, pugi::xml_node holder, const Vec3& factor)
     if (const auto object = holder.child(name)) multiply(xml, object, "scale_factors", factor);
 }
 
+/// Returns a set that stands in the skeleton or in the model: "MarkerSet", "ConstraintSet".
+pugi::xml_node set_of(pugi::xml_node skeleton, pugi::xml_node model, const char* name) {
+  const auto set = skeleton.child(name);
+  return set ? set : model.child(name);
+}
+
 /// Returns the factors by which unit vectors along the axes of a frame become longer.
 Vec3 stretch(const Mat3& R, const Vec3& factor) {
   Vec3 result;
@@ -72,12 +79,25 @@ Vec3 stretch(const Mat3& R, const Vec3& factor) {
 }  // namespace
 
 OsimEditor::OsimEditor(std::string text, std::filesystem::path path)
-    : path_(std::move(path)), xml_(std::move(text), path_), reading_(xml_) {
+    : path_(std::move(path)), xml_(text, path_), newest_(std::move(text), path_), reading_(is_old() ? newest_ : xml_) {
   model_ = xml_.root().child("Model");
   if (!model_) xml_.fail(xml_.root(), "the document has no <Model>");
+  constexpr int kFirstRelease = 40000;  // between are version 4's betas
+  OsimXml& read = is_old() ? newest_ : xml_;
+  if (xml_.version() < kFirstRelease) (void)bring_to_newest_form(read, {.looks = false});
   xml_.set_prototypes(model_.child("defaults"));
-  skeleton_ = skeleton_of(model_);
-  read_bodies(reading_, skeleton_);
+  const auto engine = OsimXml::first_element(model_.child("DynamicsEngine"));
+  skeleton_ = engine && !model_.child("BodySet") ? engine : model_;
+  read_bodies(reading_, read.root().child("Model"));
+}
+
+bool OsimEditor::is_old() const { return xml_.version() < kFirstOsimWithSockets; }
+
+FixedFrame OsimEditor::frame_named(pugi::xml_node node, const char* socket, const std::string& owner) const {
+  std::string name = xml_.word(node, fmt::format("socket_{}", socket).c_str());
+  if (name.empty()) name = xml_.word(node, "body");
+  if (name.empty()) xml_.fail(node, "{} '{}' names no frame", node.name(), OsimXml::name_of(node));
+  return resolve_frame(reading_, node, std::move(name), owner);
 }
 
 std::string OsimEditor::text() const {
@@ -106,16 +126,16 @@ void OsimEditor::add_markers(const std::filesystem::path& file) {
   auto own = marker_set();
   if (!own) own = skeleton_.append_child("MarkerSet");
   auto objects = child_or_new(own, "objects");
-  const OsimReading reading{source};
+  (void)bring_to_newest_form(source, {.looks = false});
   for (const auto node : OsimXml::objects(set)) {
     if (std::string_view(node.name()) != "Marker") continue;
     const std::string name = OsimXml::name_of(node);
     if (const auto old = marker(name)) objects.remove_child(old);
-    std::string body = socket(reading, node, "parent_frame", "body");
+    std::string body = source.word(node, "socket_parent_frame");
     if (body.empty()) source.fail(node, "marker '{}' is on no body", name);
     auto added = objects.append_child("Marker");
     added.append_attribute("name") = name.c_str();
-    if (reading_.is_old()) {
+    if (is_old()) {
       if (const auto slash = body.rfind('/'); slash != std::string::npos) body.erase(0, slash + 1);
       set_text(added, "body", body);
     } else {
@@ -145,7 +165,7 @@ bool OsimEditor::is_fixed(const std::string& name) const {
 void OsimEditor::move_marker(const std::string& name, const Vec3& p_B) {
   const auto node = marker(name);
   if (!node) throw InvalidInput(fmt::format("the model has no marker '{}'", name));
-  const FixedFrame frame = frame_of(reading_, node, "parent_frame", "/markerset/" + name);
+  const FixedFrame frame = frame_named(node, "parent_frame", "/markerset/" + name);
   set_vec3(node, "location", frame.X_BF.inverse() * p_B);
 }
 
@@ -206,7 +226,7 @@ void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
   const std::string owner = "/forceset/" + OsimXml::name_of(force);
   const auto scale_path = [&](pugi::xml_node path) {
     for (const auto point : OsimXml::objects(either_child(path, "PathPointSet", "MusclePointSet"))) {
-      const FixedFrame frame = frame_of(reading_, point, "parent_frame", owner);
+      const FixedFrame frame = frame_named(point, "parent_frame", owner);
       const Vec3 factor = factor_of(factors, frame.body);
       multiply(xml_, point, "location", factor);
       multiply(xml_, point, "attachment", factor);
@@ -223,7 +243,7 @@ void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
   for (const auto path : force.child("path").children()) scale_path(path);
   for (const auto frame : force.child("frames").children()) {
     if (std::string_view(frame.name()) != "PhysicalOffsetFrame") continue;
-    const FixedFrame parent = frame_of(reading_, frame, "parent", owner);
+    const FixedFrame parent = frame_named(frame, "parent", owner);
     multiply(xml_, frame, "translation", factor_of(factors, parent.body));
   }
 }
@@ -232,14 +252,14 @@ void OsimEditor::scale_geometry(const Factors& factors) {
   // Objects that refer to frames are scaled before the frames.
   for (const auto node : OsimXml::objects(marker_set())) {
     if (std::string_view(node.name()) != "Marker") continue;
-    const FixedFrame frame = frame_of(reading_, node, "parent_frame", "/markerset/" + OsimXml::name_of(node));
+    const FixedFrame frame = frame_named(node, "parent_frame", "/markerset/" + OsimXml::name_of(node));
     multiply(xml_, node, "location", factor_of(factors, frame.body));
   }
   for (const auto force : OsimXml::objects(either_child(model_, "ForceSet", "ActuatorSet")))
     scale_points(force, factors);
   for (const auto& [joint, owner] : components_of(skeleton_, "JointSet", "Joint")) {
-    scale_joint(joint, factor_of(factors, frame_of(reading_, joint, "parent_frame", owner).body),
-                factor_of(factors, frame_of(reading_, joint, "child_frame", owner).body));
+    scale_joint(joint, factor_of(factors, frame_named(joint, "parent_frame", owner).body),
+                factor_of(factors, frame_named(joint, "child_frame", owner).body));
   }
   std::vector<std::pair<pugi::xml_node, Vec3>> frames;
   for (const auto& [path, frame] : reading_.frames) {
@@ -321,7 +341,7 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
     set_text(node, "mass", fmt::format("{}", share * masses[b]));
     const Mat3 I = share * inertias[b];
     const double values[] = {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
-    if (reading_.is_old()) {
+    if (is_old()) {
       const char* names[] = {"inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy", "inertia_xz", "inertia_yz"};
       for (int k = 0; k < 6; ++k) set_text(node, names[k], fmt::format("{}", values[k]));
     } else {

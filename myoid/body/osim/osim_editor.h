@@ -51,6 +51,9 @@ class OsimEditor {
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  [[nodiscard]] bool is_old() const;
+  /// Returns the frame that an element of the document names: by a socket, or in old documents as a body.
+  [[nodiscard]] FixedFrame frame_named(pugi::xml_node node, const char* socket, const std::string& owner) const;
   [[nodiscard]] Vec3 factor_of(const Factors& factors, BodyIndex body) const;
   void scale_wraps(pugi::xml_node holder, const FixedFrame& frame, const Vec3& factor);
   void scale_joint(pugi::xml_node joint, const Vec3& parent, const Vec3& child);
@@ -60,6 +63,7 @@ class OsimEditor {
 
   std::filesystem::path path_;
   OsimXml xml_;
+  OsimXml newest_;           ///< The newest form of an old document, from which frames and inertias come.
   pugi::xml_node model_;     ///< <Model>
   pugi::xml_node skeleton_;  ///< The parent of the bodies: the model or, in old documents, its engine.
   OsimReading reading_;

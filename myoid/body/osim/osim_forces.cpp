@@ -13,7 +13,7 @@ void read_common(const OsimReading& r, pugi::xml_node node, ActuatorBase& actuat
   actuator.optimal_force = r.xml.number(node, "optimal_force", 1.0);
   actuator.min_control = r.xml.number(node, "min_control", actuator.min_control);
   actuator.max_control = r.xml.number(node, "max_control", actuator.max_control);
-  actuator.applies_force = is_enabled(r, node, "appliesForce");
+  actuator.applies_force = r.xml.flag(node, "appliesForce", true);
 }
 
 CoordinateLimitForce read_limit(const OsimReading& r, pugi::xml_node node, int coordinate) {
@@ -138,13 +138,12 @@ PointActuator read_point_actuator(const OsimReading& r, pugi::xml_node node) {
 TorqueActuator read_torque_actuator(const OsimReading& r, pugi::xml_node node) {
   TorqueActuator actuator;
   read_common(r, node, actuator);
-  const auto body = [&](const char* new_name, const char* old_name) {
-    std::string target = r.xml.word(node, new_name);
-    if (target.empty()) target = r.xml.word(node, old_name);
+  const auto body = [&](const char* name) {
+    const std::string target = r.xml.word(node, name);
     return target.empty() ? 0 : resolve_frame(r, node, target, "").body;
   };
-  actuator.body_a = body("bodyA", "body_A");
-  actuator.body_b = body("bodyB", "body_B");
+  actuator.body_a = body("bodyA");
+  actuator.body_b = body("bodyB");
   actuator.axis = direction_of(r, node, "axis", Vec3::UnitZ());
   actuator.torque_is_global = r.xml.flag(node, "torque_is_global", true);
   return actuator;
@@ -155,14 +154,14 @@ bool read_driven(OsimReading& r, pugi::xml_node node) {
   const std::string_view kind = node.name();
   if (is_muscle(node)) {
     r.model.muscles.push_back(read_muscle(r, node));
-  } else if (kind == "CoordinateActuator" || kind == "GeneralizedForce" || kind == "ActivationCoordinateActuator") {
+  } else if (kind == "CoordinateActuator" || kind == "ActivationCoordinateActuator") {
     CoordinateActuator actuator;
     read_common(r, node, actuator);
     actuator.coordinate = coordinate_of(r, node);
     r.model.actuators.push_back(std::move(actuator));
-  } else if (kind == "PointActuator" || kind == "Force") {
+  } else if (kind == "PointActuator") {
     r.model.point_actuators.push_back(read_point_actuator(r, node));
-  } else if (kind == "TorqueActuator" || kind == "Torque") {
+  } else if (kind == "TorqueActuator") {
     r.model.torque_actuators.push_back(read_torque_actuator(r, node));
   } else if (kind == "PathActuator") {
     PathActuator actuator;
@@ -195,7 +194,7 @@ std::optional<Ligament> read_ligament(OsimReading& r, pugi::xml_node node) {
 bool read_passive(OsimReading& r, pugi::xml_node node) {
   const std::string kind = node.name();
   const auto add = [&](auto law) {
-    if (is_enabled(r, node, "appliesForce"))
+    if (r.xml.flag(node, "appliesForce", true))
       r.model.passive_forces.push_back({OsimXml::name_of(node), kind, std::move(law)});
   };
   if (kind == "CoordinateLimitForce") {
@@ -215,7 +214,7 @@ bool read_passive(OsimReading& r, pugi::xml_node node) {
   } else if (kind == "PrescribedForce") {
     add(read_prescribed(r, node));
   } else if (kind == "HuntCrossleyForce" || kind == "SmoothSphereHalfSpaceForce") {
-    if (is_enabled(r, node, "appliesForce")) {
+    if (r.xml.flag(node, "appliesForce", true)) {
       for (Contact& contact : read_contacts(r, node)) add(std::move(contact));
     }
   } else if (kind == "PointToPointSpring") {
@@ -236,7 +235,7 @@ void read_law(OsimReading& r, pugi::xml_node node) {
   const std::string name = OsimXml::name_of(node);
   if (const std::string path = foreign_path(r, node); !path.empty()) {
     r.leave_out("{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path);
-  } else if (!read_driven(r, node) && !read_passive(r, node) && is_enabled(r, node, "appliesForce")) {
+  } else if (!read_driven(r, node) && !read_passive(r, node) && r.xml.flag(node, "appliesForce", true)) {
     r.leave_out("force '{}' of kind {} is not part of inverse dynamics here", name, kind);
   }
 }

@@ -1,27 +1,18 @@
 #include "myoid/body/osim/osim_frames.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/body/osim/osim_updater.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/index.h"
 #include "myoid/ground/files/text_file.h"
 
 namespace myoid::body {
 namespace {
-
-/// Rounds a number as a text with six significant digits does.
-double six_digits(double value) {
-  if (!std::isfinite(value)) return value;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return std::strtod(text, nullptr);
-}
 
 /// Returns true for a frame fixed to a body, or a point fixed in one.
 bool is_frame(pugi::xml_node node) {
@@ -42,23 +33,11 @@ void collect_frames(OsimReading& r, pugi::xml_node parent, const std::string& ow
 }
 
 Mat3 inertia_of(const OsimReading& r, pugi::xml_node node, const std::string& body) {
-  Mat3 inertia = Mat3::Zero();
-  double v[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  if (const auto element = r.xml.property(node, "inertia")) {
-    const auto values = r.xml.numbers(element);
-    if (values.size() != 6) {
-      r.xml.fail(element, "body '{}': expected six numbers xx yy zz xy xz yz, found {}", body, values.size());
-    }
-    std::copy(values.begin(), values.end(), v);
-  } else if (r.is_old(node)) {
-    const char* names[6] = {"inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy", "inertia_xz", "inertia_yz"};
-    for (int k = 0; k < 6; ++k) {
-      v[k] = r.xml.number(node, names[k], k < 3 ? 1.0 : 0.0);
-      if (r.compat.six_digit_offsets) v[k] = six_digits(v[k]);
-    }
-  }
-  inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
-  return inertia;
+  const auto element = r.xml.property(node, "inertia");
+  if (!element) return Mat3::Zero();
+  const auto v = r.xml.numbers(element);
+  if (v.size() != 6) r.xml.fail(element, "body '{}': expected six numbers xx yy zz xy xz yz, found {}", body, v.size());
+  return (Mat3() << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2]).finished();
 }
 
 FixedFrame resolve(const OsimReading& r, pugi::xml_node where, std::string name, const std::string& owner, int depth);
@@ -186,16 +165,6 @@ std::optional<int> OsimReading::find_coordinate(std::string_view name) const {
   return name.find('/') == std::string_view::npos ? std::nullopt : model.find_coordinate(name);
 }
 
-pugi::xml_node set_of(pugi::xml_node skeleton, pugi::xml_node model, const char* name) {
-  const auto set = skeleton.child(name);
-  return set ? set : model.child(name);
-}
-
-pugi::xml_node skeleton_of(pugi::xml_node model) {
-  const auto engine = OsimXml::first_element(model.child("DynamicsEngine"));
-  return engine && !model.child("BodySet") ? engine : model;
-}
-
 std::vector<ModelComponent> components_of(pugi::xml_node model, const char* set, std::string_view kind) {
   std::vector<ModelComponent> found;
   for (const auto node : OsimXml::objects(model.child(set)))
@@ -221,7 +190,7 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     if (body.name.empty()) r.xml.fail(node, "a body has no name");
     if (body.name == "ground") continue;
     if (r.find_body(body.name)) r.xml.fail(node, "two bodies are named '{}'", body.name);
-    body.mass_kg = r.xml.number(node, "mass", r.is_old(node) ? 0.0 : std::nan(""));
+    body.mass_kg = r.xml.number(node, "mass", std::nan(""));
     if (!(body.mass_kg >= 0.0) || !std::isfinite(body.mass_kg)) {
       r.xml.fail(node, "body '{}': expected a mass of 0 or more in kg, found '{}'", body.name,
                  r.xml.word(node, "mass"));
@@ -244,28 +213,16 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     collect_frames(r, node.child("frames"), path);
 }
 
-std::string socket(const OsimReading& r, pugi::xml_node node, std::string_view name, const char* old_name) {
-  std::string key = fmt::format("socket_{}", name);
-  if (const auto child = r.xml.property(node, key.c_str())) return OsimXml::text_of(child);
-  key += "_connectee_name";
-  if (const auto child = r.xml.property(node, key.c_str())) return OsimXml::text_of(child);
-  for (const auto child : node.child("connectors").children()) {
-    const std::string own = OsimXml::name_of(child);
-    if (own == name || (old_name != nullptr && own == old_name)) return OsimXml::text_of(child.child("connectee_name"));
-  }
-  return old_name == nullptr ? std::string() : r.xml.word(node, old_name);
+std::string socket(const OsimReading& r, pugi::xml_node node, std::string_view name) {
+  return r.xml.word(node, fmt::format("socket_{}", name).c_str());
 }
 
 FixedFrame resolve_frame(const OsimReading& r, pugi::xml_node where, std::string name, const std::string& owner) {
   return resolve(r, where, std::move(name), owner, 0);
 }
 
-FixedFrame frame_of(const OsimReading& r,
-                    pugi::xml_node node,
-                    std::string_view socket_name,
-                    const std::string& owner,
-                    const char* old_name) {
-  std::string target = socket(r, node, socket_name, old_name);
+FixedFrame frame_of(const OsimReading& r, pugi::xml_node node, std::string_view socket_name, const std::string& owner) {
+  std::string target = socket(r, node, socket_name);
   if (target.empty()) {
     r.xml.fail(node, "{} '{}': the socket '{}' is missing; expected the name of a frame", node.name(),
                OsimXml::name_of(node), socket_name);
@@ -275,18 +232,13 @@ FixedFrame frame_of(const OsimReading& r,
 
 BodyPoint point_of(
     const OsimReading& r, pugi::xml_node node, const std::string& owner, const char* frame, const char* place) {
-  const FixedFrame fixed = frame_of(r, node, frame, owner, frame);
+  const FixedFrame fixed = frame_of(r, node, frame, owner);
   return {fixed.body, fixed.X_BF * r.xml.vec3(node, place, Vec3::Zero())};
 }
 
-Pose pose_of(const OsimReading& r, pugi::xml_node node, const char* location, const char* orientation, bool rounded) {
-  Vec3 p = r.xml.vec3(node, location, Vec3::Zero());
-  Vec3 angles = r.xml.vec3(node, orientation, Vec3::Zero());
-  if (rounded) {
-    p = p.unaryExpr(&six_digits);
-    angles = angles.unaryExpr(&six_digits);
-  }
-  return {rotation_body_xyz(angles), p};
+Pose pose_of(const OsimReading& r, pugi::xml_node node, const char* location, const char* orientation) {
+  const Vec3 p = r.xml.vec3(node, location, Vec3::Zero());
+  return {rotation_body_xyz(r.xml.vec3(node, orientation, Vec3::Zero())), p};
 }
 
 int coordinate_named(const OsimReading& r, pugi::xml_node where, std::string_view text) {
@@ -297,12 +249,6 @@ int coordinate_named(const OsimReading& r, pugi::xml_node where, std::string_vie
       if (const auto index = r.find_coordinate(fmt::format("{}/{}", joint.name, text))) return *index;
   }
   r.xml.fail(where, "there is no coordinate '{}'", text);
-}
-
-bool is_enabled(const OsimReading& r, pugi::xml_node node, const char* positive) {
-  if (node.child(positive)) return r.xml.flag(node, positive, true);
-  if (node.child("isDisabled")) return !r.xml.flag(node, "isDisabled", false);
-  return r.xml.flag(node, positive, true);
 }
 
 double positive(const OsimReading& r, pugi::xml_node node, const char* name, double otherwise) {
@@ -323,30 +269,21 @@ Vec3 direction_of(const OsimReading& r, pugi::xml_node node, const char* name, c
 std::optional<FixedFrame> find_frame(const BodyModel& model,
                                      const std::filesystem::path& path,
                                      const std::string& name) {
-  const OsimXml xml(read_text_file(path), path);
+  OsimXml xml(read_text_file(path), path);
+  (void)bring_to_newest_form(xml, {.six_digits = model.compat.six_digit_offsets, .looks = false});
   OsimReading r{xml, model.compat};
-  read_bodies(r, skeleton_of(xml.root().child("Model")));
+  read_bodies(r, xml.root().child("Model"));
   try {
     return resolve_frame(r, xml.root(), name, "/jointset");
   } catch (const ReadError&) {
-    // The joints of old documents name their frames without a path.
+    return std::nullopt;
   }
-  const std::size_t slash = name.find_last_of('/');
-  if (slash == std::string::npos) return std::nullopt;
-  const std::string frame = name.substr(slash + 1);
-  for (const Joint& joint : model.joints) {
-    if (!("/" + name.substr(0, slash)).ends_with("/" + joint.name)) continue;
-    const auto offset = [&](BodyIndex body) { return model.bodies[at(body)].name + "_offset"; };
-    if (frame == offset(joint.child)) return FixedFrame{joint.child, joint.X_BM};
-    if (frame == offset(joint.parent)) return FixedFrame{joint.parent, joint.X_PF};
-  }
-  return std::nullopt;
 }
 
 std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& r, pugi::xml_node node) {
   const std::string owner = "/forceset/" + OsimXml::name_of(node);
   // Frames of its own: <frames><PhysicalOffsetFrame name="...">.
-  const auto own = [&](const char* socket_name, const char* old_name, const char* location, const char* orientation) {
+  const auto own = [&](const char* socket_name) {
     const std::string target = socket(r, node, socket_name);
     for (const auto frame : node.child("frames").children("PhysicalOffsetFrame")) {
       const std::string name = OsimXml::name_of(frame);
@@ -355,12 +292,9 @@ std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& r, pugi::xml_nod
         return FixedFrame{parent.body, parent.X_BF * pose_of(r, frame, "translation", "orientation")};
       }
     }
-    FixedFrame frame = frame_of(r, node, socket_name, owner, old_name);
-    if (target.empty()) frame.X_BF = frame.X_BF * pose_of(r, node, location, orientation);
-    return frame;
+    return frame_of(r, node, socket_name, owner);
   };
-  return {own("frame1", "body_1", "location_body_1", "orientation_body_1"),
-          own("frame2", "body_2", "location_body_2", "orientation_body_2")};
+  return {own("frame1"), own("frame2")};
 }
 
 }  // namespace myoid::body

@@ -20,7 +20,8 @@ struct FixedFrame {
   Pose X_BF;
 };
 
-/// State that the parts of the reader share: the document, the model read so far and the frames by their paths.
+/// State that the parts of the reader share: the document in its newest form (osim_updater.h), the model read so far
+/// and the frames by their paths.
 struct OsimReading {
   const OsimXml& xml;
   Compat compat;
@@ -56,14 +57,6 @@ struct OsimReading {
   [[nodiscard]] std::optional<int> find_body(std::string_view name) const;
   /// Finds a coordinate by its name or by a path that ends in joint/coordinate.
   [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
-
-  /// Returns true for documents that have joints inside bodies and names of bodies instead of sockets.
-  [[nodiscard]] bool is_old() const { return xml.version() < kFirstWithSockets; }
-  /// The same for the file that holds an element.
-  [[nodiscard]] bool is_old(pugi::xml_node where) const { return xml.version(where) < kFirstWithSockets; }
-
- private:
-  static constexpr int kFirstWithSockets = 30500;
 };
 
 /// A component of a model and its path in it.
@@ -76,22 +69,12 @@ struct ModelComponent {
 /// name ends in `kind`: in <components> ("/x") or <ComponentSet> of the model.
 [[nodiscard]] std::vector<ModelComponent> components_of(pugi::xml_node model, const char* set, std::string_view kind);
 
-/// Returns the element that holds bodies and joints: the model or, before 10700, an engine in it.
-[[nodiscard]] pugi::xml_node skeleton_of(pugi::xml_node model);
-
-/// Returns a set that stands in the skeleton or in the model: "MarkerSet", "ConstraintSet".
-[[nodiscard]] pugi::xml_node set_of(pugi::xml_node skeleton, pugi::xml_node model, const char* name);
-
-/// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground, bodies, joints and
+/// Reads the bodies and collects the offset frames of ground, bodies, joints and
 /// the model. Throws ReadError for a body without a name or a mass, and for two bodies of one name.
 void read_bodies(OsimReading& reading, pugi::xml_node model);
 
-/// Returns the target of a socket in any of its spellings (<socket_x>, <socket_x_connectee_name>, <connectors>, where
-/// betas of version 4 use the old name), or the text of <old_name>; empty if there is none.
-[[nodiscard]] std::string socket(const OsimReading& reading,
-                                 pugi::xml_node node,
-                                 std::string_view name,
-                                 const char* old_name = nullptr);
+/// Returns the target of a socket, <socket_x>; empty if there is none.
+[[nodiscard]] std::string socket(const OsimReading& reading, pugi::xml_node node, std::string_view name);
 
 /// Returns the frame that a name means from the component `owner`: a body, ground or an offset frame, also in a chain.
 /// Throws ReadError for an unknown frame and for a frame that refers to itself.
@@ -104,8 +87,7 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
 [[nodiscard]] FixedFrame frame_of(const OsimReading& reading,
                                   pugi::xml_node node,
                                   std::string_view socket_name,
-                                  const std::string& owner,
-                                  const char* old_name = "body");
+                                  const std::string& owner);
 
 /// A point fixed in a body.
 struct BodyPoint {
@@ -118,27 +100,22 @@ struct BodyPoint {
     const OsimReading& reading, pugi::xml_node node, const std::string& owner, const char* frame, const char* place);
 
 /// Returns the frame of that path or name in a model file: a body, an offset frame of the model, of
-/// a body or of a joint, or a frame that OpenSim gives to the joints of old documents
+/// a body or of a joint, also a frame that the joints of old documents get
 /// ("/jointset/knee_r/tibia_r_offset"). Empty for an unknown name.
 [[nodiscard]] std::optional<FixedFrame> find_frame(const BodyModel& model,
                                                    const std::filesystem::path& path,
                                                    const std::string& name);
 
 /// Returns the pose that two properties of an element give: location (translation) and body-fixed
-/// X-Y-Z angles. `rounded` rounds to six digits, as OpenSim's conversion of old documents.
+/// X-Y-Z angles.
 [[nodiscard]] Pose pose_of(const OsimReading& reading,
                            pugi::xml_node node,
                            const char* location,
-                           const char* orientation,
-                           bool rounded = false);
+                           const char* orientation);
 
 /// Returns the coordinate that a socket or a text names; of several with one name the coordinate of
 /// the first joint. Throws ReadError for an unknown name.
 [[nodiscard]] int coordinate_named(const OsimReading& reading, pugi::xml_node where, std::string_view text);
-
-/// Returns true if a force or constraint is switched on, in any version: `positive` (appliesForce,
-/// isEnforced) or the old isDisabled.
-[[nodiscard]] bool is_enabled(const OsimReading& reading, pugi::xml_node node, const char* positive);
 
 /// Returns a number above 0; throws ReadError for another.
 [[nodiscard]] double positive(const OsimReading& reading, pugi::xml_node node, const char* name, double otherwise);
@@ -149,7 +126,7 @@ struct BodyPoint {
                                 const char* name,
                                 const Vec3& otherwise);
 
-/// Returns the two frames that a bushing or a constraint joins, in the new and in the old spelling.
+/// Returns the two frames that a bushing or a constraint joins.
 [[nodiscard]] std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& reading, pugi::xml_node node);
 
 }  // namespace myoid::body

@@ -14,11 +14,6 @@ constexpr const char* kSupported =
     "StepFunction, Sine, SimmSpline, NaturalCubicSpline, GCVSpline that interpolates (degree 1, 3, 5 or 7), "
     "MultivariatePolynomialFunction of one variable and MultiplierFunction";
 
-bool is_simm_spline(std::string_view kind) {
-  return kind == "SimmSpline" || kind == "NaturalCubicSpline" || kind == "natCubicSpline" ||
-         kind == "natCubicSplineFunction";
-}
-
 std::string named(pugi::xml_node node) {
   const std::string name = OsimXml::name_of(node);
   return name.empty() ? fmt::format("<{}>", node.name()) : fmt::format("<{}> '{}'", node.name(), name);
@@ -53,7 +48,7 @@ Function read_knots(OsimReading& r, pugi::xml_node node, double scale) {
   std::vector<double> x = r.xml.numbers(r.xml.property(node, "x"));
   std::vector<double> y = r.xml.numbers(r.xml.property(node, "y"));
   try {
-    if (is_simm_spline(kind)) return {make_simm_spline(std::move(x), std::move(y)), scale};
+    if (kind == "SimmSpline") return {make_simm_spline(std::move(x), std::move(y)), scale};
     if (kind == "PiecewiseLinearFunction") return {make_piecewise_linear(std::move(x), std::move(y)), scale};
     if (kind == "PiecewiseConstantFunction") return {make_piecewise_constant(std::move(x), std::move(y)), scale};
     const double half_order = r.xml.number(node, "half_order", 3.0);
@@ -92,12 +87,9 @@ pugi::xml_node function_node(const OsimReading& r, pugi::xml_node object, const 
   return object.find_child_by_attribute("name", property);
 }
 
-std::optional<Function> function_at(OsimReading& r, pugi::xml_node node) {
-  return node ? std::optional(read_function(r, node)) : std::nullopt;
-}
-
 std::optional<Function> function_property(OsimReading& r, pugi::xml_node object, const char* property) {
-  return function_at(r, function_node(r, object, property));
+  const auto node = function_node(r, object, property);
+  return node ? std::optional(read_function(r, node)) : std::nullopt;
 }
 
 std::vector<Function> functions_property(OsimReading& r, pugi::xml_node object, const char* property) {
@@ -170,7 +162,7 @@ Function read_function(OsimReading& r, pugi::xml_node node) {
     }
     return {step, scale};
   }
-  if (is_simm_spline(kind) || kind == "PiecewiseLinearFunction" || kind == "GCVSpline" ||
+  if (kind == "SimmSpline" || kind == "PiecewiseLinearFunction" || kind == "GCVSpline" ||
       kind == "PiecewiseConstantFunction")
     return read_knots(r, node, scale);
   return unsupported(r, node, "is not supported");

@@ -16,11 +16,8 @@ namespace {
 constexpr const char* kSlots[6] = {"rotation1",    "rotation2",    "rotation3",
                                    "translation1", "translation2", "translation3"};
 
-/// Returns the coordinate elements of a joint, in documents of any version.
-auto coordinates_of(pugi::xml_node joint) {
-  const auto coordinates = joint.child("coordinates");
-  return (coordinates ? coordinates : joint.child("CoordinateSet").child("objects")).children("Coordinate");
-}
+/// Returns the coordinate elements of a joint.
+auto coordinates_of(pugi::xml_node joint) { return joint.child("coordinates").children("Coordinate"); }
 
 /// Returns a coordinate's name in the model, with its joint's name if several joints have a coordinate of that name.
 std::string model_name(const OsimReading& r, const std::string& joint, const std::string& name) {
@@ -33,7 +30,7 @@ void read_coordinate(OsimReading& r, pugi::xml_node node, const std::string& joi
   c.name = model_name(r, joint, OsimXml::name_of(node));
   if (c.name.empty()) xml.fail(node, "a coordinate has no name");
   if (r.find_coordinate(c.name)) xml.fail(node, "two coordinates are named '{}'", c.name);
-  c.default_value = xml.number(node, "default_value", xml.number(node, "initial_value", 0.0));
+  c.default_value = xml.number(node, "default_value", 0.0);
   c.default_speed = xml.number(node, "default_speed_value", 0.0);
   if (!std::isfinite(c.default_value)) xml.fail(node, "coordinate '{}': the default value is not finite", c.name);
   if (const auto range = xml.property(node, "range")) {
@@ -50,24 +47,14 @@ void read_coordinate(OsimReading& r, pugi::xml_node node, const std::string& joi
 }
 
 pugi::xml_node transform_axis(const OsimReading& r, pugi::xml_node node, std::size_t slot) {
-  if (const auto transform = r.xml.property(node, "SpatialTransform")) {
-    for (const auto axis : transform.children()) {
-      if (OsimXml::name_of(axis) == kSlots[slot]) return axis;
-    }
-    return {};
-  }
-  // Documents before 10901 hold the axes in a set, rotations and translations in any order.
-  std::size_t rotations = 0;
-  std::size_t translations = 3;
-  for (const auto axis : OsimXml::objects(node.child("TransformAxisSet"))) {
-    if ((r.xml.flag(axis, "is_rotation", false) ? rotations++ : translations++) == slot) return axis;
-  }
+  for (const auto axis : r.xml.property(node, "SpatialTransform").children())
+    if (OsimXml::name_of(axis) == kSlots[slot]) return axis;
   return {};
 }
 
 /// Returns the coordinate of a joint that an axis names; -1 if the axis names none.
 int coordinate_of_axis(const OsimReading& r, pugi::xml_node slot, const Joint& joint) {
-  const auto names = slot.child("coordinates") ? r.xml.words(slot, "coordinates") : r.xml.words(slot, "coordinate");
+  const auto names = r.xml.words(slot, "coordinates");
   if (names.empty()) return -1;
   if (names.size() > 1) {
     r.xml.fail(slot, "<coordinates>: an axis of joint '{}' depends on {} coordinates; only one is supported",
@@ -88,8 +75,7 @@ void read_axis(OsimReading& r, pugi::xml_node slot, const Joint& joint, Transfor
   if (!(axis.axis.norm() > 0.0) || !axis.axis.allFinite()) r.xml.fail(slot, "<axis>: the direction is zero");
   axis.axis.normalize();
   axis.coordinate = coordinate_of_axis(r, slot, joint);
-  pugi::xml_node function =
-      OsimXml::first_element(slot, {"coordinates", "coordinate", "axis", "is_rotation", "VisibleObject"});
+  pugi::xml_node function = OsimXml::first_element(slot, {"coordinates", "axis", "VisibleObject"});
   if (function && std::string_view(function.name()) == "function") function = OsimXml::first_element(function);
   if (function) {
     axis.function = read_function(r, function);
@@ -266,40 +252,17 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   r.model.joints.push_back(std::move(hinge));
 }
 
-/// Reads one joint; `enclosing` is the body that holds it in old documents, -1 elsewhere.
-void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, BodyIndex enclosing) {
+/// Reads one joint.
+void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path) {
   Joint joint;
   joint.name = OsimXml::name_of(node);
   joint.class_name = node.name();
-  if (enclosing >= 0) {
-    const bool rounded = r.compat.six_digit_offsets;
-    const std::string parent = r.xml.word(node, "parent_body");
-    if (parent.empty()) {
-      r.xml.fail(node, "joint '{}' has no <parent_body>; expected the name of a body", joint.name);
-    }
-    joint.parent = resolve_frame(r, node, parent, "").body;
-    joint.X_PF = pose_of(r, node, "location_in_parent", "orientation_in_parent", rounded);
-    joint.child = enclosing;
-    const bool in_child = static_cast<bool>(r.xml.property(node, "location_in_child"));
-    joint.X_BM = in_child ? pose_of(r, node, "location_in_child", "orientation_in_child", rounded)
-                          : pose_of(r, node, "location", "orientation", rounded);
-  } else {
-    const FixedFrame parent = frame_of(r, node, "parent_frame", path, "parent_body");
-    const FixedFrame child = frame_of(r, node, "child_frame", path, "child_body");
-    joint.parent = parent.body;
-    joint.X_PF = parent.X_BF;
-    joint.child = child.body;
-    joint.X_BM = child.X_BF;
-    if (node.child("location_in_parent"))
-      joint.X_PF = joint.X_PF * pose_of(r, node, "location_in_parent", "orientation_in_parent");
-    if (node.child("location_in_child"))
-      joint.X_BM = joint.X_BM * pose_of(r, node, "location_in_child", "orientation_in_child");
-  }
-  // Before 30514 a joint could be declared to move its parent on its child.
-  if (r.xml.version(node) < 30514 && r.xml.flag(node, "reverse", false)) {
-    std::swap(joint.parent, joint.child);
-    std::swap(joint.X_PF, joint.X_BM);
-  }
+  const FixedFrame parent = frame_of(r, node, "parent_frame", path);
+  const FixedFrame child = frame_of(r, node, "child_frame", path);
+  joint.parent = parent.body;
+  joint.X_PF = parent.X_BF;
+  joint.child = child.body;
+  joint.X_BM = child.X_BF;
   if (joint.parent == joint.child) {
     r.xml.fail(node, "joint '{}' connects body '{}' with itself", joint.name, r.model.bodies[at(joint.parent)].name);
   }
@@ -319,22 +282,6 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
   r.model.joints.push_back(std::move(joint));
 }
 
-void add_free_joint(OsimReading& r, BodyIndex body) {
-  Joint joint;
-  joint.name = r.model.bodies[at(body)].name + "_free";
-  joint.class_name = "FreeJoint";
-  joint.child = body;
-  for (std::size_t k = 0; k < 6; ++k) {
-    Coordinate c;
-    c.name = fmt::format("{}_coord_{}", joint.name, k);
-    c.motion = k < 3 ? MotionType::rotational : MotionType::translational;
-    joint.coordinates.push_back(r.add(std::move(c)));
-  }
-  drive_axes(joint, "xyz", "xyz");
-  r.note("body '{}' has no joint; it is free to move", r.model.bodies[at(body)].name);
-  r.model.joints.push_back(std::move(joint));
-}
-
 /// Finds the names that coordinates of several joints share; OpenSim distinguishes these coordinates by their paths.
 void find_shared_names(OsimReading& r, pugi::xml_node model) {
   std::map<std::string, std::vector<std::string>> joints_of;
@@ -346,8 +293,6 @@ void find_shared_names(OsimReading& r, pugi::xml_node model) {
     }
   };
   for (const auto& [node, path] : components_of(model, "JointSet", "Joint")) add(node);
-  for (const auto body : OsimXml::objects(model.child("BodySet")))
-    if (const auto joint = OsimXml::first_element(body.child("Joint"))) add(joint);
   for (const auto& [name, joints] : joints_of) {
     if (joints.size() < 2) continue;
     r.shared_coordinate_names.insert(name);
@@ -362,23 +307,7 @@ void find_shared_names(OsimReading& r, pugi::xml_node model) {
 
 void read_joints(OsimReading& r, pugi::xml_node model) {
   find_shared_names(r, model);
-  for (const auto& [node, path] : components_of(model, "JointSet", "Joint")) read_joint(r, node, path, -1);
-  const std::size_t bodies = r.model.bodies.size();
-  std::vector<bool> has_joint(bodies, false);
-  for (const auto body : OsimXml::objects(model.child("BodySet"))) {
-    if (const auto node = OsimXml::first_element(body.child("Joint"))) {
-      const auto index = r.find_body(OsimXml::name_of(body));
-      if (!index || *index == 0) continue;
-      read_joint(r, node, {}, *index);
-      has_joint[at(*index)] = true;  // a reversed joint has it as the parent
-    }
-  }
-  if (!r.is_old()) return;
-  has_joint.resize(r.model.bodies.size(), false);
-  for (const Joint& joint : r.model.joints) has_joint[at(joint.child)] = true;
-  for (std::size_t b = 1; b < bodies; ++b) {
-    if (!has_joint[b]) add_free_joint(r, static_cast<BodyIndex>(b));
-  }
+  for (const auto& [node, path] : components_of(model, "JointSet", "Joint")) read_joint(r, node, path);
 }
 
 }  // namespace myoid::body

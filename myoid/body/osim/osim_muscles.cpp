@@ -140,7 +140,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   muscle.class_name = node.name();
   if (muscle.name.empty()) r.xml.fail(node, "a muscle has no name");
   if (r.model.find_muscle(muscle.name)) r.xml.fail(node, "two muscles are named '{}'", muscle.name);
-  muscle.applies_force = is_enabled(r, node, "appliesForce");
+  muscle.applies_force = r.xml.flag(node, "appliesForce", true);
   const bool thelen = muscle.class_name.starts_with("Thelen2003Muscle");
   const bool de_groote = muscle.class_name.starts_with("DeGrooteFregly2016");
   const bool millard = muscle.class_name.starts_with("Millard2012");
@@ -156,19 +156,16 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
     p.deactivation_time_s = de_groote ? 0.06 : 0.04;
   }
   if (!thelen && !millard) p.control.least = 0.0;
-  const double class_min_control = p.control.least;
   set("max_isometric_force", p.max_isometric_force_n);
   p.optimal_fiber_length_m = positive(r, node, "optimal_fiber_length", p.optimal_fiber_length_m);
   set("tendon_slack_length", p.tendon_slack_length_m);
   set("pennation_angle_at_optimal", p.pennation_at_optimal_rad);
-  if (!r.xml.property(node, "pennation_angle_at_optimal")) set("pennation_angle", p.pennation_at_optimal_rad);
   for (const auto& [name, field] : kProperties) set(name, p.*field);
   // OpenSim starts every muscle at its classes' default of 0.1 m.
   if (!r.compat.class_fiber_length) p.default_fiber_length_m = p.optimal_fiber_length_m;
   set("default_fiber_length", p.default_fiber_length_m);
   set("min_control", p.control.least);
   set("max_control", p.control.most);
-  if (r.xml.version(node) < 30513 && p.control.least == 0.0) p.control.least = class_min_control;
   if (millard) {
     p.curves = millard_curves(r, node);
   } else if (schutte) {

@@ -4,7 +4,7 @@
 
 #include "myoid/body/osim/osim_frames.h"
 #include "myoid/body/osim/osim_update_parts.h"
-#include "myoid/body/osim/osim_xml.h"
+#include "myoid/body/osim/osim_updater.h"
 #include "myoid/ground/core/index.h"
 #include "myoid/ground/files/text_file.h"
 
@@ -33,10 +33,9 @@ void add_sensor(pugi::xml_node model, pugi::xml_node carrier, const SensorPlace&
 
 std::map<std::string, NamedFrame> named_frames(std::string_view text, const std::filesystem::path& path) {
   OsimXml xml(std::string(text), path);
-  const auto model = xml.root().child("Model");
-  xml.set_prototypes(model.child("defaults"));
+  (void)bring_to_newest_form(xml, {.looks = false});
   OsimReading reading{xml};
-  read_bodies(reading, model);
+  read_bodies(reading, xml.root().child("Model"));
   std::map<std::string, NamedFrame> frames;
   for (const Body& body : reading.model.bodies) {
     frames.emplace(body.name,

@@ -8,9 +8,8 @@
 
 namespace myoid::body {
 
-/// Reads the joints of the JointSet or, in old documents, of the bodies, with their coordinates. A
-/// body of an old document without a joint gets a FreeJoint to ground. A ScapulothoracicJoint
-/// becomes an ellipsoid joint and a hinge with a massless body between.
+/// Reads the joints with their coordinates. A ScapulothoracicJoint becomes an ellipsoid joint and a hinge with a
+/// massless body between.
 void read_joints(OsimReading& reading, pugi::xml_node model);
 
 /// Reads the enforced constraints; constraints of an unknown kind are listed in `unsupported`.
@@ -44,9 +43,8 @@ void read_component_force(OsimReading& reading, pugi::xml_node node);
 /// first object of a name.
 void read_wrap_objects(OsimReading& reading, pugi::xml_node model);
 
-/// Reads the path of a muscle or another force in any version: <GeometryPath>,
-/// <path><GeometryPath>, the bare point and wrap sets, or a FunctionBasedPath of polynomials.
-/// Throws ReadError without a path.
+/// Reads the path of a muscle or another force: <GeometryPath>, <path><GeometryPath> or a FunctionBasedPath of
+/// polynomials. Throws ReadError without a path.
 [[nodiscard]] MusclePath read_path(OsimReading& reading, pugi::xml_node node);
 
 /// Returns the class of an unsupported path (Scholz2015GeometryPath, a FunctionBasedPath of
@@ -59,9 +57,7 @@ void read_wrap_objects(OsimReading& reading, pugi::xml_node model);
 /// Returns the element of the function in a property of an object, in either of OpenSim's forms:
 /// <property><Sine/></property> or <Sine name="property"/>. Empty without a function.
 [[nodiscard]] pugi::xml_node function_node(const OsimReading& reading, pugi::xml_node object, const char* property);
-/// Returns the function of an element; empty without an element.
-[[nodiscard]] std::optional<Function> function_at(OsimReading& reading, pugi::xml_node node);
-/// Returns the function of `function_node`.
+/// Returns the function of `function_node`; empty without one.
 [[nodiscard]] std::optional<Function> function_property(OsimReading& reading,
                                                         pugi::xml_node object,
                                                         const char* property);

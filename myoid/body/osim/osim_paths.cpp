@@ -55,17 +55,12 @@ PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
   int named = -1;
   std::array<bool, 3> has_function{};
   const char* axes[3] = {"x", "y", "z"};
-  const char* old_axes[3] = {"XAttachment", "YAttachment", "ZAttachment"};
-  const char* old_coordinates[3] = {"XCoordinate", "YCoordinate", "ZCoordinate"};
   for (std::size_t k = 0; k < 3; ++k) {
-    auto function = function_property(r, node, fmt::format("{}_location", axes[k]).c_str());
-    if (!function) function = function_at(r, OsimXml::first_element(node.child(old_axes[k])));
+    const auto function = function_property(r, node, fmt::format("{}_location", axes[k]).c_str());
     if (!function) continue;
     moving.location[k] = *function;
     has_function[k] = true;
-    const std::string name = fmt::format("{}_coordinate", axes[k]);
-    std::string target = socket(r, node, name, name.c_str());
-    if (target.empty()) target = r.xml.word(node, old_coordinates[k]);
+    const std::string target = socket(r, node, fmt::format("{}_coordinate", axes[k]));
     if (target.empty()) continue;
     moving.coordinates[k] = coordinate_named(r, node, target);
     named = moving.coordinates[k];
@@ -82,19 +77,16 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
   const FixedFrame frame = frame_of(r, node, "parent_frame", "/forceset/" + owner);
   point.body = frame.body;
   const std::string_view kind = node.name();
-  if (kind == "MovingPathPoint" || kind == "MovingMusclePoint") {
+  if (kind == "MovingPathPoint") {
     point.moving = read_moving(r, node);
     point.moving->X_BF = frame.X_BF;
     return point;
   }
-  const bool attachment = !r.xml.property(node, "location") && node.child("attachment");
-  point.p_BP = frame.X_BF * r.xml.vec3(node, attachment ? "attachment" : "location", Vec3::Zero());
+  point.p_BP = frame.X_BF * r.xml.vec3(node, "location", Vec3::Zero());
   if (!point.p_BP.allFinite()) r.xml.fail(node, "path point '{}': its location is not finite", point.name);
-  if (kind == "ConditionalPathPoint" || kind == "MuscleViaPoint") {
+  if (kind == "ConditionalPathPoint") {
     PathPoint::Condition condition;
-    std::string target = socket(r, node, "coordinate", "coordinate");
-    if (target.empty()) target = r.xml.word(node, "coordinates");
-    condition.coordinate = coordinate_named(r, node, target);
+    condition.coordinate = coordinate_named(r, node, socket(r, node, "coordinate"));
     if (const auto range = r.xml.property(node, "range")) {
       const auto v = r.xml.numbers(range);
       if (v.size() != 2) r.xml.fail(range, "<range>: expected two numbers");
@@ -102,7 +94,7 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
       condition.upper = v[1];
     }
     point.condition = condition;
-  } else if (kind != "PathPoint" && kind != "MusclePoint") {
+  } else if (kind != "PathPoint") {
     r.leave_out("path of '{}': point '{}' of kind {} is taken as fixed", owner, point.name, kind);
   }
   return point;
@@ -168,7 +160,6 @@ void read_wrap_objects(OsimReading& r, pugi::xml_node model) {
   for (const auto& [node, path] : components_of(model, "BodySet", "Body")) {
     if (const auto body = r.find_body(OsimXml::name_of(node))) nodes[at(*body)] = node;
   }
-  if (nodes[0]) read_wraps_of(r, nodes[0], {});
   for (std::size_t b = 1; b < nodes.size(); ++b) {
     if (nodes[b]) read_wraps_of(r, nodes[b], {static_cast<BodyIndex>(b), {}});
   }
@@ -197,12 +188,11 @@ MusclePath read_path(OsimReading& r, pugi::xml_node node) {
   }
   pugi::xml_node geometry = node.child("GeometryPath");
   if (!geometry) geometry = OsimXml::first_element(node.child("path"));
-  if (!geometry && (node.child("MusclePointSet") || node.child("PathPointSet"))) geometry = node;
   if (!geometry) r.xml.fail(node, "{} '{}' has no <GeometryPath>", node.name(), owner);
   MusclePath path;
-  for (const auto point : OsimXml::objects(either_child(geometry, "PathPointSet", "MusclePointSet")))
+  for (const auto point : OsimXml::objects(geometry.child("PathPointSet")))
     path.points.push_back(read_point(r, point, owner));
-  for (const auto wrap : OsimXml::objects(either_child(geometry, "PathWrapSet", "MuscleWrapSet")))
+  for (const auto wrap : OsimXml::objects(geometry.child("PathWrapSet")))
     path.wraps.push_back(read_path_wrap(r, wrap, owner));
   if (path.points.size() < 2) {
     r.xml.fail(geometry, "{} '{}' has {} path points; at least two are needed", node.name(), owner, path.points.size());

@@ -9,6 +9,7 @@
 #include "myoid/body/model/kinematic_tree.h"
 #include "myoid/body/osim/osim_frames.h"
 #include "myoid/body/osim/osim_parts.h"
+#include "myoid/body/osim/osim_updater.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/index.h"
 #include "myoid/ground/files/text_file.h"
@@ -51,22 +52,23 @@ BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, c
     xml.fail(xml.root(), "document version {} is too old (before 10600): open the model in OpenSim and save it again",
              xml.version());
   }
-  xml.set_prototypes(model.child("defaults"));
+  const std::vector<std::string> freed =
+      bring_to_newest_form(xml, {.six_digits = options.compat.six_digit_offsets, .looks = false});
   OsimReading r{xml, options.compat, {}, {}};
   r.model.compat = options.compat;
   r.model.document_version = xml.version();
   r.model.name = OsimXml::name_of(model);
   r.model.gravity_G = xml.vec3(model, "gravity", r.model.gravity_G);
   for (const std::string& sentence : xml.ignored()) r.leave_out("{}", sentence);
-  const auto skeleton = skeleton_of(model);
-  if (components_of(skeleton, "BodySet", "Body").empty() && !skeleton.child("BodySet"))
+  if (components_of(model, "BodySet", "Body").empty() && !model.child("BodySet"))
     xml.fail(model, "the model has no <BodySet>, and no <Body> among its components");
-  read_bodies(r, skeleton);
-  read_joints(r, skeleton);
-  read_markers(r, set_of(skeleton, model, "MarkerSet"));
-  read_wrap_objects(r, skeleton);
-  read_forces(r, either_child(model, "ForceSet", "ActuatorSet"));
-  read_constraints(r, set_of(skeleton, model, "ConstraintSet"));
+  read_bodies(r, model);
+  for (const std::string& sentence : freed) r.note("{}", sentence);
+  read_joints(r, model);
+  read_markers(r, model.child("MarkerSet"));
+  read_wrap_objects(r, model);
+  read_forces(r, model.child("ForceSet"));
+  read_constraints(r, model.child("ConstraintSet"));
   read_loose_components(r, model);
   note_classes(r.model);
   for (const std::string& sentence : xml.repairs())
@@ -105,8 +107,9 @@ void require_lengths_in_m(const BodyModel& model, const std::filesystem::path& p
 }
 
 BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {
-  const OsimXml xml(read_text_file(path), path);
-  const auto set = either_child(xml.root(), "ForceSet", "ActuatorSet");
+  OsimXml xml(read_text_file(path), path);
+  (void)bring_to_newest_form(xml, {.looks = false});
+  const auto set = xml.root().child("ForceSet");
   if (!set) xml.fail(xml.root(), "expected a <ForceSet> in <OpenSimDocument>");
   OsimReading r{xml, model.compat, std::move(model), {}};
   for (const std::string& sentence : xml.ignored()) r.note("{}: {}", path.string(), sentence);

@@ -51,9 +51,16 @@ void update_switch(pugi::xml_node object) {
   const char* name = kind.ends_with("Constraint")                   ? "isEnforced"
                      : ends_with_any(kind, {"Controller", "Probe"}) ? "enabled"
                                                                     : "appliesForce";
-  const bool disabled = is_true(child_text(object, "isDisabled"));
-  if (!object.child(name)) object.insert_child_before(name, old).text().set(disabled ? "false" : "true");
-  object.remove_child(old);
+  if (object.child(name)) {
+    object.remove_child(old);
+    return;
+  }
+  // A text that is no flag stays, so that the reader refuses it.
+  const std::string text = child_text(object, "isDisabled");
+  const bool off = is_true(text), on = equal_ignoring_case(text, "false") || text == "0";
+  auto renamed = old;
+  renamed.set_name(name);
+  if (off || on) renamed.text().set(off ? "false" : "true");
 }
 
 /// Turns <connectors> of 4.0's betas and <socket_x_connectee_name> into <socket_x>.
@@ -75,8 +82,9 @@ void update_sockets(pugi::xml_node object) {
   }
 }
 
-/// Turns a property with a body's name into a socket with the body's path.
+/// Turns a property with a body's name, or a beta's socket of that name, into a socket with the body's path.
 void body_to_socket(pugi::xml_node object, const char* property, const char* socket) {
+  rename_child(object, (std::string("socket_") + property).c_str(), socket);
   auto old = object.child(property);
   if (!old) return;
   const std::string name = OsimXml::text_of(old);
@@ -112,16 +120,13 @@ void bodies_to_frames(pugi::xml_node object) {
   if (!object.child("body_1") && !object.child("body_2")) return;
   const auto frames = child_or_new(object, "frames");
   for (const std::string k : {"1", "2"}) {
-    const auto take = [&](const std::string& property) {
-      const std::string text = child_text(object, property.c_str());
-      object.remove_child(property.c_str());
-      return text;
-    };
-    const std::string body = take("body_" + k), place = take("location_body_" + k),
-                      turn = take("orientation_body_" + k);
+    const std::string body = child_text(object, ("body_" + k).c_str());
+    object.remove_child(("body_" + k).c_str());
     if (body.empty()) continue;
     const std::string name = body.substr(body.find_last_of('/') + 1) + "_offset_" + k;
-    append_frame(frames, name, body_path(body), place, turn);
+    const auto frame = append_frame(frames, name, body_path(body), {}, {});
+    move_value(object.child(("location_body_" + k).c_str()), frame, "translation");
+    move_value(object.child(("orientation_body_" + k).c_str()), frame, "orientation");
     append_text(object, ("socket_frame" + k).c_str(), name);
   }
 }
@@ -141,6 +146,8 @@ void update_constraint(pugi::xml_node object) {
 
 /// Updates muscles of documents before 10900, which hold their points themselves.
 void update_path_holder(pugi::xml_node force) {
+  rename_child(force, "MusclePointSet", "PathPointSet");
+  rename_child(force, "MuscleWrapSet", "PathWrapSet");
   if (!force.child("GeometryPath") && force.child("PathPointSet")) {
     auto path = force.append_child("GeometryPath");
     for (const char* set : {"PathPointSet", "PathWrapSet"})
@@ -155,7 +162,7 @@ void update_force(pugi::xml_node object, int version) {
   if (kind.find("Muscle") != std::string_view::npos) {
     rename_child(object, "pennation_angle", "pennation_angle_at_optimal");
     // A bound of 0 meant no bound: the class's default holds.
-    if (version < 30513 && object.child("min_control") && object.child("min_control").text().as_double() == 0.0)
+    while (version < 30513 && parse_number(child_text(object, "min_control")) == 0.0)
       object.remove_child("min_control");
   } else if (kind == "TorqueActuator") {
     rename_child(object, "body_A", "bodyA");
@@ -185,6 +192,8 @@ void update_object(pugi::xml_node object, int version) {
     rename_child(object, "initial_value", "default_value");
     for (const char* gone : {"initial_value", "motion_type"})
       if (version < 40000) object.remove_child(gone);
+  } else if (kind == "TransformAxis") {
+    rename_child(object, "coordinate", "coordinates");
   } else if (kind.starts_with("Contact") && object.child("body_name")) {
     body_to_socket(object, "body_name", "socket_frame");
   } else if (kind.ends_with("Constraint")) {
@@ -228,6 +237,14 @@ pugi::xml_node append_frame(pugi::xml_node parent,
   append_text(frame, "translation", translation.empty() ? "0 0 0" : translation);
   append_text(frame, "orientation", orientation.empty() ? "0 0 0" : orientation);
   return frame;
+}
+
+void move_value(pugi::xml_node value, pugi::xml_node object, const char* new_name) {
+  if (!value) return;
+  object.remove_child(new_name);
+  auto moved = object.append_move(value);
+  moved.set_name(new_name);
+  moved.text().set(OsimXml::text_of(moved).c_str());
 }
 
 void update_parts(pugi::xml_node document, const std::function<int(pugi::xml_node)>& version) {

@@ -43,5 +43,7 @@ pugi::xml_node append_frame(pugi::xml_node parent,
                             const std::string& body,
                             const std::string& translation,
                             const std::string& orientation);
+/// Moves a value into an object, in place of the object's own of this name; nothing without a value.
+void move_value(pugi::xml_node value, pugi::xml_node object, const char* new_name);
 
 }  // namespace myoid::body

@@ -1,20 +1,24 @@
 #include "myoid/body/osim/osim_updater.h"
 
+#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/body/osim/osim_frames.h"
 #include "myoid/body/osim/osim_update_parts.h"
-#include "myoid/body/osim/osim_xml.h"
 #include "myoid/ground/files/text_file.h"
 
 namespace myoid::body {
 namespace {
+
+/// Documents before this version may declare that a joint moves its parent on its child.
+constexpr int kFirstOsimWithoutReverse = 30514;
 
 /// A model of an old document while its bodies and joints take the newest form.
 class ModelUpdate {
@@ -22,30 +26,26 @@ class ModelUpdate {
   ModelUpdate(const OsimXml& source, pugi::xml_node model, const OsimUpdateOptions& options)
       : source_(source), model_(model), options_(options) {}
 
-  void run() {
+  /// Returns a sentence for each body that gets a joint.
+  std::vector<std::string> run() {
     leave_engine();
-    const auto bodies = model_.child("BodySet").child("objects");
-    if (!bodies) return;
-    joints_ = joint_set();
-    std::vector<pugi::xml_node> nodes;
-    for (const auto node : bodies.children("Body")) nodes.push_back(node);
-    for (const auto node : nodes) update_body(node);
-    for (const auto joint : joints_.children()) {
-      if (joint.child("parent_body") || joint.child("location_in_parent")) {
-        update_joint(joint, {});
-      } else if (joint.child("reverse")) {
-        reverse_sockets(joint);
-      }
-    }
-    if (source_.version() < 30500) free_bodies(nodes);
-    for (const auto node : nodes) {
+    std::vector<pugi::xml_node> bodies;
+    for (const auto node : model_.child("BodySet").child("objects").children("Body")) bodies.push_back(node);
+    const std::vector<ModelComponent> loose = components_of(model_, "JointSet", "Joint");
+    if (!bodies.empty()) joints_ = joint_set();
+    for (const auto node : bodies) update_body(node);
+    for (const ModelComponent& joint : loose) update_joint(joint.node, {});
+    std::vector<std::string> freed;
+    if (source_.version() < kFirstOsimWithSockets) freed = free_bodies(bodies);
+    for (const auto node : bodies) {
       if (OsimXml::name_of(node) == "ground") make_ground(node);
     }
-    if (!joints_.first_child()) model_.remove_child(joints_.parent());
+    if (joints_ && !joints_.first_child()) model_.remove_child(joints_.parent());
+    return freed;
   }
 
  private:
-  [[nodiscard]] bool is_old(pugi::xml_node where) const { return source_.version(where) < 30500; }
+  [[nodiscard]] bool is_old(pugi::xml_node where) const { return source_.version(where) < kFirstOsimWithSockets; }
 
   /// Takes the bodies out of the engine that holds them in documents before 10700.
   void leave_engine() {
@@ -66,40 +66,36 @@ class ModelUpdate {
     return child_or_new(set, "objects");
   }
 
-  [[nodiscard]] std::string digits(const std::string& text) const {
-    if (!options_.six_digits) return text;
+  /// Rounds the numbers of a list to six digits; other words stay.
+  [[nodiscard]] static std::string six_digits(const std::string& text) {
     std::string result;
     for (const std::string_view word : list_items(text)) {
       char buffer[32];
-      std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(std::string(word).c_str(), nullptr));
-      result += (result.empty() ? "" : " ") + std::string(buffer);
+      const std::optional<double> number = parse_number(word);
+      if (number) std::snprintf(buffer, sizeof buffer, "%.6g", *number);
+      result += (result.empty() ? "" : " ") + (number ? std::string(buffer) : std::string(word));
     }
     return result;
   }
 
-  /// Reverses a joint that moves its parent on its child, which documents until 30514 allow.
-  static void reverse_sockets(pugi::xml_node joint) {
-    auto parent = joint.child("socket_parent_frame"), child = joint.child("socket_child_frame");
-    if (is_true(child_text(joint, "reverse")) && parent && child) {
-      parent.set_name("socket_child_frame");
-      child.set_name("socket_parent_frame");
-    }
-    joint.remove_child("reverse");
-  }
-
   void update_body(pugi::xml_node body) {
     const std::string name = OsimXml::name_of(body);
-    if (is_old(body) && !body.child("inertia")) {
-      std::string inertia;
-      for (const char* part : {"xx", "yy", "zz", "xy", "xz", "yz"}) {
-        const std::string property = std::string("inertia_") + part;
-        std::string value = child_text(body, property.c_str());
-        if (value.empty()) value = part[0] == part[1] ? "1" : "0";
-        inertia += (inertia.empty() ? "" : " ") + digits(value);
-        body.remove_child(property.c_str());
+    if (name.empty()) return;  // the reader refuses it
+    if (is_old(body)) {
+      if (!source_.property(body, "inertia")) {
+        std::string inertia;
+        for (const char* part : {"xx", "yy", "zz", "xy", "xz", "yz"}) {
+          const std::string property = std::string("inertia_") + part;
+          std::string value = source_.word(body, property.c_str());
+          // A body with mass is refused for a part that is no number.
+          if (source_.number(body, "mass", 0.0) != 0.0) (void)source_.number(body, property.c_str(), 0.0);
+          if (value.empty()) value = part[0] == part[1] ? "1" : "0";
+          inertia += (inertia.empty() ? "" : " ") + (options_.six_digits ? six_digits(value) : value);
+          body.remove_child(property.c_str());
+        }
+        child_or_new(body, "inertia").text().set(inertia.c_str());
       }
-      append_text(body, "inertia", inertia);
-      if (!body.child("mass")) append_text(body, "mass", "0");
+      if (!source_.property(body, "mass")) child_or_new(body, "mass").text().set("0");
     }
     update_visible(body, name);
     const auto holder = body.child("Joint");
@@ -110,52 +106,87 @@ class ModelUpdate {
     body.remove_child(holder);
   }
 
-  /// Updates a joint. `child`: the body that holds the joint.
+  /// Moves a property of a joint, or a copy of its prototype's, into a frame.
+  void move_into(pugi::xml_node frame, const char* new_name, pugi::xml_node joint, const char* name, bool rounded) {
+    if (const auto value = source_.property(joint, name); value && value.parent() != joint) joint.append_copy(value);
+    move_value(joint.child(name), frame, new_name);
+    auto moved = frame.child(new_name);
+    if (rounded) moved.text().set(six_digits(OsimXml::text_of(moved)).c_str());
+  }
+
+  /// Returns the body or frame that a joint names for its "parent" or "child", and removes the properties that name it.
+  [[nodiscard]] std::string take_name(pugi::xml_node joint, const std::string& which) const {
+    const auto take = [&](const std::string& property) {
+      std::string name = source_.word(joint, property.c_str());
+      joint.remove_child(property.c_str());
+      return name;
+    };
+    const std::string body = take(which + "_body"), frame = take("socket_" + which + "_frame");
+    std::string path = take("socket_" + which + "_body");
+    while (path.starts_with("../")) path.erase(0, 3);  // version 4's betas give the path from the joint
+    return !body.empty() ? body : !path.empty() ? path : frame;
+  }
+
+  /// Updates a joint. `child`: the body that holds the joint; empty for a joint of a set.
   void update_joint(pugi::xml_node joint, std::string child) {
-    const std::string name = OsimXml::name_of(joint);
-    const auto take = [&](const char* property) {
-      const std::string text = child_text(joint, property);
-      joint.remove_child(property);
-      return text;
-    };
-    // Version 4's betas name bodies by their path from the joint: "../rod".
-    const auto body_of = [&](const char* property) {
-      std::string path = take(property);
-      while (path.starts_with("../")) path.erase(0, 3);
-      return path;
-    };
-    std::string parent = take("parent_body");
-    if (parent.empty()) parent = body_of("socket_parent_body");
-    if (parent.empty()) parent = take("socket_parent_frame");
-    if (child.empty()) child = take("child_body");
-    if (child.empty()) child = body_of("socket_child_body");
-    if (child.empty()) child = take("socket_child_frame");
-    if (parent.empty() || child.empty()) source_.fail(joint, "joint '{}' does not name its parent and child", name);
-    std::string place_in_parent = digits(take("location_in_parent"));
-    std::string turn_in_parent = digits(take("orientation_in_parent"));
-    const bool in_child = static_cast<bool>(joint.child("location_in_child"));
-    std::string place = digits(take(in_child ? "location_in_child" : "location"));
-    std::string turn = digits(take(in_child ? "orientation_in_child" : "orientation"));
-    if (is_true(take("reverse"))) {
-      std::swap(parent, child);
-      std::swap(place_in_parent, place);
-      std::swap(turn_in_parent, turn);
+    const bool held = !child.empty();
+    const bool reversed = source_.version(joint) < kFirstOsimWithoutReverse && source_.flag(joint, "reverse", false);
+    joint.remove_child("reverse");
+    if (held || names_bodies(joint)) {
+      make_frames(joint, std::move(child), reversed);
+    } else if (reversed) {
+      auto frame_in_parent = joint.child("socket_parent_frame"), frame_in_child = joint.child("socket_child_frame");
+      frame_in_parent.set_name("socket_child_frame");
+      frame_in_child.set_name("socket_parent_frame");
     }
-    const auto last = [](const std::string& path) { return path.substr(path.find_last_of('/') + 1) + "_offset"; };
-    append_text(joint, "socket_parent_frame", last(parent));
-    append_text(joint, "socket_child_frame", last(child));
     if (const auto set = joint.child("CoordinateSet")) {
-      auto coordinates = joint.append_child("coordinates");
+      auto coordinates = child_or_new(joint, "coordinates");
       std::vector<pugi::xml_node> nodes;
       for (const auto node : set.child("objects").children("Coordinate")) nodes.push_back(node);
       for (const auto node : nodes) coordinates.append_move(node);
       joint.remove_child(set);
     }
-    const auto frames = child_or_new(joint, "frames");
-    append_frame(frames, last(parent), frame_path(parent), place_in_parent, turn_in_parent);
-    append_frame(frames, last(child), frame_path(child), place, turn);
     update_axes(joint);
     joint.remove_child("VisibleObject");
+  }
+
+  [[nodiscard]] bool names_bodies(pugi::xml_node joint) const {
+    for (const char* property : {"parent_body", "socket_parent_body", "location_in_parent", "location_in_child"})
+      if (source_.property(joint, property)) return true;
+    return false;
+  }
+
+  /// Gives a joint two frames, each in the body, or in the frame, that the joint names.
+  void make_frames(pugi::xml_node joint, std::string child, bool reversed) {
+    const bool rounded = options_.six_digits && !child.empty();
+    std::string parent = take_name(joint, "parent");
+    if (child.empty()) child = take_name(joint, "child");
+    if (parent.empty() || child.empty()) {
+      source_.fail(joint, "joint '{}' has no <{}_body>; expected the name of a body", OsimXml::name_of(joint),
+                   parent.empty() ? "parent" : "child");
+    }
+    const bool in_child = static_cast<bool>(source_.property(joint, "location_in_child"));
+    const std::string first = unique_frame(joint, parent), second = unique_frame(joint, child);
+    append_text(joint, "socket_parent_frame", reversed ? second : first);
+    append_text(joint, "socket_child_frame", reversed ? first : second);
+    auto frames = child_or_new(joint, "frames");
+    const auto add = [&](const std::string& name, const std::string& in, const char* place, const char* turn) {
+      const auto frame = append_frame(frames, name, frame_path(in), {}, {});
+      move_into(frame, "translation", joint, place, rounded);
+      move_into(frame, "orientation", joint, turn, rounded);
+    };
+    add(first, parent, "location_in_parent", "orientation_in_parent");
+    add(second, child, in_child ? "location_in_child" : "location", in_child ? "orientation_in_child" : "orientation");
+    for (const char* gone : {"location", "orientation"}) joint.remove_child(gone);
+  }
+
+  /// Returns a name for the frame of a joint in a body that no other frame of a joint of that name has.
+  std::string unique_frame(pugi::xml_node joint, const std::string& body) {
+    const std::string name = body.substr(body.find_last_of('/') + 1) + "_offset";
+    std::string unique = name;
+    for (int k = 2; !frames_.insert(OsimXml::name_of(joint) + "/" + unique).second; ++k)
+      unique = fmt::format("{}_{}", name, k);
+    return unique;
   }
 
   /// Returns the path of a frame; a name without a path is a body's.
@@ -164,7 +195,7 @@ class ModelUpdate {
   }
 
   /// Updates the axes of documents before 10901, whose sets hold rotations and translations in any order.
-  static void update_axes(pugi::xml_node joint) {
+  void update_axes(pugi::xml_node joint) const {
     const auto set = joint.child("TransformAxisSet");
     if (!set) return;
     auto transform = joint.append_child("SpatialTransform");
@@ -172,10 +203,9 @@ class ModelUpdate {
     int rotations = 0, translations = 0;
     for (auto axis : set.child("objects").children()) {
       if (axis.type() != pugi::node_element) continue;
-      const bool turns = is_true(child_text(axis, "is_rotation"));
+      const bool turns = source_.flag(axis, "is_rotation", false);
       axis.remove_child("is_rotation");
       axis.remove_child("VisibleObject");
-      rename_child(axis, "coordinate", "coordinates");
       slots[fmt::format("{}{}", turns ? "rotation" : "translation", turns ? ++rotations : ++translations)] = axis;
     }
     constexpr const char* kAxes[] = {"1 0 0", "0 1 0", "0 0 1"};
@@ -194,8 +224,9 @@ class ModelUpdate {
     joint.remove_child(set);
   }
 
-  /// Adds free joints for bodies without a joint, which move freely in old documents.
-  void free_bodies(const std::vector<pugi::xml_node>& bodies) {
+  /// Adds free joints for bodies without a joint, which move freely in old documents; returns a sentence for each.
+  std::vector<std::string> free_bodies(const std::vector<pugi::xml_node>& bodies) {
+    std::vector<std::string> freed;
     for (const auto joint : joints_.children()) {
       for (const auto frame : joint.child("frames").children()) {
         if (OsimXml::name_of(frame) == child_text(joint, "socket_child_frame")) {
@@ -217,7 +248,9 @@ class ModelUpdate {
       auto frames = joint.append_child("frames");
       append_frame(frames, "ground_offset", "/ground", {}, {});
       append_frame(frames, name + "_offset", body_path(name), {}, {});
+      freed.push_back(fmt::format("body '{}' has no joint; it is free to move", name));
     }
+    return freed;
   }
 
   void make_ground(pugi::xml_node body) {
@@ -234,53 +267,50 @@ class ModelUpdate {
   /// Adds the meshes of a body; a mesh with a place of its own gets a frame.
   void update_visible(pugi::xml_node body, const std::string& name) {
     const auto visible = body.child("VisibleObject");
-    if (!visible) return;
-    const std::string all = child_text(visible, "scale_factors");
+    if (!visible || !options_.looks) return;
+    const Vec3 all = source_.vec3(visible, "scale_factors", Vec3::Ones());
+    const auto holder = placed(body, fmt::format("{}_geom_frame", name), visible);
     int number = 0;
-    for (const auto shape : visible.child("GeometrySet").child("objects").children()) {
+    for (const auto shape : OsimXml::objects(visible.child("GeometrySet"))) {
       const std::string file = child_text(shape, "geometry_file");
-      if (!file.empty()) add_mesh(body, name, ++number, file, shape, all);
+      if (!file.empty()) add_mesh(holder, name, ++number, file, shape, all);
     }
-    std::istringstream files(child_text(visible, "geometry_files"));
-    for (std::string file; files >> file;) add_mesh(body, name, ++number, file, {}, all);
+    std::istringstream files(child_text(visible, "geometry_files"));  // before 20000
+    for (std::string file; files >> file;) add_mesh(holder, name, ++number, file, {}, all);
     body.remove_child(visible);
   }
 
-  static std::string product(const std::string& a, const std::string& b) {
-    const auto one = list_items(a), two = list_items(b);
-    const auto at = [](const std::vector<std::string_view>& items, std::size_t k) {
-      return k < items.size() ? parse_number(items[k]).value_or(1.0) : 1.0;
-    };
-    std::string result;
-    for (std::size_t k = 0; k < 3; ++k) result += (k == 0 ? "" : " ") + format_number(at(one, k) * at(two, k));
-    return result;
+  /// Returns the holder, or a frame in it for a shape that has a place of its own.
+  pugi::xml_node placed(pugi::xml_node holder, const std::string& frame, pugi::xml_node shape) const {
+    const auto transform = shape.child("transform");
+    if (!transform) return holder;
+    const std::vector<double> v = source_.numbers(transform);
+    if (v.size() != 6) source_.fail(transform, "expected 6 numbers, found {}", v.size());
+    if (std::ranges::all_of(v, [](double x) { return x == 0.0; })) return holder;
+    const std::string text = OsimXml::text_of(transform);
+    const std::vector<std::string_view> words = list_items(text);
+    const auto three = [&](std::size_t k) { return fmt::format("{} {} {}", words[k], words[k + 1], words[k + 2]); };
+    return append_frame(child_or_new(holder, "components"), frame, "..", three(3), three(0));
   }
 
-  static void add_mesh(pugi::xml_node body,
-                       const std::string& name,
-                       int number,
-                       const std::string& file,
-                       pugi::xml_node shape,
-                       const std::string& scale) {
-    auto holder = body;
-    const std::string transform = child_text(shape, "transform");
-    std::vector<std::string> w;
-    bool placed = false;
-    for (const std::string_view word : list_items(transform)) {
-      w.emplace_back(word);
-      placed = placed || std::strtod(w.back().c_str(), nullptr) != 0.0;
-    }
-    if (placed && w.size() == 6) {
-      holder = append_frame(child_or_new(body, "components"), fmt::format("{}_geom_frame_{}", name, number), "..",
-                            w[3] + " " + w[4] + " " + w[5], w[0] + " " + w[1] + " " + w[2]);
-    }
+  void add_mesh(pugi::xml_node holder,
+                const std::string& name,
+                int number,
+                const std::string& file,
+                pugi::xml_node shape,
+                const Vec3& scale) const {
+    holder = placed(holder, fmt::format("{}_geom_frame_{}", name, number), shape);
     auto mesh = child_or_new(holder, "attached_geometry").append_child("Mesh");
     set_attribute(mesh, "name", fmt::format("{}_geom_{}", name, number));
     append_text(mesh, "socket_frame", "..");
-    append_text(mesh, "scale_factors", product(scale, child_text(shape, "scale_factors")));
+    const Vec3 factors = scale.cwiseProduct(source_.vec3(shape, "scale_factors", Vec3::Ones()));
+    append_text(
+        mesh, "scale_factors",
+        fmt::format("{} {} {}", format_number(factors[0]), format_number(factors[1]), format_number(factors[2])));
     auto look = mesh.append_child("Appearance");
     for (const char* part : {"opacity", "color"})
       if (const std::string text = child_text(shape, part); !text.empty()) append_text(look, part, text);
+    if (source_.number(shape, "display_preference", 4.0) == 0.0) append_text(look, "visible", "false");
     append_text(mesh, "mesh_file", file);
   }
 
@@ -288,6 +318,7 @@ class ModelUpdate {
   pugi::xml_node model_, joints_;
   const OsimUpdateOptions& options_;
   std::set<std::string> has_joint_;
+  std::set<std::string> frames_;  ///< "JOINT/FRAME" of the frames made.
 };
 
 /// Objects take properties that they omit from the prototype of their class; afterwards the prototypes are removed.
@@ -332,6 +363,15 @@ int drop_visible(pugi::xml_node root) {
 
 }  // namespace
 
+std::vector<std::string> bring_to_newest_form(OsimXml& xml, const OsimUpdateOptions& options) {
+  xml.remember_places();
+  update_parts(xml.root(), [&](pugi::xml_node node) { return xml.version(node); });
+  const auto model = xml.root().child("Model");
+  if (!model) return {};
+  xml.set_prototypes(model.child("defaults"));
+  return ModelUpdate(xml, model, options).run();
+}
+
 UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& path, const OsimUpdateOptions& options) {
   const OsimXml source(std::string(text), path, OsimXml::Root::any);
   UpdatedOsim result;
@@ -356,7 +396,8 @@ UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& pat
   for (const auto node : root.children()) spread_defaults(node);
   update_parts(root, [&](pugi::xml_node node) { return source.version(node); });
   if (const auto model = root.child("Model")) {
-    ModelUpdate(source, model, options).run();
+    for (std::string& says : ModelUpdate(source, model, options).run())
+      result.notes.push_back({.code = RemarkCode::reading, .says = std::move(says)});
     name_sets(model, result.old_version);
   }
   if (const int looks = drop_visible(root); looks > 0) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "myoid/body/model/kinematic_tree.h"
@@ -159,6 +160,43 @@ TEST(UpdatedOsim, HoldsTheSameModelInTheNewestForm) {
         "<mesh_file>rod.vtp</mesh_file>", "<scale_factors>3 2 2</scale_factors>", "<isEnforced>false</isEnforced>",
         "<socket_parent_frame>/bodyset/tip</socket_parent_frame>"})
     EXPECT_NE(updated.text.find(there), std::string::npos) << there;
+}
+
+TEST(BringToNewestForm, AFaultKeepsTheLineAndTheNameThatTheFileHas) {
+  const std::pair<const char*, const char*> faults[] = {{"<location_in_parent>", "0.123456789 0 0"},
+                                                        {"<inertia_xx>", "0.12345678"},
+                                                        {"<initial_value>", "0.25"},
+                                                        {"<isDisabled>", "false"},
+                                                        {"<orientation_body_2>", "0.1 0.2 0.3"}};
+  for (const auto& [element, value] : faults) {
+    std::string text = kOld;
+    const std::size_t at = text.find(element + std::string(value));
+    ASSERT_NE(at, std::string::npos) << element;
+    text.replace(at + std::string_view(element).size(), std::string_view(value).size(), "one");
+    try {
+      (void)parse_osim(text, "old.osim");
+      FAIL() << element;
+    } catch (const ReadError& error) {
+      EXPECT_EQ(error.line(), line_at(text, at)) << error.what();
+      EXPECT_NE(std::string(error.what()).find(element), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(BringToNewestForm, OldJointsOfOneNameKeepTheirPlaces) {
+  std::string bodies;
+  for (const char* body : {"left", "right"})
+    bodies += fmt::format(
+        "<Body name=\"{0}\"><mass>1</mass><inertia_xx>1</inertia_xx><Joint><PinJoint name=\"hinge\">"
+        "<parent_body>ground</parent_body><location_in_parent>0 0 {1}</location_in_parent><CoordinateSet><objects>"
+        "<Coordinate name=\"{0}_angle\"/></objects></CoordinateSet></PinJoint></Joint></Body>",
+        body, body[0] == 'l' ? -1 : 1);
+  const BodyModel model = parse_osim("<OpenSimDocument Version=\"20302\"><Model name=\"m\"><BodySet><objects>" +
+                                         bodies + "</objects></BodySet></Model></OpenSimDocument>",
+                                     "old.osim");
+  ASSERT_EQ(model.joints.size(), 2U);
+  EXPECT_EQ(model.joints[0].X_PF.p, Vec3(0.0, 0.0, -1.0));
+  EXPECT_EQ(model.joints[1].X_PF.p, Vec3(0.0, 0.0, 1.0));
 }
 
 // What is in the newest form stays so: a second update changes nothing.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/body/osim/osim_update_parts.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/ground/files/toml_table.h"
@@ -74,11 +75,25 @@ void OsimXml::list_attributes() {
   }
 }
 
+void OsimXml::remember_places() {
+  for_each_element(document_, [&](pugi::xml_node node) {
+    if (node.offset_debug() > 0) places_.emplace(node.hash_value(), static_cast<std::size_t>(node.offset_debug()));
+  });
+}
+
+std::string OsimXml::tag_of(pugi::xml_node node) const {
+  const auto place = places_.find(node.hash_value());
+  if (place == places_.end() || whole_.text[place->second - 1] != '<') return node.name();
+  return whole_.text.substr(place->second, whole_.text.find_first_of(" \t\r\n/>", place->second) - place->second);
+}
+
 std::size_t OsimXml::offset_of(pugi::xml_node where) const {
   // Elements made while upgrading an old document have no place in the text: the place of a parent serves.
-  std::ptrdiff_t offset = where.offset_debug();
-  for (pugi::xml_node n = where; offset < 0 && n; n = n.parent()) offset = n.offset_debug();
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, offset));
+  for (pugi::xml_node n = where; n; n = n.parent()) {
+    if (const auto place = places_.find(n.hash_value()); place != places_.end()) return place->second;
+    if (n.offset_debug() >= 0) return static_cast<std::size_t>(n.offset_debug());
+  }
+  return 0;
 }
 
 OsimXml::Place OsimXml::find(pugi::xml_node where) const {
@@ -124,7 +139,7 @@ pugi::xml_node OsimXml::property(pugi::xml_node object, const char* name) const 
 
 pugi::xml_node OsimXml::value_of(pugi::xml_node object, const char* name) const {
   if (const auto own = object.child(name); own && is_empty(own)) {
-    std::string sentence = fmt::format("{}: <{}> is empty; its default holds", place_of(own), name);
+    std::string sentence = fmt::format("{}: <{}> is empty; its default holds", place_of(own), tag_of(own));
     if (std::find(repairs_.begin(), repairs_.end(), sentence) == repairs_.end())
       repairs_.push_back(std::move(sentence));
   }
@@ -152,7 +167,7 @@ std::vector<double> OsimXml::numbers(pugi::xml_node node) const {
   const std::string text = text_of(node);
   for (const std::string_view w : list_items(text)) {
     const auto value = parse_number(w);
-    if (!value || std::isnan(*value)) fail(node, "<{}>: expected numbers, found '{}'", node.name(), w);
+    if (!value || std::isnan(*value)) fail(node, "<{}>: expected numbers, found '{}'", tag_of(node), w);
     values.push_back(*value);
   }
   return values;
@@ -164,7 +179,7 @@ double OsimXml::number(pugi::xml_node object, const char* name, double otherwise
   const std::string_view text = trim(node.text().get());
   if (const auto value = parse_number(text); value && !std::isnan(*value)) return *value;
   const auto values = numbers(node);
-  if (values.size() != 1) fail(node, "<{}>: expected one number, found {}", name, values.size());
+  if (values.size() != 1) fail(node, "<{}>: expected one number, found {}", tag_of(node), values.size());
   return values[0];
 }
 
@@ -172,7 +187,7 @@ Vec3 OsimXml::vec3(pugi::xml_node object, const char* name, const Vec3& otherwis
   const auto node = value_of(object, name);
   if (!node) return otherwise;
   const auto values = numbers(node);
-  if (values.size() != 3) fail(node, "<{}>: expected three numbers, found {}", name, values.size());
+  if (values.size() != 3) fail(node, "<{}>: expected three numbers, found {}", tag_of(node), values.size());
   return {values[0], values[1], values[2]};
 }
 
@@ -183,7 +198,7 @@ bool OsimXml::flag(pugi::xml_node object, const char* name, bool otherwise) cons
   if (text.empty()) return otherwise;
   if (equal_ignoring_case(text, "true") || text == "1") return true;
   if (equal_ignoring_case(text, "false") || text == "0") return false;
-  fail(node, "<{}>: expected true or false, found '{}'", name, text);
+  fail(node, "<{}>: expected true or false, found '{}'", tag_of(node), text);
 }
 
 std::vector<pugi::xml_node> OsimXml::objects(pugi::xml_node set) {

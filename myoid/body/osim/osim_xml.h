@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,11 @@ class OsimXml {
   }
   /// Returns "line 12", counted from 1; "forces.xml, line 12" for an element in another file.
   [[nodiscard]] std::string place_of(pugi::xml_node where) const;
+
+  /// Remembers the place and the name of each element, for messages, before elements are renamed and moved.
+  void remember_places();
+  /// Returns the name of an element in its file.
+  [[nodiscard]] std::string tag_of(pugi::xml_node node) const;
 
   /// Prototypes of classes: the children of a <defaults> element.
   void set_prototypes(pugi::xml_node defaults);
@@ -92,6 +98,7 @@ class OsimXml {
   pugi::xml_document document_;
   pugi::xml_node root_;
   int version_ = 0;
+  std::unordered_map<std::size_t, std::size_t> places_;  ///< Place of an element in the text by its hash.
   std::map<std::string, pugi::xml_node, std::less<>> prototypes_;
   mutable std::vector<std::string> repairs_;
   std::vector<std::string> ignored_;

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/body/osim/osim_frames.h"
+#include "myoid/body/osim/osim_updater.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/index.h"
 
@@ -25,31 +26,6 @@ void add_attached(const OsimReading& r, pugi::xml_node owner, const FixedFrame& 
     if (!file.empty() && r.xml.flag(mesh.child("Appearance"), "visible", true))
       uses.push_back({file, frame.body, frame.X_BF, r.xml.vec3(mesh, "scale_factors", Vec3::Ones())});
   }
-}
-
-/// Adds <VisibleObject> of a body in documents before 30500; its scale multiplies the scale of each part.
-void add_visible(const OsimReading& r, pugi::xml_node body, body::BodyIndex index, std::vector<MeshUse>& uses) {
-  const auto visible = body.child("VisibleObject");
-  if (!visible) return;
-  const auto placed = [&](pugi::xml_node node) {
-    Pose pose;
-    const auto transform = node.child("transform");
-    if (!transform) return pose;
-    const std::vector<double> v = r.xml.numbers(transform);
-    if (v.size() != 6) r.xml.fail(transform, fmt::format("expected 6 numbers, found {}", v.size()));
-    return Pose{rotation_body_xyz({v[0], v[1], v[2]}), Vec3(v[3], v[4], v[5])};
-  };
-  const Vec3 scale = r.xml.vec3(visible, "scale_factors", Vec3::Ones());
-  const Pose pose = placed(visible);
-  for (const auto part : OsimXml::objects(visible.child("GeometrySet"))) {
-    const std::string file = r.xml.word(part, "geometry_file");
-    const bool is_hidden = r.xml.number(part, "display_preference", 4.0) == 0.0;
-    if (file.empty() || is_hidden) continue;
-    const Vec3 own = r.xml.vec3(part, "scale_factors", Vec3::Ones());
-    uses.push_back({file, index, pose * placed(part), scale.cwiseProduct(own)});
-  }
-  // Before 20000 there was only the list of names.
-  for (const std::string& file : r.xml.words(visible, "geometry_files")) uses.push_back({file, index, pose, scale});
 }
 
 std::optional<fs::path> find_file(const std::string& file, const fs::path& model_folder, const MeshOptions& options) {
@@ -100,17 +76,13 @@ std::vector<MeshUse> list_meshes(std::string_view osim, const fs::path& path) {
   OsimXml xml(std::string(osim), path);
   const auto node = xml.root().child("Model");
   if (!node) xml.fail(xml.root(), "the document has no <Model>");
+  (void)bring_to_newest_form(xml);
   OsimReading r{xml, {}, {}, {}};
-  const auto skeleton = body::skeleton_of(node);
-  body::read_bodies(r, skeleton);
+  body::read_bodies(r, node);
   std::vector<MeshUse> uses;
-  add_attached(r, skeleton.child("Ground"), {}, uses);
-  for (const auto& [body, place] : body::components_of(skeleton, "BodySet", "Body")) {
-    const auto index = r.model.find_body(OsimXml::name_of(body));
-    if (!index) continue;
-    add_attached(r, body, {*index, {}}, uses);
-    add_visible(r, body, *index, uses);
-  }
+  add_attached(r, node.child("Ground"), {}, uses);
+  for (const auto& [body, place] : body::components_of(node, "BodySet", "Body"))
+    if (const auto index = r.model.find_body(OsimXml::name_of(body))) add_attached(r, body, {*index, {}}, uses);
   for (const auto& [name, frame] : r.frames) {
     if (!frame.node.child("attached_geometry")) continue;
     try {
