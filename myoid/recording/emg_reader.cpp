@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/ground/core/counted.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/file_words.h"
@@ -28,14 +29,6 @@
 
 namespace myoid::recording {
 namespace {
-
-/// Returns the first names of a list, and how many more there are.
-std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kShown = 8;
-  const std::size_t shown = std::min(kShown, names.size());
-  return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                     shown < names.size() ? fmt::format(" and {} more", names.size() - shown) : "");
-}
 
 /// Reads a word for a voltage in free text: "microvolt", "uV", "[mV]".
 std::optional<double> voltage_in(std::string_view text) {

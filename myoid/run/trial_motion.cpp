@@ -9,47 +9,21 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "myoid/body/dynamics/held_mass.h"
-#include "myoid/body/kinematics/marker_misfit.h"
 #include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/recording/signals/resample.h"
+#include "myoid/study/checks/marker_distance.h"
 #include "myoid/study/intake/trial_input.h"
-#include "myoid/study/intake/trial_markers.h"
-#include "myoid/study/study_model.h"
+#include "myoid/study/intake/trial_model.h"
 
 namespace myoid::run {
 namespace {
 
-/// Finds coordinates that are constant in a trial while the posture is known, and then holds them.
-void calibrate(const study::CalibrationSpec& spec, const MarkerSeries& markers, body::BodyModel& model) {
-  body::BodyModel posed = model;
-  for (body::Coordinate& c : posed.coordinates) c.locked = true;
-  for (const std::string& name : spec.free)
-    posed.coordinates[static_cast<std::size_t>(posed.coordinate_index(name))].locked = false;
-  const body::IkResult pose = body::inverse_kinematics(posed, study::calibration_window(spec, markers));
-  for (const std::string& name : spec.hold) {
-    Eigen::VectorXd values = pose.q.column(name);
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    body::Coordinate& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
-    c.default_value = values[values.size() / 2];
-    c.locked = true;
-  }
-}
-
 /// Returns the model of a trial: a copy only where it differs from the study's.
-std::shared_ptr<const body::BodyModel> trial_model(const StudySource& source,
-                                                   const study::TrialSpec& spec,
-                                                   const study::TrialInput& input) {
-  const study::Study& study = source.study;
-  std::optional<body::BodyModel> own;
-  const auto changed = [&]() -> body::BodyModel& { return own ? *own : own.emplace(*source.model); };
-  if (input.markers) own = study::arm_of_markers(study, *input.markers);
-  if (spec.held_mass_kg.value_or(0.0) > 0.0) {
-    const study::HeldMassSpec held = study::held_mass_place(study);
-    own = body::with_held_mass(std::move(changed()), held.body, held.p_BP_m, *spec.held_mass_kg);
-  }
-  if (input.markers && study.ik.calibrate) calibrate(*study.ik.calibrate, *input.markers, changed());
+std::shared_ptr<const body::BodyModel> model_of(const StudySource& source,
+                                                const study::TrialSpec& spec,
+                                                const study::TrialInput& input) {
+  auto own = study::trial_model(source.study, *source.model, spec, input);
   return own ? std::make_shared<const body::BodyModel>(std::move(*own)) : source.model;
 }
 
@@ -60,31 +34,8 @@ void solve_ik(const StudySource& source, const MarkerSeries& markers, StageStore
   motion.ik_reused = motion.ik.has_value();
   if (motion.ik_reused) return;
   motion.ik_was_damaged = store != nullptr && store->is_damaged(key);
-  body::IkOptions options;
-  options.marker_weights = source.study.markers.weight;
-  motion.ik = body::inverse_kinematics(*motion.model, markers, options);
+  motion.ik = body::inverse_kinematics(*motion.model, markers, {.marker_weights = source.study.markers.weight});
   if (store != nullptr) store->keep(key, *motion.ik);
-}
-
-/// Warns of markers that lie far from the model's, and says how the trunk of the built-in arm is let move.
-void note_misfit(const study::Study& study,
-                 const std::string& trial,
-                 const MarkerSeries& markers,
-                 TrialMotion& motion) {
-  body::MarkerMisfit misfit = body::marker_misfit(*motion.model, markers, *motion.ik);
-  if (misfit.warning.empty()) return;
-  const bool stands = study.model.is_arm() && !misfit.wrong_unit &&
-                      std::ranges::find(study.ik.unlock, "base_tx") == study.ik.unlock.end();
-  motion.remarks.push_back(
-      {.code = misfit.wrong_unit ? RemarkCode::marker_unit : RemarkCode::model_unfit,
-       .where = trial,
-       .about = "markers",
-       .value = misfit.rms_m,
-       .says = std::move(misfit.warning),
-       .remedy = stands ? "the trunk of the built-in arm stands still: with forearm_rotations = true in [model] and "
-                          "unlock = [\"base_heading\", \"base_tx\", \"base_ty\", \"base_tz\"] in [ik] it moves; or "
-                          "name a model of this marker set"
-                        : ""});
 }
 
 /// Adds the coordinates at the times of given lengths, else on the clock of the analysis, smoothed as the study says,
@@ -121,11 +72,12 @@ TrialMotion trial_motion(const StudySource& source,
                          const study::TrialInput& input,
                          StageStore* store) {
   TrialMotion motion;
-  motion.model = trial_model(source, spec, input);
+  motion.model = model_of(source, spec, input);
   if (input.markers) {
     solve_ik(source, *input.markers, store, motion);
     std::ranges::copy(motion.ik->notes, std::back_inserter(motion.remarks));
-    note_misfit(source.study, spec.name, *input.markers, motion);
+    if (auto far = study::far_markers(source.study, spec, *motion.model, *input.markers, *motion.ik))
+      motion.remarks.push_back(std::move(*far));
     add_joint_motion(source.study, input.given, motion.ik->q, motion);
     std::vector<Remark> found = body::implausible_motion(motion.ik->q);
     std::ranges::move(body::remarks_on_ends(*motion.model, motion.ik->q), std::back_inserter(found));

@@ -8,6 +8,7 @@
 
 #include "myoid/body/arm/arm4.h"
 
+#include "tests/support/resting_markers.h"
 #include "tests/support/written_trial.h"
 
 namespace myoid::run {
@@ -59,30 +60,13 @@ TEST(StudyMotion, AHeldMassWithoutAPlaceIsTheFailureOfItsTrial) {
   EXPECT_NE(motion[1].failure.find("does not say where it acts"), std::string::npos);
 }
 
-/// The markers of the resting built-in arm for half a second, `shift_m` in front of it.
-MarkerSeries resting_markers(double shift_m) {
-  const body::BodyModel& model = arm();
-  body::BodyState state = body::make_state(model);
-  body::compute_poses(model, model.default_q(), state);
-  MarkerSeries markers;
-  markers.time_s = Eigen::VectorXd::LinSpaced(51, 0.0, 0.5);
-  markers.positions_m.resize(51, static_cast<Eigen::Index>(3 * model.markers.size()));
-  for (std::size_t m = 0; m < model.markers.size(); ++m) {
-    const body::Marker& marker = model.markers[m];
-    const Vec3 place = state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM + shift_m * Vec3::UnitX();
-    markers.names.push_back(marker.name);
-    markers.positions_m.middleCols(3 * static_cast<Eigen::Index>(m), 3).rowwise() = place.transpose();
-  }
-  return markers;
-}
-
 TEST(StudyMotion, MarkersOfAnArmThatTheModelCannotReachNameTheSettingThatLetsItMove) {
   study::Study study = arm_study();
   study.trials[0].motion.reset();
   study.trials[0].markers = "m.trc";
   const auto remarks = [&](double shift_m) {
     study::TrialInput input;
-    input.markers = resting_markers(shift_m);
+    input.markers = test::resting_markers(arm(), shift_m);
     const std::vector<TrialMotion> motion = study_motion(in_memory(study, {input}), nullptr, {});
     EXPECT_EQ(motion[0].failure, "");
     std::vector<Remark> found;

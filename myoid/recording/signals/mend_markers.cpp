@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/ground/core/counted.h"
 #include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/spline.h"
 #include "myoid/recording/signals/marker_quality.h"
@@ -128,13 +129,6 @@ bool fill_from_segment(const MarkerSeries& seen,
   return false;
 }
 
-/// The frames of one marker that were filled by one method.
-struct Filled {
-  int gaps = 0;
-  Eigen::Index frames = 0;
-  double begin_s = 0.0, end_s = 0.0;
-};
-
 }  // namespace
 
 MendedMarkers mend_markers(MarkerSeries markers,
@@ -144,7 +138,7 @@ MendedMarkers mend_markers(MarkerSeries markers,
   if (options.undo_swaps) {
     const std::vector<MarkerSwap> swaps = find_swaps(markers);
     for (const Remark& fault : swap_faults(markers, swaps))
-      result.repairs.push_back(fmt::format("{}: exchanged back", fault.says));
+      result.swaps.push_back(fmt::format("{}: exchanged back", fault.says));
     markers = undo_swaps(std::move(markers), swaps);
   }
   result.markers = markers;
@@ -155,7 +149,7 @@ MendedMarkers mend_markers(MarkerSeries markers,
     Shape shape{&segment, mean_shape(markers, segment)};
     if (shape.local_m.cols() >= 4) shapes.push_back(std::move(shape));
   }
-  std::map<std::pair<Eigen::Index, bool>, Filled> filled;
+  std::map<std::pair<Eigen::Index, bool>, Eigen::Index> filled;  // frames, by marker and whether a spline fills them
   for (const MarkerGap& gap : find_marker_gaps(markers)) {
     if (gap.begin == 0 || gap.end == markers.frame_count()) continue;
     const double length_s = markers.time_s[gap.end] - markers.time_s[gap.begin - 1];
@@ -163,18 +157,13 @@ MendedMarkers mend_markers(MarkerSeries markers,
     const bool is_short = length_s - interval_s <= kLimits.markers.gap_s * (1.0 + 1e-9);
     const bool done = is_short ? fill_by_spline(markers, gap, result.markers)
                                : fill_from_segment(markers, shapes, gap, result.markers);
-    if (!done) continue;
-    Filled& f = filled[{gap.marker, is_short}];
-    if (f.gaps == 0) f.begin_s = markers.time_s[gap.begin];
-    ++f.gaps;
-    f.frames += gap.end - gap.begin;
-    f.end_s = markers.time_s[gap.end - 1];
+    if (done) filled[{gap.marker, is_short}] += gap.end - gap.begin;
   }
-  for (const auto& [key, f] : filled) {
-    result.repairs.push_back(fmt::format("marker '{}': {} gap{} ({} frames from {:.6g} to {:.6g} s) filled {}",
-                                         markers.names[static_cast<std::size_t>(key.first)], f.gaps,
-                                         f.gaps == 1 ? "" : "s", f.frames, f.begin_s, f.end_s,
-                                         key.second ? "by a spline" : "from its segment's other markers"));
+  for (const auto& [key, frames] : filled) {
+    std::string& words = result.filled[markers.names[static_cast<std::size_t>(key.first)]];
+    words +=
+        fmt::format("{}{} filled {}", words.empty() ? "" : ", ", counted(static_cast<std::size_t>(frames), "frame"),
+                    key.second ? "by a spline" : "from its segment's other markers");
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,11 @@ struct MendOptions {
   bool fill_gaps = true;
 };
 
-/// Repaired markers, with a sentence for every change.
+/// Repaired markers, with words for every change.
 struct MendedMarkers {
   MarkerSeries markers;
-  std::vector<std::string> repairs;
+  std::vector<std::string> swaps;             ///< A sentence for each exchange.
+  std::map<std::string, std::string> filled;  ///< By marker: "10 frames filled by a spline".
 };
 
 /// Undoes swaps (`find_swaps`), then fills gaps before and after which the marker is seen:

@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/body/kinematics/inverse_kinematics.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/signals/emg_envelope.h"
 #include "myoid/recording/tables/csv_reader.h"
 #include "myoid/study/checks/load_points.h"
+#include "myoid/study/checks/marker_distance.h"
 #include "myoid/study/checks/recording_findings.h"
 #include "myoid/study/checks/stated_loads.h"
 #include "myoid/study/checks/study_plausibility.h"
@@ -21,7 +21,6 @@
 #include "myoid/study/intake/norm.h"
 #include "myoid/study/intake/read_trial.h"
 #include "myoid/study/intake/study_activation.h"
-#include "myoid/study/intake/trial_markers.h"
 #include "myoid/study/study_model.h"
 #include "myoid/study/trial_videos.h"
 
@@ -59,9 +58,8 @@ class StudyCheck {
     for (const TrialSpec& trial : study_.trials) {
       if (model_) attempt(trial.name, [&] { check_trial(trial); });
     }
-    if (together_) {
-      add(together_->findings());
-    }
+    if (together_) add(together_->findings());
+    leave_out_explained_distances();
     if (auto silent = unstated_loads(study_.trials)) remarks_.push_back(std::move(*silent));
     if (!inputs_.empty()) attempt("EMG", [&] { check_recordings(); });
     sort_by_severity(remarks_);
@@ -100,6 +98,20 @@ class StudyCheck {
     } catch (const InvalidInput& error) {
       refuse(where, error.what(), error.what());
     }
+  }
+
+  /// Exchanged labels or another vertical put markers far from the model: the error that names them is enough.
+  void leave_out_explained_distances() {
+    const auto explains = [](const Remark& error, const std::string& trial) {
+      return error.severity == Severity::error &&
+             (error.code == RemarkCode::sides_exchanged || error.code == RemarkCode::vertical_across_trunk) &&
+             (error.where == trial || std::ranges::find(error.likewise, trial) != error.likewise.end());
+    };
+    const std::vector<Remark> all = remarks_;
+    std::erase_if(remarks_, [&](const Remark& remark) {
+      return remark.code == RemarkCode::model_unfit &&
+             std::ranges::any_of(all, [&](const Remark& other) { return explains(other, remark.where); });
+    });
   }
 
   /// Reports the questions that `init` left open.
@@ -157,20 +169,12 @@ class StudyCheck {
     add(input.remarks, spec.name);
     together_->look_at(spec, input);
     add(unloaded_times(*model_, spec, input));
-    if (input.markers) check_markers(*input.markers);
+    if (auto distant = distant_markers(study_, spec, *model_, input)) remarks_.push_back(std::move(*distant));
     if (input.emg && study_.emg.kind == EmgKind::raw && input.emg->mean_rate_hz() < kLimits.emg.slowest_raw_emg_hz) {
       add(RemarkCode::emg_rate, Severity::warning, spec.name,
           fmt::format("EMG at {:.0f} Hz: raw EMG reaches 400 Hz and needs {:g} Hz or more", input.emg->mean_rate_hz(),
                       kLimits.emg.slowest_raw_emg_hz));
     }
-  }
-
-  void check_markers(const MarkerSeries& markers) {
-    if (study_.ik.calibrate) (void)calibration_window(*study_.ik.calibrate, markers);
-    // Names and weights are compared as inverse kinematics does, on one frame and without a step.
-    (void)body::inverse_kinematics(*model_,
-                                   MarkerSeries{markers.time_s.head(1), markers.names, markers.positions_m.topRows(1)},
-                                   {.marker_weights = study_.markers.weight, .max_iterations = 0});
   }
 
   /// Processes the EMG as `run` does and reports the findings of `run` on recordings, and its

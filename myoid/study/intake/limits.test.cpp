@@ -334,8 +334,8 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
   return {
       {"frames without a pose", "warning; fails", fmt::format("any; more than {:g} %", percent(l.lost_frames))},
       {"markers' distance from the model", "warning; fails",
-       fmt::format("{:g} mm rms in a frame; {:g} mm rms over all", 1000.0 * l.marker_error_m,
-                   2000.0 * l.marker_error_m)},
+       fmt::format("{:g} mm rms in a frame; {:g} mm rms over all. `check` warns, too, by six frames of each trial",
+                   1000.0 * l.marker_error_m, 2000.0 * l.marker_error_m)},
       {"a joint that does not move", "fails",
        fmt::format("less than {:g} degrees in the trial that moves it most", l.least_range_deg)},
       {"muscles of the joint that are not in the study", "warning",

@@ -1,14 +1,17 @@
 #include "myoid/study/intake/trial_markers.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/body/kinematics/marker_misfit.h"
 #include "myoid/body/kinematics/marker_places.h"
+#include "myoid/ground/core/counted.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/label_match.h"
 #include "myoid/recording/recording.h"
@@ -81,6 +84,47 @@ MarkerSeries frames_between(const MarkerSeries& markers, double start_s, double 
           markers.positions_m.middleRows(first - begin, count)};
 }
 
+/// Returns true for a marker on which the model's pose rests.
+bool is_used(const Study& study, const body::BodyModel& model, const std::string& marker) {
+  const auto weight = study.markers.weight.find(marker);
+  return model.find_marker(marker) && (weight == study.markers.weight.end() || weight->second > 0.0);
+}
+
+/// Joins the gaps of markers that the model does not use in one note. All other faults of these markers become notes.
+std::vector<Remark> without_idle_markers(const Study& study,
+                                         const body::BodyModel& model,
+                                         const MarkerSeries& markers,
+                                         std::vector<Remark> faults) {
+  std::vector<Remark> kept;
+  std::vector<std::string> idle;
+  for (Remark& fault : faults) {
+    const bool of_one = std::ranges::find(markers.names, fault.about) != markers.names.end();
+    if (of_one && !is_used(study, model, fault.about)) {
+      fault.severity = std::max(fault.severity, Severity::note);
+      if (fault.code == RemarkCode::marker_gap) {
+        idle.push_back(fault.about);
+        continue;
+      }
+    }
+    kept.push_back(std::move(fault));
+  }
+  if (!idle.empty())
+    kept.push_back({.code = RemarkCode::marker_gap,
+                    .severity = Severity::note,
+                    .about = fmt::format("{}", fmt::join(idle, ", ")),
+                    .says = fmt::format("{} that the model does not use {} gaps: {}", counted(idle.size(), "marker"),
+                                        idle.size() == 1 ? "has" : "have", some_of(idle))});
+  return kept;
+}
+
+/// Says of the gaps in use how they were filled.
+void tell_filled(const std::map<std::string, std::string>& filled, std::vector<Remark>& faults) {
+  for (Remark& fault : faults) {
+    const auto words = fault.code == RemarkCode::marker_gap ? filled.find(fault.about) : filled.end();
+    if (words != filled.end()) fault.says += ": " + words->second;
+  }
+}
+
 /// Notes the faults of the markers and repairs as many as possible.
 MarkerSeries mended(const Study& study,
                     const body::BodyModel& model,
@@ -88,24 +132,20 @@ MarkerSeries mended(const Study& study,
                     MarkerSeries markers,
                     TrialInput& input) {
   const std::vector<recording::ExpectedSegment> expected = body::segments_of(model, markers);
-  input.marker_faults = recording::check_markers(markers, expected);
+  input.marker_faults = without_idle_markers(study, model, markers, recording::check_markers(markers, expected));
   bool right_unit = true;
-  for (Remark& fault : input.marker_faults) {
+  for (const Remark& fault : input.marker_faults) {
     right_unit = right_unit && fault.code != RemarkCode::marker_unit;
     // In a wrong unit no other check of the trial is meaningful.
     if (fault.severity == Severity::error) throw ReadError(path, 0, sentence(fault));
-    const bool used =
-        std::ranges::any_of(model.markers, [&](const body::Marker& marker) { return fault.about == marker.name; });
-    // A fault of a marker that the model lacks has no effect.
-    const bool of_one = std::ranges::find(markers.names, fault.about) != markers.names.end();
-    if (of_one && !used) fault.severity = Severity::note;
   }
   if (!right_unit) return markers;
   std::vector<recording::RigidSegment> segments;
   for (const recording::ExpectedSegment& e : expected) segments.push_back(e.segment);
   recording::MendedMarkers result = recording::mend_markers(
       std::move(markers), segments, {.undo_swaps = study.markers.undo_swaps, .fill_gaps = study.markers.fill_gaps});
-  add_notes(result.repairs, input.remarks);
+  add_notes(result.swaps, input.remarks);
+  tell_filled(result.filled, input.marker_faults);
   return std::move(result.markers);
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -84,6 +86,28 @@ TEST(ReadTrialMarkers, AnotherUnitIsRefusedWithTheFileAndTheUnit) {
   const std::string message = message_of([&] { (void)read_trial_markers(arm_study(), trial.spec, arm(), input); });
   EXPECT_NE(message.find("m.trc: the markers lie 1e+03 times"), std::string::npos) << message;
   EXPECT_NE(message.find("millimeters"), std::string::npos) << message;
+}
+
+/// Hides three frames of this marker.
+void hide(MarkerSeries& markers, Eigen::Index marker) {
+  markers.positions_m.block(20, 3 * marker, 3, 3).setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+TEST(ReadTrialMarkers, GapsThatTheModelDoesNotUseAreOneNoteAndEachOtherGapIsToldOnce) {
+  MarkerTrial trial("of_nobody", 50);
+  MarkerSeries markers = recording::read_markers(*trial.spec.markers).markers;
+  ASSERT_GE(markers.marker_count(), 3);
+  for (const Eigen::Index marker : {0, 1, 2}) hide(markers, marker);
+  recording::write_trc(*trial.spec.markers, markers);
+  TrialInput input;
+  Study study = arm_study();
+  study.markers.weight[markers.names[1]] = 0.0;
+  (void)read_trial_markers(study, trial.spec, arm(), input);
+  std::vector<std::string> gaps;
+  for (const Remark& fault : input.marker_faults)
+    if (fault.code == RemarkCode::marker_gap) gaps.push_back(fault.about);
+  EXPECT_EQ(gaps, (std::vector<std::string>{markers.names[2], "of_nobody, " + markers.names[1]}));
+  EXPECT_TRUE(std::ranges::none_of(input.remarks, [](const Remark& r) { return r.says.find("fill") < r.says.size(); }));
 }
 
 }  // namespace
