@@ -175,6 +175,22 @@ TEST(C3d, MissingAndZeroMarkersAreGapsAndDerivedPointsAreNoMarkers) {
   EXPECT_TRUE(noted(repairs, "angles"));
 }
 
+TEST(C3d, AMarkerOfNinesAloneIsMissingAndThisIsSaid) {
+  for (const auto& [x, y, missing] : {std::tuple{-9999.0F, -9999.0F, true},
+                                      {-999.9F, -999.9F, true},
+                                      {999999.0F, 999999.0F, true},
+                                      {-9999.0F, 200.0F, false},
+                                      {-32768.0F, -32768.0F, false},
+                                      {998.0F, 998.0F, false}}) {
+    C3dFile file = small_file();
+    file.points(1, 0) = file.points(1, 2) = x;
+    file.points(1, 1) = y;
+    std::vector<Repair> repairs;
+    EXPECT_EQ(c3d_markers(file, repairs).missing(1, 0), missing) << x << " " << y;
+    EXPECT_EQ(noted(repairs, "nines alone"), missing) << x << " " << y;
+  }
+}
+
 TEST(C3d, ASubjectsPrefixGoesOnlyWhereTheNamesStayApart) {
   C3dFile file = small_file();
   file.point_labels = {"S1:A", "S1:B", "box:C"};

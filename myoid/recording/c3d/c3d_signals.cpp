@@ -11,6 +11,8 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_words.h"
+#include "myoid/ground/files/missing_value.h"
+#include "myoid/ground/files/text_file.h"
 
 namespace myoid::recording {
 namespace {
@@ -22,6 +24,12 @@ constexpr Eigen::Index kBlockRows = 64;
 std::size_t bare_begin(const std::string& name) {
   const std::size_t colon = name.rfind(':');
   return colon != std::string::npos && colon > 0 && colon + 1 < name.size() ? colon + 1 : 0;
+}
+
+/// Returns true for three equal coordinates that stand for a missing position, as -9999 or -999.9 in single precision.
+bool is_of_nines(const float* p) {
+  if (!(p[0] == p[1] && p[1] == p[2] && std::abs(p[0]) >= 999.0F)) return false;
+  return may_stand_for_missing(parse_number(fmt::format("{}", p[0])).value_or(0.0));
 }
 
 }  // namespace
@@ -83,12 +91,11 @@ void C3dMarkerBuilder::add(Eigen::Index first, Eigen::Index count, const float* 
       const auto to = static_cast<Eigen::Index>(3 * m);
       for (Eigen::Index k = begin; k < end; ++k, p += width) {
         const bool zero = p[0] == 0.0F && p[1] == 0.0F && p[2] == 0.0F;
+        const bool nines = is_of_nines(p);
         const bool measured =
-            p[3] >= 0.0F && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) && !zero;
-        if (zero && p[3] >= 0.0F) {
-          if (zeros_ == 0 || first + k < zero_frame_) zero_frame_ = first + k;
-          ++zeros_;
-        }
+            p[3] >= 0.0F && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) && !zero && !nines;
+        if (zero && p[3] >= 0.0F) zeros_.add(first + k);
+        if (nines && p[3] >= 0.0F) nines_.add(first + k);
         for (Eigen::Index axis = 0; axis < 3; ++axis)
           markers_.positions_m(first + k, to + axis) = measured ? to_m_ * static_cast<double>(p[axis]) : kGap;
       }
@@ -98,10 +105,10 @@ void C3dMarkerBuilder::add(Eigen::Index first, Eigen::Index count, const float* 
 
 MarkerSeries C3dMarkerBuilder::finish(std::vector<Repair>& repairs) {
   repairs.insert(repairs.end(), repairs_.begin(), repairs_.end());
-  if (zeros_ > 0) {
-    note(repairs,
-         "{} positions are exactly 0 0 0 though not marked as missing (the first in frame {}); taken as missing",
-         zeros_, first_frame_ + zero_frame_);
+  for (const auto& [found, what] : {std::pair{zeros_, "exactly 0 0 0"}, {nines_, "nines alone (-9999 -9999 -9999)"}}) {
+    if (found.count > 0)
+      note(repairs, "{} positions are {} though not marked as missing (the first in frame {}); taken as missing",
+           found.count, what, first_frame_ + found.first);
   }
   return std::move(markers_);
 }

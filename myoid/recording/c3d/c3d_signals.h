@@ -16,8 +16,9 @@ namespace myoid::recording {
 /// POINT:ANGLES, FORCES, MOMENTS, POWERS or SCALARS name are results of another program.
 [[nodiscard]] std::vector<Eigen::Index> marker_columns(const C3dFile& file);
 
-/// Converts the points of a file to markers in meters, some frames at a time. A point that is not measured, no number
-/// or exactly 0 0 0 is NaN. A subject's prefix ("name:") is removed if the names stay unique.
+/// Converts the points of a file to markers in meters, some frames at a time. A point that is not measured, no number,
+/// exactly 0 0 0, or nines alone (`may_stand_for_missing`) in all three coordinates is NaN. A subject's prefix
+/// ("name:") is removed if the names stay unique.
 class C3dMarkerBuilder {
  public:
   /// Throws InvalidInput if there is no marker or frame, or if the unit is no length.
@@ -30,14 +31,21 @@ class C3dMarkerBuilder {
   [[nodiscard]] MarkerSeries finish(std::vector<Repair>& repairs);
 
  private:
+  /// Positions that are missing, although the file does not say so.
+  struct Unmarked {
+    Eigen::Index count = 0, first = 0;
+    void add(Eigen::Index frame) {
+      if (count++ == 0 || frame < first) first = frame;
+    }
+  };
+
   MarkerSeries markers_;
   std::vector<Repair> repairs_;
   std::vector<Eigen::Index> columns_;
   double to_m_ = 1.0;
   std::size_t points_ = 0;
   std::int64_t first_frame_ = 1;
-  Eigen::Index zeros_ = 0;
-  Eigen::Index zero_frame_ = 0;
+  Unmarked zeros_, nines_;
 };
 
 /// The factors to SI of the channels; a channel of unknown unit keeps its numbers and is dimensionless.
