@@ -15,6 +15,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/file_words.h"
+#include "myoid/recording/amplifier_range.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
@@ -76,6 +77,18 @@ std::string unknown_unit(const CsvSeries& series, const std::map<std::string, st
                   unknown.empty() ? "the unit of the EMG is not stated in the file" : unknown);
 }
 
+bool has_column_beyond_amplifiers(const Eigen::MatrixXd& values_v) {
+  for (Eigen::Index c = 0; c < values_v.cols(); ++c)
+    if (is_beyond_amplifiers(values_v.col(c))) return true;
+  return false;
+}
+
+/// Says why a file's own unit is not believed.
+std::string given_for_volts(double to_volt) {
+  return fmt::format("no amplifier gives the volts that the file states; read in {}, the unit given",
+                     voltage_name(to_volt));
+}
+
 TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
   std::vector<Channel> channels = series.channels();
   for (Channel& channel : channels) channel.unit = unit;
@@ -83,14 +96,15 @@ TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
 }
 
 /// Returns columns in volts unchanged and columns without a unit times `to_volt`; columns in
-/// another unit are no EMG and are left out. Empty if a factor is needed and there is none.
+/// another unit are no EMG and are left out. Empty if a factor is needed and there is none. Columns whose volts no
+/// amplifier gives take the unit given, too.
 std::optional<TimeSeries> volts_of(const CsvSeries& series,
                                    std::optional<double> to_volt,
                                    std::vector<Repair>& repairs) {
   std::vector<std::string> kept;
   std::vector<double> factors;
   bool stated = false;
-  std::vector<std::string> other_instruments;
+  std::vector<std::string> other_instruments, no_volts;
   std::map<std::string, std::vector<std::string>> other_units;
   for (std::size_t c = 0; c < series.has_unit.size(); ++c) {
     const Channel& channel = series.data.channels()[c];
@@ -103,14 +117,18 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
       continue;
     }
     if (!series.has_unit[c] && !to_volt) return std::nullopt;
-    stated = stated || series.has_unit[c];
+    const bool wrong =
+        series.has_unit[c] && to_volt && is_beyond_amplifiers(series.data.values().col(static_cast<Eigen::Index>(c)));
+    if (wrong) no_volts.push_back(channel.name);
+    stated = stated || (series.has_unit[c] && !wrong);
     kept.push_back(channel.name);
-    factors.push_back(series.has_unit[c] ? 1.0 : *to_volt);
+    factors.push_back(series.has_unit[c] && !wrong ? 1.0 : *to_volt);
   }
   for (const auto& [unit, names] : other_units)
     note(repairs, "no EMG since in {}, left out: {}", unit, fmt::join(names, ", "));
   if (!other_instruments.empty())
     note(repairs, "left out, because their names are no EMG's: {}", fmt::join(other_instruments, ", "));
+  if (!no_volts.empty()) note(repairs, "{}: {}", some_of(no_volts), given_for_volts(*to_volt));
   if (stated && to_volt) note(repairs, "columns that name their unit keep it; the unit given is for the others");
   TimeSeries chosen = with_unit(series.data.select(kept), Unit::volt, 1.0);
   Eigen::MatrixXd values = chosen.values();
@@ -329,7 +347,12 @@ EmgFile read_emg(const std::filesystem::path& path,
       const AnalogChannels all(std::move(storage.data));
       storage.data = choose_channels({&all}, wanted, path);
     }
-    const std::optional<double> stated = stated_voltage(storage);
+    std::optional<double> stated = stated_voltage(storage);
+    if (stated && to_volt && *to_volt < *stated && has_column_beyond_amplifiers(*stated * storage.data.values())) {
+      note(file.repairs, "{}", given_for_volts(*to_volt));
+      stated = std::nullopt;
+      storage.units.clear();
+    }
     if (stated && to_volt && *stated != *to_volt && !dimensionless) {
       file.unit_conflict = fmt::format(
           "the file says that it is in {}, so the unit given ({}) is not used; if the file is wrong, correct its title",

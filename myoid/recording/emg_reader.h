@@ -26,7 +26,8 @@ struct EmgFile {
 [[nodiscard]] std::string voltage_name(double to_volt);
 
 /// Reads EMG of the formats that `file_formats` marks. Raw EMG must have a unit: of its channel ("name [mV]"), of the
-/// file (`stated_voltage`), or else `unit` ("uV"). Without one, ReadError says how to give it. Left out with a note are
+/// file (`stated_voltage`), or else `unit` ("uV"), which also holds where no amplifier gives the stated volts
+/// (`is_beyond_amplifiers`). Without one, ReadError says how to give it. Left out with a note are
 /// channels in newtons or the like, channels of force plates (FORCE_PLATFORM:CHANNEL) and channels named like another
 /// instrument's (`named_as_no_emg`). With `dimensionless` (envelopes, activations) no unit is needed. With `wanted`,
 /// only the channels that `choose_channels` finds are read: the others need no unit.

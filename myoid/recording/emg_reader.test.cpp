@@ -34,6 +34,21 @@ TEST(ReadEmg, TheUnitThatTheFileStatesHoldsAgainstAnotherOneAndThatIsSaid) {
   EXPECT_EQ(read_emg(folder / "e.sto", "V", true).unit_conflict, "");
 }
 
+TEST(ReadEmg, VoltsThatNoAmplifierGivesTakeTheUnitGivenAndThatIsSaid) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "title.sto", "raw surface EMG V 2000 Hz\n" + kBody);
+  write_file(folder / "column.csv", "time,biceps [V]\n0,100\n0.001,-50\n0.002,20\n");
+  for (const char* name : {"title.sto", "column.csv"}) {
+    EXPECT_DOUBLE_EQ(read_emg(folder / name, "", false).data.values()(0, 0), 100.0) << name;
+    const EmgFile file = read_emg(folder / name, "uV", false);
+    EXPECT_DOUBLE_EQ(file.data.values()(0, 0), 100e-6) << name;
+    EXPECT_EQ(file.unit_conflict, "") << name;
+    EXPECT_FALSE(file.repairs.empty()) << name;
+  }
+  write_file(folder / "small.csv", "time,biceps [V]\n0,1\n0.001,-0.5\n0.002,0.2\n");
+  EXPECT_DOUBLE_EQ(read_emg(folder / "small.csv", "uV", false).data.values()(0, 0), 1.0);
+}
+
 TEST(ReadEmg, WithoutAUnitItAsksForOne) {
   const test::TemporaryFolder folder;
   write_file(folder / "e.sto", "EMG\n" + kBody);

@@ -147,7 +147,9 @@ void visit(EmgSpec& emg, SettingVisitor& v) {
   static constexpr std::string_view kNotch[] = {"none", "auto"};
   static constexpr std::string_view kNormalise[] = {"max"};
   v.choice("kind", emg.kind, {.says = "How far the EMG is processed already."});
-  v.text("unit", emg.unit, {.says = "`V`, `mV` or `uV`, if the file does not say.", .otherwise = "as the file says"});
+  v.text("unit", emg.unit,
+         {.says = "`V`, `mV` or `uV`, if the file does not say, or says V for numbers beyond 10 V.",
+          .otherwise = "as the file says"});
   v.flag("rectify", emg.rectify, {.says = "First step of [the chain](emg.md) after the high-pass."});
   v.either("notch", emg.notch, {.says = "`auto`: takes mains hum out [where it is found](check.md).", .words = kNotch});
   v.flag("remove_ecg", emg.remove_ecg,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/ground/core/counted.h"
 #include "myoid/ground/math/butterworth.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/ground/math/zero_phase.h"
@@ -162,14 +163,13 @@ class ChannelCheck {
   void amplitude(std::vector<Remark>& faults) const {
     Eigen::Index at = 0;
     const double most = x_.cwiseAbs().maxCoeff(&at);
-    if (most <= kLimits.emg.amplitude_v) return;
+    if (most <= kLimits.emg.amplitude_v || is_beyond_amplifiers(x_)) return;  // `no_volts` tells another unit
     const auto beyond = (x_.array().abs() > kLimits.emg.amplitude_v).count();
     add(faults, RemarkCode::emg_amplitude, true, at, at, most,
         fmt::format("channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); skin gives "
                     "millivolts, and no amplifier more than {:g} V",
                     name_, most, time_s_[at], beyond, x_.size(), kLimits.emg.amplitude_v, kLimits.emg.amplitude_v),
-        2 * beyond > x_.size() ? "is the unit wrong (an activation does not depend on it), or is it no EMG?"
-                               : "leave out samples that are no measurement: they become the greatest effort");
+        "leave out samples that are no measurement: they become the greatest effort");
   }
 
   bool clipping(std::vector<Remark>& faults) const {
@@ -266,6 +266,27 @@ class ChannelCheck {
   EmgTreatment treatment_;
 };
 
+/// Tells channels in another unit than volts, all in one.
+std::optional<Remark> no_volts(const TimeSeries& raw) {
+  std::vector<std::string> names;
+  double most_v = 0.0;
+  for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
+    const auto x = raw.values().col(c);
+    if (!is_beyond_amplifiers(x)) continue;
+    names.push_back(raw.channels()[static_cast<std::size_t>(c)].name);
+    most_v = std::max(most_v, x.cwiseAbs().maxCoeff());
+  }
+  if (names.empty()) return std::nullopt;
+  return Remark{.code = RemarkCode::emg_amplitude,
+                .about = fmt::format("{}", fmt::join(names, ", ")),
+                .when = Stretch{raw.time_s()[0], raw.time_s()[raw.sample_count() - 1]},
+                .value = most_v,
+                .says = fmt::format("{} reach{} {:.3g} V, and no amplifier gives more than {:g} V: the numbers are in "
+                                    "another unit, or no EMG",
+                                    some_of(names), names.size() == 1 ? "es" : "", most_v, kLimits.emg.amplitude_v),
+                .remedy = "correct the unit in the file, or give the EMG's (--unit uV, in a study [emg] unit)"};
+}
+
 /// Returns the largest correlation within 10 ms to either side, over at most 20 one-second blocks.
 double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double rate_hz) {
   constexpr Eigen::Index kMostBlocks = 20;
@@ -299,6 +320,7 @@ std::vector<Remark> check_emg(const TimeSeries& raw, const EmgTreatment& treatme
   require_finite(raw, "EMG");
   std::vector<Remark> faults;
   if (raw.sample_count() < 10) return faults;
+  if (auto wrong = no_volts(raw)) faults.push_back(std::move(*wrong));
   std::vector<Eigen::VectorXd> signals;
   for (Eigen::Index c = 0; c < raw.channel_count(); ++c) signals.push_back(ChannelCheck(raw, c, treatment).run(faults));
   for (std::size_t a = 0; a < signals.size(); ++a) {

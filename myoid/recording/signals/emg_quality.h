@@ -25,7 +25,8 @@ struct EmgTreatment {
 /// Checks one trial's raw EMG (volts, finite), channel by channel and pair by pair:
 ///
 /// - spike (artifact): `find_spikes`. The other checks see the signal without its spikes;
-/// - amplitude: beyond `amplitude_v`, which neither skin nor amplifier gives;
+/// - amplitude: beyond `amplitude_v`, which neither skin nor amplifier gives; of channels that lie beyond it more than
+///   an artifact does (`is_beyond_amplifiers`) one remark tells another unit;
 /// - envelope: never negative, and through its median less than `raw_hz` times a second, so that the signal has been
 ///   rectified and smoothed, or `is_rectified`. Of the other checks only flat stretches then apply;
 /// - flat: no change at all for `flat_s`, or an rms below `flat_v` throughout;

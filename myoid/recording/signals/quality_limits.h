@@ -1,5 +1,7 @@
 #pragma once
 
+#include "myoid/recording/amplifier_range.h"
+
 namespace myoid::recording {
 
 /// Limits hold for markers.
@@ -14,7 +16,8 @@ struct MarkerLimits {
 
 /// Limits hold for one channel of EMG.
 struct EmgLimits {
-  double amplitude_v = 10.0;       ///< Skin gives 10 mV at most, converters take +-10 V.
+  double amplitude_v = kMostVolts;  ///< Skin gives 10 mV at most.
+  double amplitude_share = kShareBeyond;
   double raw_hz = 30.0;            ///< Crossings of the median per second: EMG that has fewer and is never
                                    ///< negative is an envelope.
   double flat_s = 0.25;            ///< Time without any change.

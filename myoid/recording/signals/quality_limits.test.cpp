@@ -31,7 +31,7 @@ std::vector<LimitRow> limit_rows(const QualityLimits& l) {
       {marker_jump, fmt::format("{:g} mm", 1000.0 * l.markers.jump_m)},
       {marker_swap, fmt::format("{:g} mm apart", 1000.0 * l.markers.swap_m)},
       {segment_not_rigid, fmt::format("{:g} mm and {:g} %", 1000.0 * l.markers.rigid_m, 100.0 * l.markers.rigid_share)},
-      {emg_amplitude, fmt::format("{:g} V", l.emg.amplitude_v)},
+      {emg_amplitude, fmt::format("{:g} V, {:g} % of the samples", l.emg.amplitude_v, 100.0 * l.emg.amplitude_share)},
       {emg_envelope, fmt::format("{:g} times a second; {:g} % near zero", l.emg.raw_hz, 100.0 * l.emg.rectified_share)},
       {emg_flat, fmt::format("{} s, {:g} uV rms", l.emg.flat_s, 1e6 * l.emg.flat_v)},
       {emg_clipped, fmt::format("{:g} % of the samples", 100.0 * l.emg.clipped_share)},

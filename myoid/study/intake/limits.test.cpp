@@ -13,6 +13,7 @@
 #include "myoid/body/model/model_plausibility.h"
 #include "myoid/body/osim/osim_reader.h"
 #include "myoid/ground/core/units.h"
+#include "myoid/recording/amplifier_range.h"
 #include "myoid/recording/signals/motion_jumps.h"
 
 #include "tests/support/printed_page.h"
@@ -83,7 +84,9 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
   rows.push_back(
       {"slow raw EMG", "warning", fmt::format("fewer than {:g} samples a second", l.emg.slowest_raw_emg_hz)});
   rows.push_back({"EMG beyond any electrode", "error",
-                  fmt::format("beyond {:g} V; beyond 10 V a fault of its channel", l.emg.no_converter_v)});
+                  fmt::format("{:g} % of the samples beyond {:g} V, or one beyond {:g} V. Fewer are a fault of their "
+                              "channel. `[emg] unit` corrects a file that says V",
+                              100.0 * recording::kShareBeyond, recording::kMostVolts, l.emg.no_converter_v)});
   rows.push_back(
       {"activations in percent", "error",
        fmt::format("`kind = \"activation\"`, and above {:g} for {:g} s or longer; a shorter spike is a warning",

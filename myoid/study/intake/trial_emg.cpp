@@ -7,10 +7,12 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/ground/files/toml_table.h"
+#include "myoid/recording/amplifier_range.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/signals/emg_kind.h"
 #include "myoid/recording/signals/emg_levels.h"
@@ -128,6 +130,7 @@ void require_channels(const Study& study, const std::filesystem::path& path, con
 void require_raw(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
   int envelopes = 0;
   int others = 0;
+  std::vector<std::string> no_volts;
   for (const MuscleSpec& muscle : study.muscles) {
     const auto column = emg.find(muscle.emg);
     if (!column || !emg.values().col(*column).allFinite()) continue;
@@ -137,8 +140,16 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
                       fmt::format("channel '{}' reaches {:.3g} V, beyond any converter; correct [emg] unit, or leave "
                                   "out samples that are no measurement",
                                   muscle.emg, x.cwiseAbs().maxCoeff()));
+    if (recording::is_beyond_amplifiers(x) && std::ranges::find(no_volts, muscle.emg) == no_volts.end())
+      no_volts.push_back(muscle.emg);
     if (x.maxCoeff() > x.minCoeff()) ++(recording::is_envelope(x, emg.mean_rate_hz()) ? envelopes : others);
   }
+  // Equal words for every trial make one remark of all trials.
+  if (!no_volts.empty())
+    throw ReadError(path, 0,
+                    fmt::format("{}: more than {:g} % of the samples lie beyond {:g} V, and no amplifier gives that: "
+                                "the numbers are not in V; say what they are by [emg] unit = \"uV\" or \"mV\"",
+                                fmt::join(no_volts, ", "), 100.0 * recording::kShareBeyond, recording::kMostVolts));
   if (envelopes > 0 && others == 0)
     throw ReadError(path, 0,
                     "no channel is ever negative or goes up and down as raw EMG does: these are envelopes; set [emg] "

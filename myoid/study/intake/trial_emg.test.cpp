@@ -80,9 +80,9 @@ TEST(ReadTrialEmg, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIs
 
 /// What reading the trial's EMG says, when all four channels hold these two values in turn, each
 /// for so many samples of 10 ms.
-std::string emg_of(const Study& study, double low, double high, int samples = 1) {
+std::string emg_of(const Study& study, double low, double high, int samples = 1, const char* title = "EMG") {
   const test::TemporaryFolder folder;
-  std::string text = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
+  std::string text = fmt::format("{}\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n", title);
   for (int i = 0; i < 300; ++i) {
     const double v = i / samples % 2 == 0 ? low : high;
     text += fmt::format("{0}\t{1}\t{1}\t{1}\t{1}\n", 0.01 * i, v);
@@ -112,12 +112,18 @@ TEST(ReadTrialEmg, AnEnvelopeThatIsCalledRawIsRefused) {
   EXPECT_NE(message.find("set [emg] kind = \"envelope\""), std::string::npos) << message;
 }
 
-TEST(ReadTrialEmg, RawEmgThatNoConverterGivesIsRefusedAndItsCountsAreNot) {
+TEST(ReadTrialEmg, RawEmgBeyondAmplifiersIsRefusedUntilTheStudySaysItsUnit) {
   Study study = arm_study();
   study.emg.kind = EmgKind::raw;
   study.emg.unit = "V";
   EXPECT_NE(emg_of(study, -1e27, 1e27).find("1e+27 V"), std::string::npos);
-  EXPECT_EQ(emg_of(study, -32768.0, 32767.0), "(no error)");
+  for (const double counts : {32768.0, 300.0, 11.0}) {
+    study.emg.unit = "V";
+    EXPECT_NE(emg_of(study, -counts, counts), "(no error)") << counts;
+    study.emg.unit = "uV";
+    EXPECT_EQ(emg_of(study, -counts, counts), "(no error)") << counts;
+    EXPECT_EQ(emg_of(study, -counts, counts, 1, "EMG in V"), "(no error)") << counts;
+  }
 }
 
 TEST(ReadTrialEmg, AnActivationInPercentIsRefused) {
