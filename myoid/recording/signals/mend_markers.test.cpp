@@ -23,7 +23,7 @@ TEST(MendMarkers, FillsAShortGapByASplineAndSaysSo) {
   test::hide(markers, 1, 200, 210);
   const MendedMarkers mended = mend_markers(markers, {});
   ASSERT_EQ(mended.filled.size(), 1U);
-  EXPECT_EQ(mended.filled.at("B"), "10 frames filled by a spline");
+  EXPECT_TRUE(mended.filled.at("B").starts_with("10 ")) << mended.filled.at("B");
   // A cubic over T = 0.11 s: T^4/384 times the fourth derivative, here up to 0.26 m (3 to 7
   // rad/s)^4 = 100 to 200 m/s^4: 0.1 mm; the natural ends add as much.
   EXPECT_LT((mended.markers.positions_m - truth.positions_m).cwiseAbs().maxCoeff(), 5e-4);
@@ -35,7 +35,8 @@ TEST(MendMarkers, FillsALongGapFromTheSegment) {
   test::hide(markers, 1, 150, 280);
   const MendedMarkers mended = mend_markers(markers, {test::forearm()});
   ASSERT_EQ(mended.filled.size(), 1U);
-  EXPECT_EQ(mended.filled.at("B"), "130 frames filled from its segment's other markers");
+  EXPECT_TRUE(mended.filled.at("B").starts_with("130 ")) << mended.filled.at("B");
+  EXPECT_NE(mended.filled.at("B").find("segment"), std::string::npos);
   // Noise of 0.5 mm in each of four markers, carried out to the one that lies farthest off.
   EXPECT_LT((mended.markers.positions_m - truth.positions_m).cwiseAbs().maxCoeff(), 0.005);
 }

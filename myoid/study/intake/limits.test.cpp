@@ -83,10 +83,10 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
        fmt::format("a channel goes below zero by more than {:g} % of its maximum", percent(l.emg.below_zero))});
   rows.push_back(
       {"slow raw EMG", "warning", fmt::format("fewer than {:g} samples a second", l.emg.slowest_raw_emg_hz)});
-  rows.push_back({"EMG beyond any electrode", "error",
-                  fmt::format("{:g} % of the samples beyond {:g} V, or one beyond {:g} V. Fewer are a fault of their "
-                              "channel. `[emg] unit` corrects a file that says V",
-                              100.0 * recording::kShareBeyond, recording::kMostVolts, l.emg.no_converter_v)});
+  rows.push_back(
+      {"EMG beyond any electrode", "error",
+       fmt::format("{:g} % of the samples beyond {:g} V, or one beyond {:g} V; `[emg] unit` corrects a wrong V",
+                   100.0 * recording::kShareBeyond, recording::kMostVolts, l.emg.no_converter_v)});
   rows.push_back(
       {"activations in percent", "error",
        fmt::format("`kind = \"activation\"`, and above {:g} for {:g} s or longer; a shorter spike is a warning",
@@ -337,7 +337,7 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
   return {
       {"frames without a pose", "warning; fails", fmt::format("any; more than {:g} %", percent(l.lost_frames))},
       {"markers' distance from the model", "warning; fails",
-       fmt::format("{:g} mm rms in a frame; {:g} mm rms over all. `check` warns, too, by six frames of each trial",
+       fmt::format("{:g} mm rms in a frame; {:g} mm rms over all. `check` takes six frames of a trial",
                    1000.0 * l.marker_error_m, 2000.0 * l.marker_error_m)},
       {"a joint that does not move", "fails",
        fmt::format("less than {:g} degrees in the trial that moves it most", l.least_range_deg)},
