@@ -7,6 +7,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/nearest_word.h"
 
 namespace myoid::muscle {
 
@@ -15,7 +16,7 @@ const HillField& hill_field(std::string_view name) {
     if (field.name == name) return field;
   }
   throw InvalidInput(
-      fmt::format("no muscle parameter is named '{}'; there are {}", name, name_list(kHillFields, &HillField::name)));
+      fmt::format("no muscle parameter is named '{}'{}", name, not_among(name, kHillFields, &HillField::name)));
 }
 
 void validate(const HillParameters<double>& parameters) {

@@ -7,17 +7,19 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 
 namespace myoid::muscle {
 
 IsolatedField field_of(IsolatedModel& model, const std::string& wanted) {
   IsolatedField found;
-  std::string names;
+  std::vector<std::string> names;
   visit_model(model, [&](std::string_view name, Unit unit, double& field) {
-    names += (names.empty() ? "" : ", ") + std::string(name);
+    names.emplace_back(name);
     if (name == wanted) found = {&field, unit};
   });
-  if (found.value == nullptr) throw InvalidInput(fmt::format("a muscle has no '{}'; there are {}", wanted, names));
+  if (found.value == nullptr)
+    throw InvalidInput(fmt::format("a muscle has no '{}'{}", wanted, not_among(wanted, names)));
   return found;
 }
 

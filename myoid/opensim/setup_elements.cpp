@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/ground/files/toml_table.h"
 
 namespace myoid::opensim {
 namespace {

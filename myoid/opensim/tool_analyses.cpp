@@ -9,7 +9,7 @@
 #include "myoid/body/model/model_plausibility.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
-#include "myoid/ground/files/toml_table.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/math/spline.h"
 #include "myoid/opensim/analysis_reports.h"
 #include "myoid/opensim/opensim_files.h"

@@ -13,6 +13,7 @@
 #include "myoid/body/osim/osim_reader.h"
 #include "myoid/body/osim/osim_updater.h"
 #include "myoid/ground/core/index.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/opensim/opensim_files.h"
@@ -86,8 +87,8 @@ Mat3 heading_correction(const OpensimSetup& setup,
   if (label.empty() || axis.empty()) return Mat3::Identity();
   const auto place = std::find(series.names.begin(), series.names.end(), label);
   if (place == series.names.end()) {
-    setup.xml().fail(setup.tool(), "<base_imu_label>: there is no sensor '{}'; there are {}", label,
-                     fmt::join(series.names, ", "));
+    setup.xml().fail(setup.tool(), "<base_imu_label>: there is no sensor '{}'{}", label,
+                     not_among(label, series.names));
   }
   const body::Joint* base = nullptr;
   for (const body::Joint& joint : model.joints) {

@@ -10,8 +10,8 @@
 
 #include "myoid/ground/core/clock_facts.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/label_match.h"
-#include "myoid/ground/files/toml_table.h"
 #include "myoid/recording/tables/instrument_names.h"
 
 namespace myoid::recording {
@@ -54,9 +54,8 @@ Found find(const std::vector<const AnalogChannels*>& clocks,
     const std::string& name = match.same.begin()->first;
     return {*clock_of(clocks, name), name};
   }
-  const auto near = nearest_word(wanted, names);
-  throw ReadError(path, 0, "no channel '{}'{}; there are: {}", wanted,
-                  near ? fmt::format(" (did you mean '{}'?)", *near) : "", names.empty() ? "none" : listed(names));
+  throw ReadError(path, 0, "no channel '{}'{}; there are: {}", wanted, did_you_mean(wanted, names),
+                  names.empty() ? "none" : listed(names));
 }
 
 std::string described(const AnalogChannels& channels) {

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
@@ -82,10 +83,8 @@ std::vector<TrialData> chosen(const std::vector<TrialData>& trials, const std::v
   for (const std::string& name : names) {
     const auto at = std::ranges::find_if(trials, [&](const TrialData& trial) { return trial.name == name; });
     if (at == trials.end()) {
-      std::vector<std::string> there;
-      for (const TrialData& trial : trials) there.push_back(trial.name);
       throw InvalidInput(
-          fmt::format("--trials: no trial '{}' has motion and EMG; there are {}", name, fmt::join(there, ", ")));
+          fmt::format("--trials: no trial '{}' has motion and EMG{}", name, not_among(name, trials, &TrialData::name)));
     }
     found.push_back(*at);
   }

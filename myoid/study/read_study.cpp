@@ -8,6 +8,7 @@
 
 #include "myoid/fit/measurement/parameters.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/quoted_text.h"
 #include "myoid/ground/files/text_file.h"
@@ -44,13 +45,12 @@ void check_muscles(const Study& study, const Names& names) {
     const auto other =
         std::ranges::find_if(study.muscles, [&](const MuscleSpec& m) { return m.name == *muscle.same_as; });
     if (other == study.muscles.end() || other->same_as)
-      refuse(study, fmt::format("[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode; there are {}",
-                                muscle.name, *muscle.same_as, fmt::join(names, ", ")));
+      refuse(study, fmt::format("[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode{}", muscle.name,
+                                *muscle.same_as, not_among(*muscle.same_as, names)));
   }
   for (const std::string& wanted : study.identify.muscles) {
     if (!names.contains(wanted))
-      refuse(study,
-             fmt::format("[identify] muscles: '{}' is no [[muscle]]; there are {}", wanted, fmt::join(names, ", ")));
+      refuse(study, fmt::format("[identify] muscles: '{}' is no [[muscle]]{}", wanted, not_among(wanted, names)));
   }
 }
 
@@ -62,8 +62,8 @@ void check_rule(const Study& study, const fit::ParameterRule& rule, const Names&
   if (fit::parameter_field(rule.parameter).scope != fit::Scope::muscle) return;
   for (const std::string& owner : rule.owners) {
     if (!names.contains(owner))
-      refuse(study, fmt::format("[[parameter]] {}: '{}' is no [[muscle]]; there are {}", rule.parameter, owner,
-                                fmt::join(names, ", ")));
+      refuse(study,
+             fmt::format("[[parameter]] {}: '{}' is no [[muscle]]{}", rule.parameter, owner, not_among(owner, names)));
   }
 }
 
@@ -124,8 +124,7 @@ void check_norms(const Study& study) {
   for (const NormSpec& norm : study.norms) {
     for (const std::string& trial : norm.trials)
       if (!names.contains(trial))
-        refuse(study, fmt::format("[[norm]] {}: '{}' is no [[trial]]; there are {}", norm.name, trial,
-                                  fmt::join(names, ", ")));
+        refuse(study, fmt::format("[[norm]] {}: '{}' is no [[trial]]{}", norm.name, trial, not_among(trial, names)));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/ground/files/toml_table.h"
+#include "myoid/ground/core/nearest_word.h"
 
 namespace myoid::study {
 
@@ -67,8 +67,7 @@ std::string refusal(const Setting& setting, const std::string& word) {
   for (const std::string_view each : words) {
     if (!each.empty()) named.emplace_back(each);
   }
-  const auto near = nearest_word(word, named);
-  return fmt::format("found \"{}\"{}, expected {}{}", word, near ? fmt::format(" (did you mean '{}'?)", *near) : "",
+  return fmt::format("found \"{}\"{}, expected {}{}", word, did_you_mean(word, named),
                      named.size() > 1 ? "one of " : "", fmt::join(named, ", "));
 }
 

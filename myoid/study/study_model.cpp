@@ -18,6 +18,7 @@
 #include "myoid/fit/measurement/parameter_fields.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/muscle/absent_parameters.h"
@@ -156,14 +157,13 @@ body::BodyModel prepared(const Study& study, body::BodyModel model) {
   for (const std::string& name : study.ik.lock) coordinate("[ik] lock", name).locked = true;
   for (const auto& [name, weight] : study.markers.weight) {
     if (model.find_marker(name)) continue;
-    std::vector<std::string> names;
-    for (const body::Marker& marker : model.markers) names.push_back(marker.name);
-    throw ModelError(fmt::format("{}: [markers.weight] {}: the model has no such marker; there are {}",
-                                 study.file.string(), name, fmt::join(names, ", ")));
+    throw ModelError(fmt::format("{}: [markers.weight] {}: the model has no such marker{}", study.file.string(), name,
+                                 not_among(name, model.markers, &body::Marker::name)));
   }
   if (study.model.held_mass && !model.find_body(study.model.held_mass->body))
-    throw ModelError(fmt::format("{}: [model] held_mass: the model has no body '{}'; there are {}", study.file.string(),
-                                 study.model.held_mass->body, body_names(model)));
+    throw ModelError(fmt::format("{}: [model] held_mass: the model has no body '{}'{}", study.file.string(),
+                                 study.model.held_mass->body,
+                                 not_among(study.model.held_mass->body, body_names(model))));
   return model;
 }
 
@@ -232,8 +232,10 @@ std::optional<body::BodyModel> arm_of_markers(const Study& study, const MarkerSe
   return prepared(study, body::parse_osim(body::arm4_osim(arm_options(study, &markers)), "arm4.osim"));
 }
 
-std::string body_names(const body::BodyModel& model) {
-  return name_list(std::span(model.bodies).subspan(1), &body::Body::name);
+std::vector<std::string> body_names(const body::BodyModel& model) {
+  std::vector<std::string> names;
+  for (std::size_t b = 1; b < model.bodies.size(); ++b) names.push_back(model.bodies[b].name);
+  return names;
 }
 
 HeldMassSpec held_mass_place(const Study& study) {

@@ -30,8 +30,8 @@ namespace myoid::study {
 /// file or states the length, or if the markers do not show it.
 [[nodiscard]] std::optional<body::BodyModel> arm_of_markers(const Study& study, const MarkerSeries& markers);
 
-/// Returns the names of all bodies but the ground, "femur_r, tibia_r", for messages.
-[[nodiscard]] std::string body_names(const body::BodyModel& model);
+/// Returns the names of all bodies but the ground.
+[[nodiscard]] std::vector<std::string> body_names(const body::BodyModel& model);
 
 /// Returns the point at which a trial's held mass acts. Throws InvalidInput if the study does not state it.
 [[nodiscard]] HeldMassSpec held_mass_place(const Study& study);

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/study/read_study.h"
 
 namespace myoid::study {
@@ -38,8 +39,9 @@ TrialSpec& trial_of(Study& study, const std::string& asked, std::string& file) {
   const std::vector<TrialSpec*> moving = movements(study);
   std::error_code ignored;
   if (equals != std::string::npos && !std::filesystem::exists(asked, ignored))
-    throw InvalidInput(fmt::format("--video '{}': there is no trial '{}'; there are {}", asked, asked.substr(0, equals),
-                                   names_of(moving)));
+    throw InvalidInput(
+        fmt::format("--video '{}': there is no trial '{}'{}", asked, asked.substr(0, equals),
+                    not_among(asked.substr(0, equals), moving, [](const TrialSpec* t) { return t->name; })));
   if (moving.size() != 1)
     throw InvalidInput(fmt::format("--video '{}': the study has {} movements; write TRIAL=FILE with one of {}", asked,
                                    moving.size(), names_of(moving)));

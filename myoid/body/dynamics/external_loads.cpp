@@ -8,6 +8,7 @@
 #include "myoid/body/dynamics/load_units.h"
 #include "myoid/body/osim/osim_xml.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/named_file.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/recording.h"
@@ -118,10 +119,8 @@ body::BodyIndex body_named(const OsimXml& xml,
   if (name.empty() || name == "Unassigned") name = "ground";
   if (name == "ground") return 0;
   if (const auto body = model.find_body(name)) return *body;
-  std::string names = "ground";
-  for (std::size_t b = 1; b < model.bodies.size(); ++b) names += ", " + model.bodies[b].name;
-  xml.fail(node, fmt::format("ExternalForce '{}': <{}> names '{}', which is no body of the model; there are {}",
-                             OsimXml::name_of(node), property, name, names));
+  xml.fail(node, fmt::format("ExternalForce '{}': <{}> names '{}', which is no body of the model{}",
+                             OsimXml::name_of(node), property, name, not_among(name, model.bodies, &body::Body::name)));
 }
 
 void check_finite(const Eigen::MatrixX3d& values,

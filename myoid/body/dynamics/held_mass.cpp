@@ -7,6 +7,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/nearest_word.h"
 
 namespace myoid::body {
 
@@ -16,8 +17,8 @@ body::BodyModel with_held_mass(body::BodyModel model, std::string_view body, con
   }
   const auto index = model.find_body(body);
   if (!index || *index == 0) {
-    throw ModelError(fmt::format("held mass: the model has no body '{}'; there are {}", body,
-                                 name_list(std::span(model.bodies).subspan(1), &body::Body::name)));
+    throw ModelError(fmt::format("held mass: the model has no body '{}'{}", body,
+                                 not_among(body, std::span(model.bodies).subspan(1), &body::Body::name)));
   }
   if (mass_kg == 0.0) return model;
   body::Body& carrier = model.bodies[static_cast<std::size_t>(*index)];

@@ -14,6 +14,7 @@
 #include "myoid/body/kinematics/pose_sequence.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/index.h"
+#include "myoid/ground/core/nearest_word.h"
 
 namespace myoid::body {
 namespace {
@@ -43,8 +44,7 @@ std::vector<Pair> pair_markers(const body::BodyModel& model,
   }
   for (const auto& [name, weight] : options.marker_weights) {
     if (model.find_marker(name)) continue;
-    throw InvalidInput(
-        fmt::format("marker weight: the model has no marker '{}'; there are {}", name, fmt::join(names, ", ")));
+    throw InvalidInput(fmt::format("marker weight: the model has no marker '{}'{}", name, not_among(name, names)));
   }
   for (const std::string& name : markers.names) {
     if (!model.find_marker(name)) unknown.push_back(name);

@@ -8,7 +8,7 @@
 #include "myoid/body/model/joint_orientation.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/index.h"
-#include "myoid/ground/files/toml_table.h"
+#include "myoid/ground/core/nearest_word.h"
 
 namespace myoid::body {
 namespace {
@@ -23,12 +23,8 @@ std::optional<int> find_by_name(const Items& items, std::string_view name) {
 template <typename Items>
 int index_by_name(const Items& items, std::string_view name, std::string_view what) {
   if (const auto index = find_by_name(items, name)) return *index;
-  std::vector<std::string> names;
-  for (const auto& item : items) names.push_back(item.name);
-  const auto near = nearest_word(name, names);
-  throw ModelError(fmt::format("the model has no {} '{}'{}; there are: {}", what, name,
-                               near ? fmt::format(" (did you mean '{}'?)", *near) : "",
-                               names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+  throw ModelError(fmt::format("the model has no {} '{}'{}", what, name,
+                               not_among(name, items, [](const auto& i) { return i.name; })));
 }
 
 void check_index(int index, std::size_t size, std::string_view what) {

@@ -9,8 +9,8 @@
 
 #include "myoid/body/osim/osim_update_parts.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/ground/files/toml_table.h"
 
 namespace myoid::body {
 

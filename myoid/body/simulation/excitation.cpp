@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/text_file.h"
 
 namespace myoid::body {
@@ -138,8 +139,8 @@ std::vector<Signal> excitations_from(const TimeSeries& series, std::span<const s
   for (const std::string& name : names) {
     const auto column = channel_of(series, name);
     if (!column) {
-      throw InvalidInput(
-          fmt::format("excitations: no channel for muscle '{}'; there are {}", name, channel_names(series)));
+      throw InvalidInput(fmt::format("excitations: no channel for muscle '{}'{}", name,
+                                     not_among(name, series.channels(), &Channel::name)));
     }
     Signal signal;
     signal.time_s.assign(series.time_s().begin(), series.time_s().end());
@@ -159,8 +160,7 @@ std::vector<Signal> described_excitations(const std::vector<std::string>& texts,
     list.push_back(parse_excitation(text));
     const std::string& name = list.back().muscle;
     if (name != "all" && std::find(muscles.begin(), muscles.end(), name) == muscles.end()) {
-      throw InvalidInput(
-          fmt::format("--excite {}: the model has no such muscle; there are {}", name, fmt::join(muscles, ", ")));
+      throw InvalidInput(fmt::format("--excite {}: the model has no such muscle{}", name, not_among(name, muscles)));
     }
   }
   std::vector<Signal> result;

@@ -8,6 +8,7 @@
 #include "myoid/fit/beliefs/beliefs.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/nearest_word.h"
 
 namespace myoid::fit {
 namespace {
@@ -95,7 +96,7 @@ const ParameterField& parameter_field(std::string_view name) {
     if (field.name == name) return field;
   }
   throw InvalidInput(
-      fmt::format("no parameter is named '{}'; there are {}", name, name_list(kFields, &ParameterField::name)));
+      fmt::format("no parameter is named '{}'{}", name, not_among(name, kFields, &ParameterField::name)));
 }
 
 }  // namespace myoid::fit

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/literature.h"
 
@@ -112,7 +113,7 @@ std::vector<int> owners_of(const ParameterRule& rule, const std::vector<std::str
     const auto it = std::find(names.begin(), names.end(), wanted);
     if (it == names.end()) {
       throw InvalidInput(
-          fmt::format("parameter {}: there is no '{}'; there are {}", rule.parameter, wanted, fmt::join(names, ", ")));
+          fmt::format("parameter {}: there is no '{}'{}", rule.parameter, wanted, not_among(wanted, names)));
     }
     owners.push_back(static_cast<int>(it - names.begin()));
   }

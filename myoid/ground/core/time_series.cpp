@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 
 namespace myoid::inline ground {
 
@@ -43,7 +44,7 @@ std::optional<Eigen::Index> TimeSeries::find(std::string_view name) const {
 
 Eigen::Index TimeSeries::index(std::string_view name) const {
   if (const auto found = find(name)) return *found;
-  throw InvalidInput("no channel named '{}'; there are: {}", name, channel_names(*this));
+  throw InvalidInput("no channel named '{}'{}", name, not_among(name, channels_, &Channel::name));
 }
 
 Eigen::VectorXd TimeSeries::column(std::string_view name) const { return values_.col(index(name)); }

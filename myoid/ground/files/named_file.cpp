@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/ground/files/toml_table.h"
 
 namespace myoid::inline ground {
 namespace {
@@ -108,7 +108,7 @@ std::string missing_file(const fs::path& folder, std::string_view name) {
   }
   std::sort(alike.begin(), alike.end());
   std::string text = "there is no such file";
-  if (const auto near = nearest_word(wanted, alike)) text += fmt::format(" (did you mean '{}'?)", *near);
+  text += did_you_mean(wanted, alike);
   if (!alike.empty()) {
     const std::size_t listed = std::min(kListed, alike.size());
     text += fmt::format("; in its folder {} {}{}", alike.size() == 1 ? "is" : "are",

@@ -12,6 +12,7 @@
 
 #include "myoid/ground/core/document_limits.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/file_format.h"
 #include "myoid/ground/files/text_file.h"
 
@@ -313,30 +314,6 @@ toml::table parse_toml(std::string_view text, const std::filesystem::path& file)
     throw ReadError(file, static_cast<std::size_t>(error.source().begin.line), "not valid TOML: {}",
                     error.description());
   }
-}
-
-std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
-  std::optional<std::string> best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    // Levenshtein distance, ignoring case, one row at a time.
-    std::vector<std::size_t> row(candidate.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < word.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i + 1;
-      for (std::size_t j = 0; j < candidate.size(); ++j) {
-        const std::size_t replace = diagonal + (small_letter(word[i]) == small_letter(candidate[j]) ? 0U : 1U);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({replace, row[j] + 1, row[j + 1] + 1});
-      }
-    }
-    if (row.back() < best_distance) {
-      best_distance = row.back();
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 }  // namespace myoid::inline ground

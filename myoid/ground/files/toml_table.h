@@ -80,8 +80,4 @@ class TomlTable {
 /// Parses a TOML text. Throws ReadError with the line of the first syntax error.
 [[nodiscard]] toml::table parse_toml(std::string_view text, const std::filesystem::path& file);
 
-/// Returns the candidate nearest to `word` by edit distance if it is near enough for a slip of the pen.
-[[nodiscard]] std::optional<std::string> nearest_word(std::string_view word,
-                                                      const std::vector<std::string>& candidates);
-
 }  // namespace myoid::inline ground

@@ -55,12 +55,6 @@ TEST(TomlTable, AnUnknownKeyNamesTheNearestBesideUnderscoresAndUnits) {
   }
 }
 
-TEST(NearestWord, ForgivesCaseAndOneSlipButNotAnotherWord) {
-  EXPECT_EQ(nearest_word("bic", {"BIC", "TRI"}), "BIC");
-  EXPECT_EQ(nearest_word("r_elbow_flx", {"r_elbow_flex", "r_shoulder_elev"}), "r_elbow_flex");
-  EXPECT_FALSE(nearest_word("banana", {"BIC", "TRI"}).has_value());
-}
-
 TEST(ParseToml, ACommaInANumberIsNamed) {
   const auto message = [](const std::string& text) {
     try {

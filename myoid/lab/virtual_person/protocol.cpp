@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/name_ids.h"

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/counted.h"
-#include "myoid/ground/files/toml_table.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/program/cli/command_help.h"
 #include "myoid/program/cli/context.h"
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/body/arm/arm4.h"
 #include "myoid/body/dynamics/ground_support.h"
@@ -29,7 +30,7 @@ body::BodyModel holding(body::BodyModel model, const IdOptions& o) {
   }
   if (body.empty())
     throw InvalidInput(fmt::format("--held-mass {} needs --held-body, the body that carries it, one of {}",
-                                   o.held.mass_kg, study::body_names(model)));
+                                   o.held.mass_kg, fmt::join(study::body_names(model), ", ")));
   return body::with_held_mass(std::move(model), body, p_BP_m, o.held.mass_kg);
 }
 

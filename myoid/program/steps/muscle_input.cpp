@@ -8,6 +8,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/steps/stage_input.h"
 #include "myoid/recording/column_unit.h"
@@ -85,7 +86,9 @@ Column read_column(const std::string& path, const ColumnChoice& choice, Remarks&
     throw ReadError(path, 0, fmt::format("has the columns {}: choose one with {}", names, choice.option));
   }
   if (!wanted.empty() && !series.find(wanted)) {
-    throw ReadError(path, 0, fmt::format("has no column '{}' ({}); there are {}", wanted, choice.option, names));
+    throw ReadError(path, 0,
+                    fmt::format("has no column '{}' ({}){}", wanted, choice.option,
+                                not_among(wanted, series.channels(), &Channel::name)));
   }
   const Eigen::Index at = wanted.empty() ? 0 : *series.find(wanted);
   if (choice.unit != Unit::dimensionless) recording::require_unit(path, file, at, choice.unit);

@@ -11,6 +11,7 @@
 #include "myoid/body/simulation/sensitivity.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/steps/stage_input.h"
@@ -33,8 +34,8 @@ std::size_t index_of(const std::string& name,
                      std::string_view option) {
   const auto found = std::ranges::find(coordinates, name, &NamedCoordinate::name);
   if (found != coordinates.end()) return static_cast<std::size_t>(found - coordinates.begin());
-  throw InvalidInput(fmt::format("{} {}: the model has no such coordinate; there are {}", option, name,
-                                 name_list(coordinates, &NamedCoordinate::name)));
+  throw InvalidInput(fmt::format("{} {}: the model has no such coordinate{}", option, name,
+                                 not_among(name, coordinates, &NamedCoordinate::name)));
 }
 
 }  // namespace
@@ -103,7 +104,7 @@ std::vector<std::string> wanted_parameters(const SimulateOptions& o, const body:
       if (std::ranges::find(result, name) == result.end()) result.push_back(name);
     }
     if (!found) {
-      throw InvalidInput(fmt::format("--sensitivity {}: no such parameter; there are {}", text, fmt::join(all, ", ")));
+      throw InvalidInput(fmt::format("--sensitivity {}: no such parameter{}", text, not_among(text, all)));
     }
   }
   return result;

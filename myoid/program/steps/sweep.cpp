@@ -10,6 +10,7 @@
 #include "myoid/body/model/path_survey.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/index.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/name_ids.h"
@@ -70,9 +71,8 @@ std::vector<int> chosen_muscles(const body::BodyModel& model, const std::vector<
       chosen.push_back(static_cast<int>(m));
   for (const std::string& name : names) {
     if (std::ranges::find(model.muscles, name, &body::Muscle::name) != model.muscles.end()) continue;
-    std::vector<std::string> known;
-    for (const body::Muscle& muscle : model.muscles) known.push_back(muscle.name);
-    throw InvalidInput("--muscle {}: the model has no such muscle; it has {}", name, fmt::join(known, ", "));
+    throw InvalidInput("--muscle {}: the model has no such muscle{}", name,
+                       not_among(name, model.muscles, &body::Muscle::name));
   }
   return chosen;
 }

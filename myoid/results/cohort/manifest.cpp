@@ -8,8 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/name_ids.h"
-#include "myoid/ground/files/toml_table.h"
 #include "myoid/recording/tables/csv_reader.h"
 
 namespace myoid::results {
@@ -181,9 +181,8 @@ std::vector<const Person*> chosen_persons(const Manifest& manifest, const std::v
     }
     std::vector<std::string> known;
     for (const Person& person : manifest.persons) known.push_back(person.name);
-    const auto near = nearest_word(name, known);
     throw InvalidInput(fmt::format("{} has no person '{}'{}; it has {} persons", manifest.file.string(), name,
-                                   near ? fmt::format(" (did you mean '{}'?)", *near) : "", known.size()));
+                                   did_you_mean(name, known), known.size()));
   }
   std::vector<const Person*> chosen;
   for (const Person& person : manifest.persons) {

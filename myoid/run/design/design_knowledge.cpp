@@ -13,6 +13,7 @@
 #include "myoid/fit/posterior/unlikeness.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/random.h"
 #include "myoid/ground/math/statistics.h"
@@ -114,9 +115,8 @@ std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free, const std
   }
   for (const std::string& w : wanted) {
     if (known.contains(w)) continue;
-    throw InvalidInput(
-        fmt::format("target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are {}", w,
-                    name_list(free, &Unknown::label)));
+    throw InvalidInput(fmt::format("target '{}' is no parameter, muscle or muscle.parameter that can be identified{}",
+                                   w, not_among(w, free, &Unknown::label)));
   }
   return targets;
 }

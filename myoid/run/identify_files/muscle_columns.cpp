@@ -11,9 +11,9 @@
 
 #include "myoid/fit/measurement/parameters.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/ground/files/toml_table.h"
 
 namespace myoid::run {
 namespace {
@@ -143,12 +143,11 @@ std::map<std::string, MuscleColumn> muscle_columns(const recording::CsvTable& ta
     const Header header = split(table.names[c]);
     const auto name = quantity_of(header.word, names);
     if (!name) {
-      const auto near = nearest_word(table.names[c], names);
       throw ReadError(
           path, table.header_line,
           fmt::format("unknown column '{}'{}; needed are muscle, max_isometric_force [N] and optimal_fiber_length [m]; "
                       "delete a column that is no number of the muscle. Known are {}",
-                      table.names[c], near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", ")));
+                      table.names[c], did_you_mean(table.names[c], names), fmt::join(names, ", ")));
     }
     const bool by_length = *name == kSpeedInLengths;
     const MuscleColumn column{

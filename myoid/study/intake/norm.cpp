@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/file_words.h"
 #include "myoid/ground/files/text_file.h"
@@ -59,7 +60,7 @@ class NormTable {
  private:
   [[nodiscard]] std::size_t column(const std::string& name) const {
     const auto it = std::ranges::find(names_, name);
-    if (it == names_.end()) refuse_header(fmt::format("no column '{}'; there are {}", name, fmt::join(names_, ", ")));
+    if (it == names_.end()) refuse_header(fmt::format("no column '{}'{}", name, not_among(name, names_)));
     return static_cast<std::size_t>(it - names_.begin());
   }
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/ground/files/toml_table.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/recording/signals/filter.h"
 #include "myoid/recording/signals/resample.h"
 #include "myoid/study/intake/body_points.h"
@@ -93,11 +93,7 @@ std::map<body::BodyIndex, double> distances(const body::BodyModel& model,
 
 body::BodyIndex body_named(const body::BodyModel& model, const std::string& name) {
   if (const auto body = model.find_body(name)) return *body;
-  std::vector<std::string> names;
-  for (std::size_t b = 1; b < model.bodies.size(); ++b) names.push_back(model.bodies[b].name);
-  const auto near = nearest_word(name, names);
-  throw InvalidInput(fmt::format("force_plates: there is no body '{}'{}; there are {}", name,
-                                 near ? fmt::format(" (did you mean '{}'?)", *near) : "", body_names(model)));
+  throw InvalidInput(fmt::format("force_plates: there is no body '{}'{}", name, not_among(name, body_names(model))));
 }
 
 body::LoadColumns splined(const TimeSeries& series, Eigen::Index first) {

@@ -10,6 +10,7 @@
 
 #include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/math/spline.h"
 #include "myoid/recording/column_unit.h"
 #include "myoid/recording/signals/clock_gaps.h"
@@ -146,8 +147,8 @@ class GivenReader {
       for (const std::string& name : muscle.osim) {
         if (!all.find(name))
           throw ReadError(path, 0,
-                          fmt::format("no column '{}', which [[muscle]] {} needs; found {}", name, muscle.name,
-                                      channel_names(all)));
+                          fmt::format("no column '{}', which [[muscle]] {} needs{}", name, muscle.name,
+                                      not_among(name, all.channels(), &Channel::name)));
       }
     }
     std::vector<std::string> there;
@@ -171,9 +172,9 @@ class GivenReader {
       if (!column && coordinates.size() == 1 && all.channel_count() == 1) column = 0;
       if (!column)
         throw ReadError(path, 0,
-                        fmt::format("no column '{}' or '{}_moment'; found {}; the study's coordinate (identify: "
+                        fmt::format("no column '{}' or '{}_moment'{}; the study's coordinate (identify: "
                                     "--coordinate) names the column",
-                                    name, name, channel_names(all)));
+                                    name, name, not_among(name, all.channels(), &Channel::name)));
       columns.push_back(*column);
       channels.push_back({name + "_moment", Unit::newton_meter});
     }

@@ -9,6 +9,7 @@
 #include "myoid/ground/core/angle_unit.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/core/provenance.h"
 #include "myoid/ground/files/byte_source.h"
 #include "myoid/ground/files/file_format.h"
@@ -141,7 +142,8 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   }
   if (there.empty()) {
     throw ReadError(*trial.external_torque, 0,
-                    fmt::format("no column '{}' [N m]; found {}", columns[0].name, channel_names(file.data)));
+                    fmt::format("no column '{}' [N m]{}", columns[0].name,
+                                not_among(columns[0].name, file.data.channels(), &Channel::name)));
   }
   for (const std::string& name : there) {
     const Eigen::Index column = file.data.index(name);

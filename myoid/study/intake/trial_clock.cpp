@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/ground/files/toml_table.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/signals/clock_offset.h"
 #include "myoid/recording/signals/clock_sync.h"
@@ -46,7 +46,6 @@ double interval_s(const Recording& file) {
   for (const Event& e : file.events) {
     if (std::ranges::find(names, e.label) == names.end()) names.push_back(e.label);
   }
-  const auto near = nearest_word(name, names);
   std::string list;
   for (const std::string& n : names) {
     if (list.size() > 300) {
@@ -58,7 +57,7 @@ double interval_s(const Recording& file) {
   throw ReadError(path, 0,
                   fmt::format("[sync]: there is no channel or event '{}' here; there {}{}", name,
                               list.empty() ? "are none, so give trigger_file, or offset_s" : "are " + list,
-                              near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
+                              did_you_mean(name, names)));
 }
 
 /// Returns the instants of a trigger: edges of a channel, events of that label, or the start.

@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/ground/files/toml_table.h"
 #include "myoid/recording/amplifier_range.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/signals/emg_kind.h"
@@ -116,13 +116,11 @@ void require_channels(const Study& study, const std::filesystem::path& path, con
     if (emg.find(muscle.emg)) continue;
     std::vector<std::string> names;
     for (const Channel& channel : emg.channels()) names.push_back(channel.name);
-    const auto near = nearest_word(muscle.emg, names);
     throw ReadError(path, 0,
                     fmt::format("no EMG channel '{}' for muscle {}; found {}{}; rename the column of this file or, if "
                                 "all files name it so, correct "
                                 "[[muscle]] emg in the study",
-                                muscle.emg, muscle.name, channel_names(emg),
-                                near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
+                                muscle.emg, muscle.name, channel_names(emg), did_you_mean(muscle.emg, names)));
   }
 }
 

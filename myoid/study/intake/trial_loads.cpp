@@ -10,6 +10,7 @@
 #include "myoid/body/kinematics/inverse_kinematics.h"
 #include "myoid/body/osim/osim_reader.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
@@ -57,7 +58,8 @@ recording::LoadCell::Matrix read_calibration(const std::filesystem::path& path) 
 
 body::BodyIndex body_of(const body::BodyModel& model, const std::string& name, const std::string& what) {
   if (const auto body = model.find_body(name)) return *body;
-  throw InvalidInput(fmt::format("[load_cell] {}: there is no body '{}'; there are {}", what, name, body_names(model)));
+  throw InvalidInput(
+      fmt::format("[load_cell] {}: there is no body '{}'{}", what, name, not_among(name, body_names(model))));
 }
 
 body::ExternalForce read_load_cell(const Study& study,

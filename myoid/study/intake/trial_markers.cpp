@@ -13,6 +13,7 @@
 #include "myoid/body/kinematics/marker_places.h"
 #include "myoid/ground/core/counted.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/label_match.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/signals/marker_quality.h"
@@ -41,6 +42,23 @@ void match_labels(const body::BodyModel& model,
   }
 }
 
+/// Renames the markers as the study says. Notes a name that the file lacks, as well as the new one.
+void rename_markers(const Study& study,
+                    const std::filesystem::path& path,
+                    std::vector<std::string>& names,
+                    TrialInput& input) {
+  for (const auto& [from, to] : study.markers.rename) {
+    const bool there = std::ranges::find(names, from) != names.end() || std::ranges::find(names, to) != names.end();
+    if (!there)
+      add_notes({fmt::format("{}: [markers] rename has no effect: there is no marker '{}'{}", path.filename().string(),
+                             from, did_you_mean(from, names))},
+                input.remarks);
+  }
+  for (std::string& name : names) {
+    if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end()) name = it->second;
+  }
+}
+
 /// Asks about markers that stand at places of the model's under another name.
 void ask_by_place(const body::BodyModel& model,
                   const std::filesystem::path& path,
@@ -60,9 +78,7 @@ MarkerSeries read_markers(const Study& study,
   recording::MarkerFile file = recording::read_markers(path);
   std::vector<Remark>& remarks = input.remarks;
   add_repairs(path, file.repairs, remarks);
-  for (std::string& name : file.markers.names) {
-    if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end()) name = it->second;
-  }
+  rename_markers(study, path, file.markers.names, input);
   match_labels(model, path, file.markers.names, input);
   ask_by_place(model, path, file.markers, input);
   const recording::LaboratoryUp up = trial_up(study.markers.up, path, model);

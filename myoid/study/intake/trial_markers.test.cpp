@@ -55,6 +55,21 @@ TEST(ReadTrialMarkers, ALabelThatDiffersInItsWritingBecomesTheModelsWithANote) {
       input.remarks, [&](const Remark& note) { return note.says.find("'" + upper + "'") != std::string::npos; }));
 }
 
+TEST(ReadTrialMarkers, ARenamedMarkerThatTheFileLacksIsNotedWithTheNearestName) {
+  const MarkerTrial trial("RELB", 50);
+  const auto notes = [&](const std::string& from) {
+    Study study = arm_study();
+    study.markers.rename[from] = first_name();
+    TrialInput input;
+    const MarkerSeries markers = read_trial_markers(study, trial.spec, arm(), input);
+    EXPECT_EQ(markers.names[0] == first_name(), from == "RELB") << from;
+    return std::ranges::count_if(input.remarks,
+                                 [](const Remark& r) { return r.says.find("'RELB'?") != std::string::npos; });
+  };
+  EXPECT_EQ(notes("RELB"), 0);
+  EXPECT_EQ(notes("RELBO"), 1);
+}
+
 TEST(ReadTrialMarkers, ALaboratoryWithZUpIsTurned) {
   const MarkerTrial trial(first_name(), 50);
   TrialInput input;
