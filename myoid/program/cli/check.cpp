@@ -86,11 +86,13 @@ void print_next(const program::CheckResult& result, const program::CheckOptions&
   const auto format = format_of(o.input);
   const std::string word = shell_word(o.input);
   if (result.errors > 0 || !format) return;
-  if (result.of_study)
-    say("next: myoid run {} --out {}\n", word,
-        shell_word((std::filesystem::path(o.input).parent_path() / "results").string()));
-  else if (is_recording(*format) && *format != FileFormat::storage)
+  if (result.of_study) {
+    const ResultsPlace place = place_for_results(o.input);
+    say("next: myoid run {} --out {}{}\n", word, shell_word(place.folder.string()),
+        place.overwrite ? " --overwrite" : "");
+  } else if (is_recording(*format) && *format != FileFormat::storage) {
     say("next: myoid init STUDY --from {}\n", word);
+  }
 }
 
 void carry_out(Context& context, const CheckOptions& o, const CLI::App& command) {

@@ -1,7 +1,11 @@
 #include "myoid/program/commands/check.h"
 
 #include <algorithm>
+#include <system_error>
 
+#include <fmt/format.h>
+
+#include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_format.h"
 #include "myoid/program/steps/check_options.h"
 #include "myoid/program/steps/stage_input.h"
@@ -10,6 +14,7 @@
 #include "myoid/study/checks/check_file.h"
 #include "myoid/study/checks/check_study.h"
 #include "myoid/study/read_study.h"
+#include "myoid/study/run_record.h"
 
 namespace myoid::program {
 
@@ -45,6 +50,32 @@ CheckResult check(const CheckOptions& o) {
   result.errors = static_cast<std::size_t>(
       std::ranges::count_if(result.findings, [](const Remark& f) { return f.severity == Severity::error; }));
   return result;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns true for the results of a run of this study.
+bool holds_run_of(const fs::path& folder, const fs::path& study) {
+  try {
+    std::error_code ignored;
+    return fs::equivalent(study::read_run_record(folder).study, study, ignored);
+  } catch (const ReadError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+ResultsPlace place_for_results(const fs::path& study) {
+  for (int i = 1;; ++i) {
+    const fs::path folder = study.parent_path() / (i == 1 ? "results" : fmt::format("results-{}", i));
+    std::error_code ignored;
+    if (!fs::exists(folder, ignored) || (fs::is_directory(folder, ignored) && fs::is_empty(folder, ignored)))
+      return {folder};
+    if (holds_run_of(folder, study)) return {folder, true};
+  }
 }
 
 }  // namespace myoid::program

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,13 @@ struct CheckResult {
 
 /// Checks the inputs; a fault of an input is a finding. Throws ReadError for an unreadable study.
 [[nodiscard]] CheckResult check(const CheckOptions& options);
+
+/// The folder into which `run` can write the results of a study.
+struct ResultsPlace {
+  std::filesystem::path folder;
+  bool overwrite = false;  ///< It holds an earlier run of the same study.
+};
+/// Returns `results` beside the study or, where another one's files stand there, `results-2`, `results-3`, ...
+[[nodiscard]] ResultsPlace place_for_results(const std::filesystem::path& study);
 
 }  // namespace myoid::program
