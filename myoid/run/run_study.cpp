@@ -118,7 +118,10 @@ std::vector<TrialResult> joined(const study::Study& study,
 StudyInputs read_stage(const study::Study& whole, const RunOptions& options, Stages& stages) {
   study::Study study = whole;
   study::restrict_trials(study, options.start_s, options.end_s);
-  return stages.run("reading", "reads the recordings", 0.0, 0.15, [&](const Progress&) { return read_inputs(study); });
+  StudyInputs inputs =
+      stages.run("reading", "reads the recordings", 0.0, 0.15, [&](const Progress&) { return read_inputs(study); });
+  if (options.files_read) options.files_read(inputs.source.files);
+  return inputs;
 }
 
 /// Runs the stages from the activation to the data.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "myoid/ground/core/progress.h"
 #include "myoid/run/study_inputs.h"
@@ -19,6 +20,8 @@ struct RunOptions {
   Progress progress;
   /// Called at the end of each stage with its work, "reads the recordings", and its seconds; may be empty.
   std::function<void(std::string_view work, double seconds)> stage_ended = {};
+  /// Called with the files of the study when all are read, before any computation; may be empty, may throw.
+  std::function<void(const std::vector<InputFile>& files)> files_read = {};
   /// Computes forces by static optimization, which methods `paper` and `force` need.
   bool share_forces = true;
   bool inform_forces = true;  ///< Computes forces with the identified muscles, informed by the EMG.

@@ -46,6 +46,7 @@ RunRecord read_run_record(const fs::path& folder) {
       record.uses[trial.at("name").get<std::string>()] = trial.at("use").get<std::string>();
     for (const json& input : run.value("inputs", json::array()))
       record.inputs.push_back({input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
+    record.seconds = run.value("seconds", record.seconds);
   } catch (const json::exception& error) {
     throw ReadError(path, 0, fmt::format("not a run's record: {}; run the study again", json_error_text(error)));
   }

@@ -18,6 +18,7 @@ struct RunRecord {
   std::optional<double> start_s, end_s;
   std::map<std::string, std::string> uses;  ///< The use of each trial, by its name.
   std::vector<InputFile> inputs;
+  std::map<std::string, double> seconds;  ///< The time of each stage.
 };
 
 /// Reads run.json of a run's folder. Throws ReadError for another file or one that does not name its study.

@@ -26,8 +26,6 @@ using results::Outcome;
 using results::OutcomeKind;
 using results::Person;
 
-/// Folder of a person's stages, from which an interrupted job continues.
-constexpr const char* kStageFolder = ".stages";
 /// The command that signs the folder of a cohort and the persons' folders.
 constexpr const char* kCohortWord = "cohort";
 /// Names of the group's results, which a folder of other content must not have.
