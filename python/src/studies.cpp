@@ -5,6 +5,7 @@
 #include "myoid/ground/core/choice.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/output_file.h"
+#include "myoid/ground/files/result_names.h"
 #include "myoid/program/commands/check.h"
 #include "myoid/program/commands/compare.h"
 #include "myoid/program/commands/design.h"
@@ -87,6 +88,7 @@ py::dict run(py::dict given) {
   return run_values(work.run([&] {
     prepare_mat(o.mat, o.study, o.call.overwrite);
     ResultOut folder(o.out, o.call, program::kStageFolder);
+    protect_files(o.out, run_result_names(), {o.study});
     program::RunResult r = program::run(o);
     program::write_run(r, o.out);
     if (!o.mat.empty()) results::write_results_mat(o.out, o.mat);
@@ -101,7 +103,7 @@ py::dict identify(py::dict given) {
   const program::IdentifyResult done = work.run([&] {
     prepare_mat(o.mat, o.muscles.string(), o.call.overwrite);
     ResultOut folder(o.folder, o.call);
-    protect_files(o.folder, program::kIdentifyFiles, {o.muscles.string()});
+    protect_files(o.folder, program::identify_files(), {o.muscles.string()});
     program::IdentifyResult r = program::identify(o);
     program::write_identify(r, o.folder);
     if (!o.mat.empty()) results::write_results_mat(o.folder, o.mat);

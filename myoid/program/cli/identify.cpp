@@ -3,7 +3,6 @@
 #include <string>
 
 #include "myoid/ground/files/output_file.h"
-#include "myoid/ground/files/result_names.h"
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/run.h"
@@ -20,9 +19,7 @@ void carry_out(Context& context, const IdentifyOptions& o, const CLI::App& comma
     if (o.from.empty() && command.get_option(option)->count() == 0) throw CLI::RequiredError(option);
   prepare_mat(context, o.mat, {o.muscles.string()});
   context.prepare_folder(o.folder);
-  std::vector<std::string_view> results = run_result_names();
-  results.emplace_back("study.toml");
-  protect_files(o.folder, results, {o.muscles.string()});
+  protect_files(o.folder, program::identify_files(), {o.muscles.string()});
   program::IdentifyResult result = program::identify(o);
   program::write_identify(result, o.folder);
   context.end_progress();

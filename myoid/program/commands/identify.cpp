@@ -5,6 +5,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
+#include "myoid/ground/files/result_names.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/commands/identify_study.h"
 #include "myoid/program/commands/project_files.h"
@@ -52,6 +53,12 @@ IdentifyResult identify(const IdentifyOptions& o) {
   for (const std::string& text : without_effect(o)) remarks.warn(text);
   for (const Remark& remark : table.remarks) remarks.add(remark);
   return run_of(identify_study(o, table, remarks), o, remarks);
+}
+
+std::vector<std::string_view> identify_files() {
+  std::vector<std::string_view> names = run_result_names();
+  names.emplace_back("study.toml");
+  return names;
 }
 
 void write_identify(IdentifyResult& result, const std::filesystem::path& folder) {

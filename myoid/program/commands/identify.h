@@ -22,6 +22,9 @@ struct IdentifyResult {
 /// cannot meet.
 [[nodiscard]] IdentifyResult identify(const IdentifyOptions& options);
 
+/// Returns the names of the files that `write_identify` writes beside the folders of trials.
+[[nodiscard]] std::vector<std::string_view> identify_files();
+
 /// Writes as `write_run`, and the study as study.toml.
 void write_identify(IdentifyResult& result, const std::filesystem::path& folder);
 
