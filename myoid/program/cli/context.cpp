@@ -27,8 +27,8 @@ namespace {
 
 bool color_wanted() { return isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
 
-/// Draws a bar ten times a second at most, or a line every ten seconds where there is no terminal; shared by the threads
-/// that report.
+/// Draws a bar ten times a second at most, or a line every ten seconds where there is no terminal; shared by the
+/// threads that report.
 struct ProgressBar {
   using Clock = std::chrono::steady_clock;
   const bool terminal = isatty(STDERR_FILENO) != 0;
