@@ -1,6 +1,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -74,7 +75,9 @@ void add_demo(CLI::App& app, Context& context) {
     make_recording(context, recording);
     const std::string study = (fs::path(recording) / "study.toml").string();
     check_recording(context, study);
-    const program::RunResult result = compute_run(context, {.call = context.call(), .study = study, .out = results});
+    program::Call call = context.call();
+    call.seed = program::Call{}.seed;  // --seed chose the person; a run draws nothing by it
+    const program::RunResult result = compute_run(context, {.call = std::move(call), .study = study, .out = results});
     say_run(context, result, results);
     if (!*closed && !context.json && !open_page(fs::absolute(fs::path(results) / "report.html")))
       context.log("open the report in a browser: it works offline");
