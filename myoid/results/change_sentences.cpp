@@ -41,7 +41,8 @@ std::string owner_of(const ComparedParameter& p) { return page::spelled(page::pl
 /// Returns "8 %", or the size itself where the number of the first session is no scale.
 std::string share_or_size(const ComparedParameter& p, double size) {
   if (!(std::abs(p.of_first.value) > 0.0)) return with_unit(size, p.first.unit);
-  return fmt::format("{:.2g} %", 100.0 * size / std::abs(p.of_first.value));
+  const double percent = 100.0 * size / std::abs(p.of_first.value);
+  return percent < 99.5 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
 }  // namespace
@@ -76,8 +77,7 @@ std::string change_text(const ComparedParameter& p) {
   const std::string unseen = fmt::format("a change below {} would not have been seen", share_or_size(p, seen));
   if (p.change == Change::no_change)
     return fmt::format("{}: no change of {} shows; {}", owner_of(p), page::spelled(p.first.parameter), unseen);
-  const std::string share =
-      std::abs(p.of_first.value) > 0.0 ? fmt::format("{:.2g} %, ", 100.0 * size / std::abs(p.of_first.value)) : "";
+  const std::string share = std::abs(p.of_first.value) > 0.0 ? share_or_size(p, size) + ", " : "";
   return fmt::format("{} {} by {} ({}95 % {} to {}); {}", owner_of(p), direction(p.first.parameter, p.difference),
                      with_unit(size, p.first.unit), share,
                      page::format_value((size - seen) * page::plain_unit(p.first.unit).per_si),

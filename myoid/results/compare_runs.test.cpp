@@ -195,6 +195,9 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
       "show no change, and of 1 a recording does not tell enough.");
   EXPECT_EQ(change_text(c.parameters[1]),
             "Brachialis: no change of max isometric force shows; a change below 12 % would not have been seen");
+  ComparedParameter doubled = c.parameters[0];
+  doubled.difference = doubled.of_first.value;
+  EXPECT_NE(change_text(doubled).find("(100 %, "), std::string::npos);
 }
 
 TEST(CompareRuns, APowerFollowsFromTheTorqueAndIsNoFurtherComparison) {
