@@ -6,26 +6,15 @@
 namespace myoid::inline ground {
 
 const std::vector<std::string_view>& run_result_names() {
-  static const std::vector<std::string_view> names{"figures",
-                                                   "tables",
-                                                   "report.html",
-                                                   "report.json",
-                                                   "parameters.csv",
-                                                   "parameters.json",
-                                                   "posterior.csv",
-                                                   "fold_parameters.csv",
-                                                   "run.json",
-                                                   "voluntary_torque.csv",
-                                                   "methods.txt",
-                                                   "methods.bib",
-                                                   "predictions.csv",
-                                                   "predictions.json",
-                                                   "solvers.csv",
-                                                   "ceinms_calibrated.xml",
-                                                   "nmsm.osimx",
-                                                   "ceinms_uncalibrated.xml",
-                                                   "ceinms_rt_calibrated.xml",
-                                                   "ceinms_rt_uncalibrated.xml"};
+  static const std::vector<std::string_view> names{
+      // the report
+      "figures", "tables", "report.html", "report.json", "methods.txt", "methods.bib", "run.json",
+      // numbers
+      "parameters.csv", "parameters.json", "fold_parameters.csv", "posterior.csv", "voluntary_torque.csv",
+      "solvers.csv", "predictions.csv", "predictions.json",
+      // for other programs
+      "ceinms_calibrated.xml", "ceinms_uncalibrated.xml", "ceinms_rt_calibrated.xml", "ceinms_rt_uncalibrated.xml",
+      "nmsm.osimx"};
   return names;
 }
 

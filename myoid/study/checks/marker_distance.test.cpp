@@ -37,7 +37,7 @@ std::optional<Remark> found_at(double shift_m) {
   return distant_markers(study, study.trials[0], model, input);
 }
 
-// Of a stiff model the distance is the shift, exactly.
+// A model that cannot move leaves its markers at the distance of the shift.
 TEST(DistantMarkers, AreMeasuredByInverseKinematicsAndWarnAtTheLimitsOfTheGate) {
   EXPECT_FALSE(found_at(0.0).has_value());
   EXPECT_FALSE(found_at(0.019).has_value());

@@ -71,8 +71,8 @@ struct LikenessLimits {
   /// A dynamometer's torque over the active muscles': factors from the others' median. A muscle at its shortest pulls
   /// an eighth of its strength, and none pulls more than some times its strength.
   double torque_more = 6.0, torque_less = 12.0;
-  double torque_unit =
-      25.0;                ///< Beyond, no muscle explains the factor: radians over degrees are 57, N mm over N m 1000.
+  /// Beyond this factor the torque is in another unit: radians over degrees are 57, N mm over N m 1000.
+  double torque_unit = 25.0;
   double unopposed = 0.5;  ///< Share of the muscles' torque that antagonists leave.
   double angle = 15.0;     ///< Factor by which the ranges of angles differ: degrees over radians is 57.
   int fewest_others = 3;   ///< Trials with a dynamometer.
