@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <stop_token>
+#include <string>
+#include <system_error>
+#include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,33 +32,56 @@ namespace {
 
 bool color_wanted() { return isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
 
-/// Draws a bar ten times a second at most, or a line every ten seconds where there is no terminal; shared by the
-/// threads that report.
-struct ProgressBar {
-  using Clock = std::chrono::steady_clock;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  std::mutex mutex;
-  Clock::time_point begin = Clock::now();
-  Clock::time_point last = terminal ? Clock::time_point{} : begin;
-
+/// Draws a bar at most ten times a second; where there is no terminal, a line every ten seconds, also while nothing
+/// reports. Shared by the threads that report.
+class ProgressBar {
+ public:
   void draw(double share, std::string_view what) {
-    const std::scoped_lock lock(mutex);
+    const std::scoped_lock lock(mutex_);
+    if (!terminal_) return keep(share, what);
     const auto now = Clock::now();
-    const bool last_of_bar = terminal && share >= 1.0;
-    if (!last_of_bar && now - last < std::chrono::milliseconds(terminal ? 100 : 10'000)) return;
-    last = now;
-    const double elapsed_s = std::chrono::duration<double>(now - begin).count();
+    if (share < 1.0 && now - last_ < std::chrono::milliseconds(100)) return;
+    last_ = now;
+    const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
     const std::string left =
         share > 0.02 && share < 1.0 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share) : "";
-    if (!terminal) {
-      say_error("  {:.0f} %, {}{}{}\n", 100.0 * share, what, left.empty() ? "" : ", about ", left);
-      return;
-    }
     const int filled = static_cast<int>(share * 24.0);
     std::fputs("\r\033[K", stderr);
     say_error("[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share, left, what);
     std::fflush(stderr);
   }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Remembers the state for the lines, which a thread of their own writes; without a thread there are none.
+  void keep(double share, std::string_view what) {
+    share_ = share;
+    what_ = what;
+    if (lines_.joinable() || refused_) return;
+    try {
+      lines_ = std::jthread([this](const std::stop_token& stop) { write_lines(stop); });
+    } catch (const std::system_error&) {
+      refused_ = true;
+    }
+  }
+
+  void write_lines(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, stop, std::chrono::seconds(10), [&] { return stop.stop_requested(); }))
+      if (share_ < 1.0)
+        say_error("  {:.0f} %, {}, {:.0f} s so far\n", 100.0 * share_, what_,
+                  std::chrono::duration<double>(Clock::now() - begin_).count());
+  }
+
+  const bool terminal_ = isatty(STDERR_FILENO) != 0;
+  std::mutex mutex_;
+  Clock::time_point begin_ = Clock::now(), last_{};
+  double share_ = 0.0;
+  std::string what_;
+  bool refused_ = false;
+  std::condition_variable_any wake_;
+  std::jthread lines_;  ///< The last member: it stops before the others go.
 };
 
 }  // namespace
