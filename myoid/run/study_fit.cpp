@@ -5,12 +5,11 @@
 #include <string>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "myoid/fit/methods/force.h"
 #include "myoid/fit/methods/paper.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/methods/torque.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/recording/signals/quality_limits.h"
 
 namespace myoid::run {
@@ -98,7 +97,7 @@ std::vector<InformedForces> informed_forces(const FitInput& input, const std::ve
     const std::size_t before = found.size();
     const std::vector<fit::TrialData>& trials = input.data.trials;
     found.resize(before + trials.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+    parallel_each(trials.size(), [&](std::size_t i) {
       const fit::Prediction p = fit::predict(input.data, trials[i], method.values, method.lag);
       found[before + i] = informed_forces(trials[i], p.activation, method.values.muscles);
     });

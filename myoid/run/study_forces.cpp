@@ -5,12 +5,11 @@
 #include <cstddef>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "myoid/body/dynamics/inverse_dynamics.h"
 #include "myoid/body/forces/sharing_input.h"
 #include "myoid/body/kinematics/muscle_kinematics.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/recording/signals/resample.h"
 #include "myoid/run/resting_joints.h"
 #include "myoid/study/study_model.h"
@@ -42,7 +41,7 @@ void for_each_trial(const std::vector<TrialMotion>& motion,
                     std::vector<TrialForces>& forces,
                     const Progress& progress,
                     const Work& work) {
-  oneapi::tbb::parallel_for(std::size_t{0}, motion.size(), [&](std::size_t i) {
+  parallel_each(motion.size(), [&](std::size_t i) {
     progress.check();
     if (!is_computed(motion[i], forces[i])) return;
     try {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/tables/csv_reader.h"
 #include "myoid/study/checks/study_plausibility.h"
@@ -56,7 +56,7 @@ StudyInputs read_inputs(const study::Study& study) {
     source.files.push_back({norm.file.string(), sha256(read_text_file(norm.file))});
   }
   std::vector<std::vector<study::TrialPart>> parts(study.trials.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+  parallel_each(study.trials.size(), [&](std::size_t i) {
     try {
       parts[i] = study::read_trial_parts(study, study.trials[i], *source.model);
     } catch (const InvalidInput& error) {

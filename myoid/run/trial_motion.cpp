@@ -7,10 +7,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/recording/signals/resample.h"
 #include "myoid/study/checks/marker_distance.h"
 #include "myoid/study/intake/trial_input.h"
@@ -96,7 +96,7 @@ std::vector<TrialMotion> study_motion(const StudyInputs& inputs, StageStore* sto
   const std::vector<study::TrialSpec>& specs = inputs.source.study.trials;
   std::vector<TrialMotion> motions(specs.size());
   std::atomic<int> done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, specs.size(), [&](std::size_t i) {
+  parallel_each(specs.size(), [&](std::size_t i) {
     progress.check();
     try {
       motions[i] = trial_motion(inputs.source, specs[i], inputs.trials[i], store);

@@ -9,13 +9,13 @@
 #include <set>
 
 #include <Eigen/Cholesky>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/body/model/constraints.h"
 #include "myoid/body/model/kinematic_tree.h"
 #include "myoid/body/model/multi_polynomial.h"
 #include "myoid/body/model/path_survey.h"
 #include "myoid/ground/core/index.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/math/random.h"
 #include "myoid/ground/math/sobol.h"
 
@@ -385,7 +385,7 @@ std::vector<int> acting_coordinates(const body::BodyModel& model, const body::Mu
 std::vector<PathSurrogate> fit_surrogates(const body::BodyModel& model, const SurrogateOptions& options) {
   std::vector<PathSurrogate> all(model.muscles.size());
   std::atomic<std::size_t> done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t m) {
+  parallel_each(all.size(), [&](std::size_t m) {
     all[m] = fit(model, model.muscles[m], options);
     options.progress.tell(static_cast<double>(++done) / static_cast<double>(all.size()), "path surrogates");
   });

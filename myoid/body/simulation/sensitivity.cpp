@@ -8,13 +8,13 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/body/simulation/model_parameters.h"
 #include "myoid/body/simulation/moving_model.h"
 #include "myoid/body/simulation/simulation_run.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/math/ode_events.h"
 #include "myoid/ground/math/stiff_ode.h"
 
@@ -249,7 +249,7 @@ Sensitivities simulate_sensitivities(const SimulationModel& model,
 
   const std::size_t chunks = (parameters.size() + kChunk - 1) / kChunk;
   std::vector<math::OdeStatus> status(chunks, math::OdeStatus::done);
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+  parallel_each(chunks, [&](std::size_t c) {
     const std::size_t begin = c * kChunk;
     Chunk chunk(model, input, consistent, options,
                 parameters.subspan(begin, std::min(kChunk, parameters.size() - begin)), times);

@@ -6,8 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/math/sobol.h"
 
 namespace myoid::fit {
@@ -74,7 +73,7 @@ BasinTable find_basins(
   const std::vector<Eigen::VectorXd> from = starts_in(box, starts);
   std::vector<LocalMinimum> ends(from.size());
   std::atomic<std::size_t> done{0};
-  oneapi::tbb::parallel_for(std::size_t{0}, from.size(), [&](std::size_t i) {
+  parallel_each(from.size(), [&](std::size_t i) {
     progress.check();
     ends[i] = search(from[i]);
     progress.tell(static_cast<double>(++done) / static_cast<double>(from.size()), "searching from many starts");

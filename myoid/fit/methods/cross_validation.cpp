@@ -6,11 +6,11 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/fit/measurement/muscle_activation.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/posterior/drive.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/statistics.h"
 
@@ -337,8 +337,7 @@ std::vector<Fold> cross_validate(const StudyData& data,
   std::vector<Split> all = splits(data, how);
   const EstimatorOptions shared = remembering_drives(options);
   std::vector<std::vector<Fold>> of_split(all.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, all.size(),
-                            [&](std::size_t f) { of_split[f] = score_split(std::move(all[f]), fit, shared); });
+  parallel_each(all.size(), [&](std::size_t f) { of_split[f] = score_split(std::move(all[f]), fit, shared); });
   std::vector<Fold> folds;
   for (std::vector<Fold>& of_one : of_split) std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
   return folds;

@@ -1,6 +1,9 @@
 #include "myoid/ground/core/parallel.h"
 
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -30,6 +33,31 @@ TEST(ParallelRanges, ThrowWhatTheBodyThrows) {
                                  }),
                  std::runtime_error);
   }
+}
+
+// A study that is interrupted: one fold throws while another computes with loops of its own.
+TEST(ParallelEach, RunsWholeInsideALoopThatAnotherPartHasEndedByAnError) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 2);
+  std::atomic<bool> begun = false;
+  std::atomic<int> met = 0, in_ranges = 0;
+  const auto wait_for = [](const auto& condition) {
+    for (int i = 0; i < 2000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  EXPECT_THROW(parallel_each(2,
+                             [&](std::size_t part) {
+                               if (part == 0) {
+                                 wait_for([&] { return begun.load(); });
+                                 throw std::runtime_error("interrupted");
+                               }
+                               begun = true;
+                               wait_for([] { return oneapi::tbb::is_current_task_group_canceling(); });
+                               parallel_each(100, [&](std::size_t) { ++met; });
+                               parallel_ranges(100, 7,
+                                               [&](const auto& range) { in_ranges += static_cast<int>(range.size()); });
+                             }),
+               std::runtime_error);
+  EXPECT_EQ(met, begun ? 100 : 0);
+  EXPECT_EQ(in_ranges, begun ? 100 : 0);
 }
 
 }  // namespace

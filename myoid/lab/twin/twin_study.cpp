@@ -11,11 +11,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/json_text.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/quoted_text.h"
@@ -220,7 +220,7 @@ TwinStudyResult twin_study(const lab::Protocol& protocol, const TwinStudyOptions
   std::vector<OnePerson> persons(count);
   std::vector<char> finished(count, 0);
   std::atomic<int> done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+  parallel_each(count, [&](std::size_t k) {
     if (options.progress.stop.stop_requested()) return;
     // Isolated: a thread that waits inside one person must not begin another.
     oneapi::tbb::this_task_arena::isolate([&] {

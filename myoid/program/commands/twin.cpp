@@ -3,9 +3,9 @@
 #include <atomic>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/lab/virtual_person/demo_protocol.h"
 #include "myoid/lab/virtual_person/truth_settings.h"
@@ -80,7 +80,7 @@ TwinPersonsResult write_twin_persons(const TwinOptions& options, const fs::path&
   const std::size_t persons = options.persons.value_or(1);
   std::vector<std::string> lines(persons);
   std::atomic<std::size_t> done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, persons, [&](std::size_t i) {
+  parallel_each(persons, [&](std::size_t i) {
     progress.check();
     const std::uint64_t seed = options.call.seed + i;
     const lab::VirtualRecording recording =

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/fit/posterior/density.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/parallel.h"
 #include "myoid/ground/math/random.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/muscle/fatigue.h"
@@ -75,7 +75,7 @@ std::vector<MovementCourse> courses_of(const study::Study& study,
                                        const Progress& progress) {
   const MovementModels models = movement_models(study, model);
   std::vector<MovementCourse> courses(movements.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
+  parallel_each(movements.size(), [&](std::size_t i) {
     progress.check();
     courses[i] = movement_course(study, models, movements[i]);
   });
@@ -323,7 +323,7 @@ DesignStudyResult design_study(const study::Study& study,
   std::vector<Effort> efforts(movements.size());
   const muscle::FatigueRates<double> rates = muscle::published_fatigue_rates("elbow_rest");
   std::vector<char> tiring(movements.size(), 0);
-  oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
+  parallel_each(movements.size(), [&](std::size_t i) {
     options.progress.check();
     Performance performance = performance_of(courses[i], data, *parameters, persons, options.seed, teller.information);
     tiring[i] = fatigued_share(performance.effort, rates) > options.fatigued_share ? 1 : 0;

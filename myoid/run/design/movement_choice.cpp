@@ -6,9 +6,9 @@
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/parallel.h"
 
 namespace myoid::run {
 namespace {
@@ -110,7 +110,7 @@ class Designer {
     const std::size_t count = problem_.catalogue.size();
     std::vector<double> value(count, std::numeric_limits<double>::infinity());
     const double spent = duration_s(chosen);
-    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t m) {
+    parallel_each(count, [&](std::size_t m) {
       if (!feasible_[m] || std::count(chosen.begin(), chosen.end(), m) >= options_.most_of_each ||
           (options_.budget_s && spent + problem_.catalogue[m].duration_s > *options_.budget_s))
         return;
