@@ -25,7 +25,7 @@ _KINDS = {
     "markers": "markers", "muscles": "table", "inputs": "emg", "mvc": "emg", "source": "any",
     **dict.fromkeys(
         ("motion", "speeds", "accelerations", "excitations", "activations", "lengths", "velocities", "forces",
-         "moment_arms", "torques", "length", "activation", "excitation", "measured", "emg"), "series"),
+         "moment_arms", "torques", "fascicles", "length", "activation", "excitation", "measured", "emg"), "series"),
 }  # fmt: skip
 
 

@@ -55,7 +55,8 @@ def run(study: File, *, out: File | None = None, mat: File | None = None, method
 def identify(*, from_: File | None = None, muscles: Input | None = None, activations: Inputs | None = None,
              lengths: Inputs | None = None, velocities: Inputs | None = None, forces: Inputs | None = None,
              moment_arms: Inputs | None = None, torques: Inputs | None = None,
-             coordinate: Texts | None = None, motion: Inputs | None = None, lowpass: float | None = None,
+             fascicles: Inputs | None = None, coordinate: Texts | None = None, motion: Inputs | None = None,
+             lowpass: float | None = None,
              method: str | None = None, delay: float | None = None, lag: str | None = None,
              free: Texts | None = None, hold: Texts | None = None, beliefs: File | None = None,
              posterior_draws: int | None = None, compare_solvers: bool = False, starts: int | None = None,
@@ -74,6 +75,8 @@ def identify(*, from_: File | None = None, muscles: Input | None = None, activat
         forces: Muscle forces [N]; `paper` and `force` need them.
         moment_arms: r = -dl/dq [m]; a file for each coordinate of each trial; `torque` needs them.
         torques: The torque that the muscles provide together [N m]; `torque` needs them.
+        fascicles: Measured lengths of fascicles, in columns by muscle ("TA [mm]"); one per trial, "none" for a trial
+            without.
         coordinate: Columns of the torque file; None: the only one.
         motion: Joint angles, for the stiffness and viscosity of the joint itself.
         lowpass: The angles are smoothed, -3 dB here [Hz].

@@ -67,6 +67,11 @@ void visit_files(IdentifyOptions& o, study::SettingVisitor& v) {
   v.texts(
       "torques", o.files.torques,
       {.says = "The joint torque that the muscles provide together [N m].", .otherwise = "none; `torque` needs them"});
+  v.texts(
+      "fascicles", o.files.fascicles,
+      {.says = "[Measured lengths of fascicles](study.md#fascicles), in columns named by muscle: `TA [mm]`; one file "
+               "per trial, `none` for a trial without.",
+       .otherwise = "none"});
   v.texts("coordinate", o.files.coordinates,
           {.says = "Columns of the torque file, with or without `_moment`. Several joints are fitted at once; "
                    "`--moment-arms` follows their order within each trial.",
@@ -186,6 +191,7 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   constexpr std::string_view kForces = "methods paper and force fit muscle forces (--forces)";
   tell(!torque && !o.files.torques.empty(), "--torques", kForces);
   tell(!torque && !o.files.moment_arms.empty(), "--moment-arms", kForces);
+  tell(!torque && !o.files.fascicles.empty(), "--fascicles", "they are fitted beside torques, of method torque");
   tell(!torque && !o.files.held_back.empty(), "--validate",
        "trials are predicted by the joint torque, of method torque");
   tell(torque && !o.files.forces.empty(), "--forces", "method torque fits joint torques (--torques)");

@@ -45,6 +45,8 @@ std::vector<study::TrialSpec> trials_of(const IdentifyOptions& o) {
     if (!torque) trial.given.forces = one(files.forces, i);
     if (torque) {
       trial.motion = one(files.motions, i);
+      trial.fascicles = one(files.fascicles, i);
+      if (trial.fascicles == run::kNoFile) trial.fascicles.reset();
       trial.given.torques = one(files.torques, i);
       for (std::size_t j = 0; j < joints; ++j) trial.given.moment_arms.emplace_back(files.moment_arms[joints * i + j]);
     }

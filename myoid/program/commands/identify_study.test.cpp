@@ -137,6 +137,24 @@ TEST(IdentifyStudy, WishesOfTheTableAndOfTheOptionsStandInTheStudy) {
   expect_same(result.fit(), *run::torque_of(run_of(result, files.folder / "results").study.fit));
 }
 
+TEST(IdentifyStudy, ATrialHasItsMeasuredFasciclesOrNone) {
+  Files files;
+  files.options.files.fascicles.assign(files.options.files.lengths.size(), std::string(run::kNoFile));
+  files.options.files.fascicles[1] = "ultrasound.csv";
+  Remarks remarks(files.options.call);
+  run::MuscleTable table;
+  table.muscles = files.study.data.muscles;
+  const study::Study study = identify_study(files.options, table, remarks);
+  ASSERT_GT(study.trials.size(), 1U);
+  EXPECT_FALSE(study.trials[0].fascicles);
+  EXPECT_EQ(study.trials[1].fascicles, "ultrasound.csv");
+  EXPECT_TRUE(without_effect(files.options).empty());
+  files.options.files.fascicles.pop_back();
+  EXPECT_THROW((void)identify_study(files.options, table, remarks), InvalidInput);
+  files.options.method = fit::Method::force;
+  EXPECT_EQ(without_effect(files.options).size(), 3U);  // beside torques and moment arms
+}
+
 TEST(IdentifyStudy, LagsToBeIdentifiedLeaveNoOtherWayToFollowTheEmg) {
   Files files;
   files.options.free_more = {"excitation_time"};

@@ -38,6 +38,7 @@ void require_counts(const IdentifySources& s, bool torque) {
   }
   if (joints == 1) require_count(s.moment_arms.size(), trials, "--moment-arms");
   require_count(s.torques.size(), trials, "--torques");
+  if (!s.fascicles.empty()) require_count(s.fascicles.size(), trials, "--fascicles");
   if (!s.motions.empty()) require_count(s.motions.size(), trials, "--motion");
   if (!s.forces.empty()) require_count(s.forces.size(), trials, "--forces");
 }

@@ -3,9 +3,13 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace myoid::run {
+
+/// In a list of one file per trial: the trial has none.
+inline constexpr std::string_view kNoFile = "none";
 
 /// The files of `myoid identify`, one per trial, in the same order; moment arms one per trial and
 /// coordinate, trial by trial.
@@ -13,6 +17,7 @@ struct IdentifySources {
   std::vector<std::string> activations, lengths;
   std::vector<std::string> velocities;  ///< Empty: rates of the spline through the lengths.
   std::vector<std::string> forces, moment_arms, torques;
+  std::vector<std::string> fascicles;      ///< Measured fiber lengths; `kNoFile`: of this trial none.
   std::vector<std::string> motions;        ///< Joint angles (.mot, .sto); empty: no motion of the joints.
   std::optional<double> motion_cutoff_hz;  ///< Cut-off (-3 dB) that smooths the angles; empty: not smoothed.
   std::vector<std::string> coordinates;    ///< Columns of the torque files; empty: the only column.
