@@ -237,6 +237,27 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
   return fit;
 }
 
+namespace {
+
+/// Returns the unknowns of the fit of all recordings but `left_out`.
+Eigen::VectorXd unknowns_of(const IsolatedFit& all,
+                            const std::vector<std::string>& names,
+                            const ForceErrors& errors,
+                            std::optional<std::size_t> left_out) {
+  Eigen::VectorXd x(errors.unknowns());
+  const Eigen::VectorXd common = logs_of(all.model, names);
+  x.head(errors.common()) = common;
+  Eigen::Index at = errors.common();
+  for (std::size_t k = 0; k < all.of_recordings.size(); ++k) {
+    if (k == left_out) continue;
+    const Eigen::VectorXd logs = logs_of(all.of_recordings[k], names);
+    for (const Eigen::Index j : errors.own()) x[at++] = logs[j] - common[j];
+  }
+  return x;
+}
+
+}  // namespace
+
 std::vector<IsolatedFit> fit_without_each(const IsolatedModel& start,
                                           const std::vector<IsolatedRecording>& recordings,
                                           const IsolatedFitOptions& options,
@@ -247,19 +268,23 @@ std::vector<IsolatedFit> fit_without_each(const IsolatedModel& start,
   for (std::size_t q = 0; q < options.own.size(); ++q)
     scatter[static_cast<Eigen::Index>(q)] = all.estimates[static_cast<std::size_t>(errors.own()[q])].scatter;
   errors.believe(all.noise_n, scatter);
-  const Eigen::VectorXd common = logs_of(all.model, options.parameters);
-  for (std::size_t i = 0; recordings.size() > 1 && i < recordings.size(); ++i) {
+  if (recordings.size() < 2) return fits;
+  // Most recordings move the answer so little that the slopes of the fit to all serve.
+  constexpr double kNear = 0.05;
+  const Eigen::VectorXd at_all = unknowns_of(all, options.parameters, errors, {});
+  const math::LeastSquaresOptions settings = search_settings(options);
+  errors.hold_slopes(at_all);
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
     errors.use_all_but(i);
+    errors.use_held_slopes(true);
     IsolatedFit fit{.model = start, .noise_n = all.noise_n};
-    Eigen::VectorXd x(errors.unknowns());
-    x.head(errors.common()) = common;
-    Eigen::Index at = errors.common();
-    for (std::size_t k = 0; k < recordings.size(); ++k) {
-      if (k == i) continue;
-      const Eigen::VectorXd logs = logs_of(all.of_recordings[k], options.parameters);
-      for (const Eigen::Index j : errors.own()) x[at++] = logs[j] - common[j];
+    const Eigen::VectorXd x = unknowns_of(all, options.parameters, errors, i);
+    math::LeastSquaresResult found = math::minimize(problem_of(errors, options), x, settings);
+    if (found.termination != math::Termination::converged || (found.x - x).cwiseAbs().maxCoeff() > kNear) {
+      errors.use_held_slopes(false);
+      found = math::minimize(problem_of(errors, options), found.x, settings);
     }
-    conclude(start, math::minimize(problem_of(errors, options), x, search_settings(options)), errors, options, fit);
+    conclude(start, found, errors, options, fit);
     fits.push_back(std::move(fit));
   }
   return fits;

@@ -135,6 +135,24 @@ TEST(FitIsolatedMuscle, AFitWithoutOneRecordingFindsTheSameMuscleFromExactForces
   EXPECT_TRUE(fit_without_each(test::small_muscle(), {recordings[0]}, options, all).empty());
 }
 
+TEST(FitIsolatedMuscle, AFitWithoutARecordingIsThatOfTheOthersAlone) {
+  // Recordings that contradict each other, the last one by so much that its absence leads far away.
+  std::vector<IsolatedRecording> recordings = recordings_of(test::small_muscle());
+  recordings[1].force_n *= 1.02;
+  recordings[2].force_n *= 1.5;
+  const IsolatedFitOptions options{.parameters = {"max_isometric_force", "tendon_strain"}};
+  const IsolatedFit all = fit_isolated_muscle(test::small_muscle(), recordings, options);
+  const std::vector<IsolatedFit> without = fit_without_each(test::small_muscle(), recordings, options, all);
+  ASSERT_EQ(without.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<IsolatedRecording> others = recordings;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const IsolatedFit alone = fit_isolated_muscle(test::small_muscle(), others, options);
+    for (std::size_t p = 0; p < 2; ++p)
+      EXPECT_NEAR(without[i].estimates[p].value / alone.estimates[p].value, 1.0, 0.01) << i << " " << p;
+  }
+}
+
 TEST(FitIsolatedMuscle, TheWidthOfTheForceLengthCurveFollowsTheOptimalLength) {
   IsolatedModel start = test::small_muscle();
   start.laws.length = LengthLaw::gaussian;

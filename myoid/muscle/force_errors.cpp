@@ -10,6 +10,22 @@
 #include "myoid/muscle/isolated_values.h"
 
 namespace myoid::muscle {
+namespace {
+
+/// Of the logarithms. Central differences: relative to the derivative the truncation is h^2 = 2e-5, and the
+/// integrator's noise tolerance / h = 2e-5.
+constexpr double kStep = 5e-3;
+
+/// Returns the derivatives of one recording's forces from those of `forces_about`.
+Eigen::MatrixXd slopes_of(const Eigen::MatrixXd& forces) {
+  const Eigen::Index unknowns = (forces.cols() - 1) / 2;
+  Eigen::MatrixXd slopes(forces.rows(), unknowns);
+  for (Eigen::Index j = 0; j < unknowns; ++j)
+    slopes.col(j) = (forces.col(2 * j + 1) - forces.col(2 * j + 2)) / (2.0 * kStep);
+  return slopes;
+}
+
+}  // namespace
 
 Eigen::VectorXd force_of(const IsolatedModel& model,
                          IsolatedMuscleInput input,
@@ -67,13 +83,9 @@ Eigen::VectorXd ForceErrors::logs_of_use(const Eigen::VectorXd& x, Eigen::Index 
   return logs;
 }
 
-void ForceErrors::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-  // Central differences. Relative to the derivative: truncation h^2 = 2e-5, the integrator's noise tolerance / h =
-  // 2e-5.
-  constexpr double kStep = 5e-3;
-  // Simulations of each recording: at x, and with each of its values moved up and down. Its own values move as the
-  // common ones do.
-  const Eigen::Index moves = jacobian == nullptr ? 1 : 1 + 2 * common();
+Eigen::MatrixXd ForceErrors::forces_about(const Eigen::VectorXd& x, bool moved) {
+  // Its own values move as the common ones do.
+  const Eigen::Index moves = moved ? 1 + 2 * common() : 1;
   Eigen::MatrixXd forces(count_, moves);
   parallel_ranges<Eigen::Index>(uses() * moves, 1, [&](const auto& range) {
     for (Eigen::Index k = range.begin(); k != range.end(); ++k) {
@@ -85,6 +97,18 @@ void ForceErrors::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::
   });
   options_.progress.check();
   evaluations_ += static_cast<int>(uses() * moves);
+  return forces;
+}
+
+void ForceErrors::hold_slopes(const Eigen::VectorXd& x) {
+  Eigen::MatrixXd forces = forces_about(x, true);
+  held_.assign(recordings_.size(), {});
+  for (Eigen::Index use = 0; use < uses(); ++use)
+    held_[used_[static_cast<std::size_t>(use)]] = slopes_of(segment(forces, use));
+}
+
+void ForceErrors::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+  Eigen::MatrixXd forces = forces_about(x, jacobian != nullptr && !holds_);
   const double weight = noise_n_ * 1.96 / std::log(options_.reach);
   r.segment(count_, common()) = weight * (x.head(common()) - logs_);
   for (Eigen::Index use = 0; use < uses(); ++use) {
@@ -100,8 +124,7 @@ void ForceErrors::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::
   jacobian->block(count_, 0, common(), common()).diagonal().setConstant(weight);
   for (Eigen::Index use = 0; use < uses(); ++use) {
     auto block = segment(*jacobian, use);
-    for (Eigen::Index j = 0; j < common(); ++j)
-      block.col(j) = (segment(forces, use).col(2 * j + 1) - segment(forces, use).col(2 * j + 2)) / (2.0 * kStep);
+    block.leftCols(common()) = holds_ ? held_[used_[static_cast<std::size_t>(use)]] : slopes_of(segment(forces, use));
     for (Eigen::Index q = 0; q < scatter_.size(); ++q) {
       const Eigen::Index at = common() + use * scatter_.size() + q;
       block.col(at) = block.col(own_[static_cast<std::size_t>(q)]);

@@ -53,14 +53,22 @@ class ForceErrors {
   /// Returns the logarithms of the values of one of the used recordings.
   [[nodiscard]] Eigen::VectorXd logs_of_use(const Eigen::VectorXd& x, Eigen::Index use) const;
 
-  /// Fills the errors [N], and their derivatives by central differences unless `jacobian` is null.
+  /// Fills the errors [N], and unless `jacobian` is null their derivatives: by central differences, or the held ones.
   void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian);
+
+  /// Computes the derivatives of the used recordings at x, which `evaluate` fills at any x while `use_held_slopes`. A
+  /// search near x takes a simulation a step, in place of two for each unknown, and ends where these derivatives are
+  /// perpendicular to the errors.
+  void hold_slopes(const Eigen::VectorXd& x);
+  void use_held_slopes(bool held) { holds_ = held; }
 
  private:
   struct Samples {
     Eigen::VectorXd time_s, force_n;
   };
   [[nodiscard]] static Samples sparse(const IsolatedRecording& recording);
+  /// Returns the forces of the used recordings, one below the other, at x and with each common value moved up and down.
+  [[nodiscard]] Eigen::MatrixXd forces_about(const Eigen::VectorXd& x, bool moved);
   [[nodiscard]] Eigen::Block<Eigen::MatrixXd> segment(Eigen::MatrixXd& rows, Eigen::Index use) const;
   [[nodiscard]] Eigen::VectorXd force_within(const Eigen::VectorXd& logs, std::size_t recording, long steps) const;
   [[nodiscard]] long steps_from_start(std::size_t recording) const;
@@ -79,6 +87,8 @@ class ForceErrors {
   Eigen::Index count_ = 0;
   double noise_n_ = 0.0;
   Eigen::VectorXd scatter_;
+  std::vector<Eigen::MatrixXd> held_;  ///< Per recording: derivatives by its logarithms.
+  bool holds_ = false;
   int evaluations_ = 0;
 };
 

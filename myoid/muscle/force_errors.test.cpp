@@ -47,6 +47,24 @@ TEST(ForceErrors, AreThoseOfForcesThatGrowWithTheMaximalForce) {
   EXPECT_EQ(at.of[120], 0.0);  // no belief
 }
 
+TEST(ForceErrors, HeldSlopesStayAndCostOneSimulationOfEachRecording) {
+  const IsolatedModel start = rigid_muscle();
+  const std::vector<IsolatedRecording> recordings = test::swings(start, {0.0008, 0.003});
+  const IsolatedFitOptions options{.parameters = {"max_isometric_force"}};
+  ForceErrors errors(start, recordings, options);
+  const Eigen::VectorXd near = errors.start_logs(), far = near + Eigen::VectorXd::Constant(1, 0.2);
+  const Errors at_near = errors_at(errors, near), at_far = errors_at(errors, far);
+  errors.hold_slopes(near);
+  errors.use_held_slopes(true);
+  const int before = errors.evaluations();
+  const Errors held = errors_at(errors, far);
+  EXPECT_EQ(errors.evaluations(), before + 2);
+  EXPECT_EQ(held.of, at_far.of);
+  EXPECT_EQ(held.slopes, at_near.slopes);
+  errors.use_held_slopes(false);
+  EXPECT_EQ(errors_at(errors, far).slopes, at_far.slopes);
+}
+
 TEST(ForceErrors, ARecordingThatIsLeftOutHasNoRows) {
   const IsolatedModel start = rigid_muscle();
   const std::vector<IsolatedRecording> recordings = test::swings(start, {0.0008, 0.002, 0.003});

@@ -174,7 +174,7 @@ class Experiment {
 
   [[nodiscard]] double tendon_force_n(double t, const double* y) const {
     const MusculotendonState<double> now = fiber(y);
-    return musculotendon_rate(unit_, input(t, activation(t, y).activation, now.fiber_length_m), now).tendon_force_n;
+    return muscle::tendon_force_n(unit_, input(t, activation(t, y).activation, now.fiber_length_m), now);
   }
 
  private:

@@ -87,6 +87,12 @@ template <typename T>
                                                       const MusculotendonInput<T>& input,
                                                       const MusculotendonState<T>& state);
 
+/// Returns F_t of `musculotendon_rate` alone. Unless the tendon is rigid, the fiber's velocity is not solved for.
+template <typename T>
+[[nodiscard]] T tendon_force_n(const Musculotendon<T>& unit,
+                               const MusculotendonInput<T>& input,
+                               const MusculotendonState<T>& state);
+
 /// Powers [W], positive where an element gives them: the contractile element in shortening, a spring when it relaxes,
 /// the viscous one never.
 ///   active + passive + viscous + tendon + kinetic = musculotendon = -F_t dl_mt/dt

@@ -79,6 +79,7 @@ TEST(Musculotendon, TendonAndFiberPullAlikeInTheSteadyState) {
         EXPECT_NEAR(rate.fiber_length_rate_mps, 0.0, 1e-9) << c.name << " a " << a;
         EXPECT_NEAR(rate.fiber_velocity_rate_mps2, 0.0, 1e-8) << c.name;
         EXPECT_EQ(rate.tendon_force_n, o.tendon_force_n);
+        EXPECT_EQ(tendon_force_n(unit, input, state), o.tendon_force_n);
       }
     }
   }

@@ -161,15 +161,22 @@ Instant<T> rigid_instant(const Musculotendon<T>& unit, const MusculotendonInput<
   return now;
 }
 
-/// Returns tendon and fiber at a fiber length, without the velocity.
+/// Returns the tendon at a fiber length, and the fiber's geometry.
 template <typename T>
-Instant<T> stretched(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, const T& fiber_length_m) {
+Instant<T> stretched_tendon(const Musculotendon<T>& unit, const T& length_m, const T& fiber_length_m) {
   Instant<T> now;
   now.length_m = fiber_length_m;
   now.reach = reach(unit, now.length_m);
   const T& slack_length = unit.parameters().hill.tendon_slack_length_m;
-  now.strain = (input.length_m - now.reach.along_m) / slack_length - T(1.0);
+  now.strain = (length_m - now.reach.along_m) / slack_length - T(1.0);
   now.tendon = unit.curves().tendon(now.strain);
+  return now;
+}
+
+/// Returns tendon and fiber at a fiber length, without the velocity.
+template <typename T>
+Instant<T> stretched(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, const T& fiber_length_m) {
+  Instant<T> now = stretched_tendon(unit, input.length_m, fiber_length_m);
   contract(unit, input, now);
   return now;
 }
@@ -244,6 +251,15 @@ MusculotendonRate<T> musculotendon_rate(const Musculotendon<T>& unit,
     rate.fiber_velocity_rate_mps2 = detail::imbalance(unit, now) * p.hill.max_isometric_force_n / p.muscle_mass_kg;
   }
   return rate;
+}
+
+template <typename T>
+T tendon_force_n(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, const MusculotendonState<T>& state) {
+  namespace detail = musculotendon_detail;
+  const T force = unit.laws().mode == TendonMode::rigid
+                      ? detail::rigid_instant(unit, input).tendon.value
+                      : detail::stretched_tendon(unit, input.length_m, state.fiber_length_m).tendon.value;
+  return force * unit.parameters().hill.max_isometric_force_n;
 }
 
 template <typename T>

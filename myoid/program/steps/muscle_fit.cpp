@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -79,11 +80,14 @@ void warn_of_misses(MuscleFit& fit, Remarks& remarks) {
   }
 }
 
-/// Fits to all recordings and to all but each one.
-MuscleFit fit_to(const IsolatedModel& start, const Recordings& recordings, const MuscleFitSettings& settings) {
+/// Fits to all recordings, unless that fit is known, and to all but each one.
+MuscleFit fit_to(const IsolatedModel& start,
+                 const Recordings& recordings,
+                 const MuscleFitSettings& settings,
+                 const std::optional<IsolatedFit>& known) {
   MuscleFit fit;
   fit.relative_to_n = settings.relative_to_n;
-  fit.all = fit_isolated_muscle(start, recordings, settings.fit);
+  fit.all = known ? *known : fit_isolated_muscle(start, recordings, settings.fit);
   fit.without_one = fit_without_each(start, recordings, settings.fit, fit.all);
   const auto converged = [](const IsolatedFit& one) {
     return one.termination == math::Termination::converged && one.moved;
@@ -170,15 +174,20 @@ std::vector<LawsComparison> compare(const std::vector<std::pair<muscle::LawSet, 
   return rows;
 }
 
-/// Fits under every set and returns the fit of the best; the start's own laws stay if they tie with the best.
-MuscleFit fit_best_laws(const IsolatedModel& start, const Recordings& recordings, const MuscleFitSettings& settings) {
-  if (settings.laws.empty()) return fit_to(start, recordings, settings);
+/// Fits under every set and returns the fit of the best; the start's own laws stay if they tie with the best. `known`
+/// is the fit of all recordings under the start's own laws.
+MuscleFit fit_best_laws(const IsolatedModel& start,
+                        const Recordings& recordings,
+                        const MuscleFitSettings& settings,
+                        const std::optional<IsolatedFit>& known) {
+  if (settings.laws.empty()) return fit_to(start, recordings, settings, known);
   if (recordings.size() < 3)
     throw InvalidInput("--laws compares errors on left-out recordings: give at least three of --length");
   std::vector<std::pair<muscle::LawSet, MuscleFit>> fits;
   for (const muscle::LawSet set : settings.laws) {
     const bool own = laws_of(set, start.laws.mode) == start.laws;
-    fits.emplace_back(set, fit_to(own ? start : under(set, start), recordings, settings));
+    fits.emplace_back(
+        set, own ? fit_to(start, recordings, settings, known) : fit_to(under(set, start), recordings, settings, {}));
   }
   const std::vector<LawsComparison> rows = compare(fits);
   const auto keeps = [&](const LawsComparison& row) {
@@ -240,11 +249,14 @@ MuscleFit fit_muscle(const IsolatedModel& start,
     remarks.warn(text);
   const std::vector<HeldStretch> stretches = held_stretches(recordings, start.parameters.hill.optimal_fiber_length_m);
   Recordings used = recordings;
+  std::optional<IsolatedFit> known;
   if (!stretches.empty()) {
-    const IsolatedFit unstretched = fit_isolated_muscle(start, without(stretches, recordings), settings.fit);
-    used = without(enhanced(stretches, recordings, unstretched.model, remarks), recordings);
+    IsolatedFit unstretched = fit_isolated_muscle(start, without(stretches, recordings), settings.fit);
+    const std::vector<HeldStretch> found = enhanced(stretches, recordings, unstretched.model, remarks);
+    used = without(found, recordings);
+    if (found.size() == stretches.size()) known = std::move(unstretched);
   }
-  MuscleFit fit = fit_best_laws(start, used, settings);
+  MuscleFit fit = fit_best_laws(start, used, settings, known);
   warn_of_untold(fit.all, remarks);
   compare_left_out(used, fit, remarks);
   judge_estimates(used, settings.fit, fit);
