@@ -112,6 +112,7 @@ void compare_clock(const std::vector<std::string_view>& lines,
       said && std::abs(*said - static_cast<double>(count) / rate) > 2.0 / rate) {
     note(repairs, "the header says {} s, the rows cover {:.6g} s: the file may be cut off", *said,
          static_cast<double>(count) / rate);
+    repairs.back().lost = *said > static_cast<double>(count) / rate;
   }
 }
 

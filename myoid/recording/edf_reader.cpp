@@ -147,6 +147,7 @@ std::int64_t record_count(const EdfHeader& header,
     records = header.records;
   } else if (header.records != records) {
     note(repairs, "the header says {} records, the file has {} whole ones, which are taken", header.records, records);
+    repairs.back().lost = header.records > records;
   } else if (left != 0) {
     note(repairs,
          "{} bytes behind the last record belong to no record; if bytes were inserted, the samples are wrong: "

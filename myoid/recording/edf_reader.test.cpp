@@ -140,6 +140,7 @@ TEST(Edf, CountsThatDisagreeAndAFileCutOffAreMended) {
     const EdfFile file = parse(make_edf(false, "", kTwo, 3, said, ramp));
     EXPECT_EQ(file.data.sample_count(), said == 2 ? 8 : 12);
     EXPECT_EQ(file.repairs.size(), 2U);
+    EXPECT_EQ(std::ranges::count_if(file.repairs, &Repair::lost), said == 99 ? 1 : 0);
   }
   std::string cut = make_edf(false, "", kTwo, 3, 3, ramp);
   cut.resize(cut.size() - 5);

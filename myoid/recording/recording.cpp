@@ -28,6 +28,14 @@ std::string to_string(const std::filesystem::path& path, const Repair& repair) {
                          : fmt::format("{}: {}", path.string(), repair.message);
 }
 
+Remark remark_of(const Repair& repair, std::string says) {
+  Remark remark{.code = RemarkCode::reading, .severity = Severity::note, .says = std::move(says)};
+  if (!repair.lost) return remark;
+  remark.severity = Severity::warning;
+  remark.remedy = "the end of the recording is absent: copy or export the file again";
+  return remark;
+}
+
 void refuse_folder(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return;

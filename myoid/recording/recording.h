@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/recorded_trial.h"
 #include "myoid/recording/tables/marker_file.h"
@@ -25,5 +26,9 @@ void refuse_folder(const std::filesystem::path& path);
 
 /// Returns "flex.sto:3: message", or "flex.sto: message" if the repair has no line.
 [[nodiscard]] std::string to_string(const std::filesystem::path& path, const Repair& repair);
+
+/// Returns a repair as a note, with `says` for its sentence. A file that holds less than its header states is a
+/// warning.
+[[nodiscard]] Remark remark_of(const Repair& repair, std::string says);
 
 }  // namespace myoid::recording

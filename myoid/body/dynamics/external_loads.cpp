@@ -279,8 +279,7 @@ ExternalLoads read_external_loads(const body::BodyModel& model, const std::files
                            .severity = Severity::note,
                            .says = fmt::format("{}: <datafile>: {}", path.string(), named.note)});
   for (const Repair& repair : table.repairs)
-    loads.notes.push_back(
-        {.code = RemarkCode::reading, .severity = Severity::note, .says = recording::to_string(file, repair)});
+    loads.notes.push_back(recording::remark_of(repair, recording::to_string(file, repair)));
   loads.start_s = data.time_s()[0];
   loads.end_s = data.time_s()[data.sample_count() - 1];
   Clock clock;

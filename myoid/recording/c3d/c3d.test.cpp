@@ -292,6 +292,7 @@ TEST(C3d, AFileCutOffGivesItsWholeFramesWithANote) {
   bytes.resize(bytes.size() - 3000);
   const C3dFile back = parse_c3d(bytes, "cut.c3d");
   EXPECT_TRUE(noted(back.repairs, "cut off"));
+  EXPECT_TRUE(back.repairs.back().lost);
   EXPECT_LT(back.frame_count(), 200);
   EXPECT_GT(back.frame_count(), 100);
   EXPECT_EQ(back.points, file.points.topRows(back.frame_count()));

@@ -329,6 +329,7 @@ std::int64_t whole_frames(std::int64_t said,
     throw ReadError(path, 0, "the file is cut off at byte {}, inside its first frame; copy or export it again",
                     file_size);
   note(repairs, "the file is cut off at byte {}: {} of {} frames are there and taken", file_size, whole, said);
+  repairs.back().lost = true;
   return whole;
 }
 

@@ -69,6 +69,8 @@ TEST(ParseStorage, MendsWhatCanBeMendedAndSaysSo) {
   EXPECT_NE(all.find("9: a value"), std::string::npos) << all;
   EXPECT_NE(all.find("says 9 rows"), std::string::npos) << all;
   EXPECT_NE(all.find("says 2 columns"), std::string::npos) << all;
+  // A lost row is no matter of columns.
+  EXPECT_EQ(std::ranges::count_if(s.repairs, &Repair::lost), 1);
 }
 
 TEST(ParseStorage, ANumberThatStandsForAMissingValueIsAGapOfItsColumn) {

@@ -432,8 +432,10 @@ void compare_count(std::optional<double> said,
                    std::string_view kind,
                    std::vector<Repair>& repairs,
                    std::size_t line) {
-  if (said && *said != static_cast<double>(found))
-    repairs.push_back({line, fmt::format("the header says {} {}, there are {}", *said, kind, found)});
+  if (!said || *said == static_cast<double>(found)) return;
+  repairs.push_back({.line = line,
+                     .message = fmt::format("the header says {} {}, there are {}", *said, kind, found),
+                     .lost = (kind == "rows" || kind == "frames") && *said > static_cast<double>(found)});
 }
 
 TableNumbers read_rows(const TableText& text, const TableRows& rows, const std::filesystem::path& path) {

@@ -55,7 +55,8 @@ struct LastRow {
 /// has all cells (`whole`) and its last number is not shorter than in all of the rows above. Otherwise it is left out.
 [[nodiscard]] LastRow last_row_without_end(const TableText& text, bool whole, bool only_row);
 
-/// Notes where the header's number of columns, channels, markers or rows differs from the number found.
+/// Notes where the header's number of columns, channels, markers or rows differs from the number found. Fewer rows or
+/// frames than stated are lost.
 void compare_count(std::optional<double> said,
                    std::size_t found,
                    std::string_view kind,

@@ -85,6 +85,9 @@ TEST(ReadRows, ALastRowWithoutALineEndIsKeptIfItIsComplete) {
   const TableNumbers cut = read_rows(TableText(text.substr(0, text.size() - 1)), rows, "f.csv");
   EXPECT_EQ(cut.values.rows(), 2);
   EXPECT_THAT(test::repair_lines(cut.repairs), HasSubstr("3 rows"));
+  EXPECT_TRUE(cut.repairs.back().lost);
+  rows.rows_said = 1.0;
+  EXPECT_FALSE(read_rows(TableText("0,1,2\n1,3,4\n"), rows, "f.csv").repairs.back().lost);
 }
 
 TEST(ReadRows, ChannelsThatHaveEndedDoNotBeginAgain) {

@@ -125,6 +125,7 @@ TEST(Trc, MendsCarriageReturnsAMissingBlankLineAndWrongCounts) {
   EXPECT_EQ(file.markers.names.size(), 2U);
   EXPECT_TRUE(file.markers.missing(1, 0));
   EXPECT_EQ(file.repairs.size(), 5U);  // 3 markers, Times, X0, a lone NaN, 7 frames
+  EXPECT_EQ(std::ranges::count_if(file.repairs, &Repair::lost), 1);
 }
 
 TEST(Trc, MarkersWithoutNamesAreNamedByTheirPlace) {
@@ -194,6 +195,7 @@ TEST(Trc, RoundedTimesThatStandTwiceLoseNoFrame) {
   // Times that are not those of the rate say nothing about the frames that share one.
   const MarkerFile slower = file_with(0.5);
   EXPECT_LT(slower.markers.frame_count(), 24);
+  EXPECT_TRUE(std::ranges::none_of(slower.repairs, &Repair::lost));
   EXPECT_DOUBLE_EQ(slower.markers.positions_m(0, 0), 0.001);
 }
 

@@ -346,6 +346,7 @@ class TrcFrames {
       time_[at(kept)] = time[row];
       values_.row(kept++) = values_.row(row).eval();
     }
+    repeated_ = at(count - kept);
     time_.resize(at(kept));
   }
 
@@ -397,8 +398,8 @@ class TrcFrames {
     note(partial_line_, "a marker has only some of its coordinates; taken as missing");
     note(surplus_line_, "a row has more numbers than there are markers; the surplus is ignored");
     note(repeated_line_, "a time stands twice; the first row is kept");
+    compare_count(frames_said_, time_.size() + repeated_, "frames", repairs_, 3);
     const std::size_t frames = time_.size();
-    compare_count(frames_said_, frames, "frames", repairs_, 3);
     const double rate = frames < 2 ? 0.0 : static_cast<double>(frames - 1) / (time_.back() - time_[0]);
     const double said = parse_number(header_.field("DataRate")).value_or(0.0);
     constexpr double kOtherQuantity = 20.0;
@@ -427,7 +428,7 @@ class TrcFrames {
   std::vector<double> time_;
   Eigen::MatrixXd values_;
   std::vector<Repair> repairs_;
-  std::size_t zero_line_ = 0, none_line_ = 0, far_line_ = 0, repeated_line_ = 0, short_line_ = 0;
+  std::size_t zero_line_ = 0, none_line_ = 0, far_line_ = 0, repeated_line_ = 0, short_line_ = 0, repeated_ = 0;
   std::size_t surplus_line_ = 0, comma_line_ = 0, partial_line_ = 0;
 };
 

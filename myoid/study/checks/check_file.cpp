@@ -215,11 +215,10 @@ std::vector<Remark> check_recording(const std::filesystem::path& path,
         {.code = RemarkCode::refused, .severity = Severity::error, .where = where, .says = error.what()});
     standing = false;
   }
-  for (const Repair& repair : file.repairs)
-    findings.push_back({.code = RemarkCode::reading,
-                        .severity = Severity::note,
-                        .where = where,
-                        .says = recording::to_string(repair)});
+  for (const Repair& repair : file.repairs) {
+    findings.push_back(recording::remark_of(repair, recording::to_string(repair)));
+    findings.back().where = where;
+  }
   if (format_of(path) == FileFormat::storage) findings = joined(std::move(findings), check_motion_file(path, model));
   const auto add = [&](std::vector<Remark> faults) {
     for (Remark& fault : faults) {

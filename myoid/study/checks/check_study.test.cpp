@@ -216,6 +216,27 @@ std::vector<Remark> warnings_of(const std::filesystem::path& file) {
   return findings;
 }
 
+TEST(CheckRecording, AFileWithFewerRowsThanItStatesIsAWarningInEveryFormat) {
+  const test::TemporaryFolder folder;
+  for (const int said : {20, 25}) {
+    std::string rows, frames;
+    for (int i = 0; i < 20; ++i) {
+      rows += fmt::format("{:.2f}\t{:.3f}\n", 0.01 * i, 0.1 * i);
+      frames += fmt::format("{}\t{:.2f}\t1.{}\t2\t3\n", i + 1, 0.01 * i, i);
+    }
+    write_file(folder / "f.sto",
+               fmt::format("f\nnRows={}\nnColumns=2\ninDegrees=yes\nendheader\ntime\tq\n", said) + rows);
+    write_file(folder / "f.trc",
+               fmt::format("PathFileType\t4\t(X/Y/Z)\tf.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+                           "100\t100\t{}\t1\tm\nFrame#\tTime\ta\n\t\tX1\tY1\tZ1\n\n",
+                           said) +
+                   frames);
+    for (const char* name : {"f.sto", "f.trc"})
+      EXPECT_EQ(std::ranges::count(warnings_of(folder / name), RemarkCode::reading, &Remark::code), said > 20 ? 1 : 0)
+          << name << " of " << said;
+  }
+}
+
 /// Returns the errors of `check` for a file of 200 rows at 100 Hz whose columns all are `value`, a function of the
 /// time.
 template <typename Value>
@@ -338,6 +359,23 @@ TEST(CheckRecording, OfRealRecordingsOnlyWhatIsTrueIsSaid) {
     const bool not_worn = f.code == RemarkCode::emg_flat && *f.value == 0.0;
     EXPECT_TRUE(hidden || not_worn) << f.says;
   }
+}
+
+/// The trunk of this model lies at the default pose, and the person stands: T1 is 13 cm above T10 along z.
+TEST(CheckStudy, TheVerticalThatInitWritesIsNoneThatCheckContradicts) {
+  const std::filesystem::path data = test::data_folder() / "box-lift";
+  MYOID_REQUIRE_DATA(data / "markers_analogs.c3d");
+  const test::TemporaryFolder folder;
+  const std::string c3d = (data / "markers_analogs.c3d").generic_string();
+  const std::vector<Remark> findings = check_study(parse_study(
+      fmt::format("[model]\nfile = \"{}\"\ncoordinate = \"GH_x\"\n[markers]\nup = \"z\"\n[emg]\nkind = \"raw\"\n"
+                  "[[muscle]]\nname = \"tric_long\"\nosim = [\"tric_long_1\"]\nemg = \"Triceps.EMG5\"\n"
+                  "[[trial]]\nname = \"lift\"\nmarkers = \"{}\"\nemg = \"{}\"\n",
+                  (data / "das.osim").generic_string(), c3d, c3d),
+      folder / "study.toml"));
+  EXPECT_EQ(std::ranges::count(findings, Severity::error, &Remark::severity), 0);
+  EXPECT_EQ(std::ranges::count(findings, RemarkCode::body_unsupported, &Remark::code), 1);  // the motion was looked at
+  EXPECT_EQ(std::ranges::count(findings, RemarkCode::vertical_across_trunk, &Remark::code), 0);
 }
 
 TEST(CheckStudy, AStartThatTheModelPutsOutsideTheBoundsIsWarnedOf) {

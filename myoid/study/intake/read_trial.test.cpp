@@ -52,6 +52,15 @@ TEST(AddRepairs, AClockThatMayBeWrongIsAWarning) {
   EXPECT_EQ(remarks[1].severity, Severity::note);
 }
 
+TEST(AddRepairs, AFileThatHoldsLessThanItStatesIsAWarning) {
+  std::vector<Remark> remarks;
+  add_repairs("e.sto", {{.message = "rows are lost", .lost = true}, {.message = "a comma"}}, remarks);
+  ASSERT_EQ(remarks.size(), 2U);
+  EXPECT_EQ(remarks[0].severity, Severity::warning);
+  EXPECT_FALSE(remarks[0].remedy.empty());
+  EXPECT_EQ(remarks[1].severity, Severity::note);
+}
+
 TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
   const Study study = arm_study();
   const WrittenTrial paused(0.01, 8.0, 3.0);

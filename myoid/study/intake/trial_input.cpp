@@ -20,7 +20,7 @@ void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remar
 
 void add_repairs(const std::filesystem::path& path, const std::vector<Repair>& repairs, std::vector<Remark>& remarks) {
   for (const Repair& repair : repairs) {
-    add_notes({recording::to_string(path.filename(), repair)}, remarks);
+    remarks.push_back(recording::remark_of(repair, recording::to_string(path.filename(), repair)));
     if (repair.apart_s < kLimits.clocks.apart_s) continue;
     Remark& doubt = remarks.back();
     doubt.code = RemarkCode::clock_drift;

@@ -51,7 +51,8 @@ void warn(TrialInput& input, RemarkCode code, std::string text);
 /// Adds notes on the reading of files.
 void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remarks);
 
-/// Adds the repairs of a reader: "file:line: message". A clock that may be wrong by ClockLimits::apart_s is a warning.
+/// Adds the repairs of a reader: "file:line: message". A clock that may be wrong by ClockLimits::apart_s is a warning,
+/// and so is a file that holds less than its header states.
 void add_repairs(const std::filesystem::path& path, const std::vector<Repair>& repairs, std::vector<Remark>& remarks);
 
 /// Least number of samples of a recording.
