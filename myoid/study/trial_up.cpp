@@ -61,4 +61,16 @@ std::optional<double> upright(const body::BodyModel& model, const MarkerSeries& 
   return std::nullopt;
 }
 
+std::optional<UprightAxis> upright_axis(const body::BodyModel& model,
+                                        const MarkerSeries& markers,
+                                        const std::vector<std::string>& axes) {
+  constexpr double kSame = 1e-9;
+  std::optional<UprightAxis> best;
+  for (const std::string& axis : axes) {
+    const std::optional<double> cosine = upright(model, markers, *recording::axis_vector(axis));
+    if (cosine && (!best || *cosine > best->cosine + kSame)) best = {axis, *cosine};
+  }
+  return best;
+}
+
 }  // namespace myoid::study

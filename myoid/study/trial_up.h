@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "myoid/body/model/body_model.h"
 #include "myoid/ground/core/geometry.h"
@@ -29,6 +30,18 @@ inline constexpr char kUpOfTheFile = 'a';
 [[nodiscard]] std::optional<double> upright(const body::BodyModel& model,
                                             const MarkerSeries& markers,
                                             const Vec3& up_L);
+
+/// An axis of the laboratory, and `upright` by it.
+struct UprightAxis {
+  std::string name;  ///< "z", "-y".
+  double cosine = 0.0;
+};
+
+/// Returns the axis by which all markers stand the most upright: `init` writes it, and `check` asks whether it differs
+/// from the study's. Empty as `upright`. The first of equal axes wins.
+[[nodiscard]] std::optional<UprightAxis> upright_axis(const body::BodyModel& model,
+                                                      const MarkerSeries& markers,
+                                                      const std::vector<std::string>& axes);
 
 /// Returns up in the laboratory of a file of the study: [markers] up, else the file's statement,
 /// else `model_up`. Throws ReadError if the file contradicts itself.

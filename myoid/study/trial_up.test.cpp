@@ -24,8 +24,13 @@ TEST(Upright, IsOneForTheAxisThatPointsUp) {
   }
   EXPECT_NEAR(upright(arm, markers, Vec3::UnitZ()).value(), 1.0, 1e-9);
   EXPECT_LT(upright(arm, markers, Vec3::UnitY()).value(), 0.1);
+  const auto axis = upright_axis(arm, markers, {"x", "y", "z", "-z"});
+  ASSERT_TRUE(axis);
+  EXPECT_EQ(axis->name, "z");
+  EXPECT_NEAR(axis->cosine, 1.0, 1e-9);
   markers.names.assign(markers.names.size(), "unknown");
   EXPECT_FALSE(upright(arm, markers, Vec3::UnitZ()));
+  EXPECT_FALSE(upright_axis(arm, markers, {"x", "y", "z"}));
 }
 
 }  // namespace

@@ -163,10 +163,14 @@ void check_vertical(const Study& study,
   const MarkerSeries laboratory = rotated(trunk, back);
   const std::optional<double> now = upright(model, laboratory, input.up_L);
   if (!now || *now > kLimits.markers.trunk_across) return;
-  for (const char* up : {"x", "y", "z", "-x", "-y", "-z"}) {
+  // Where the model's trunk lies at the default pose, its markers name another axis than all markers together. `init`
+  // takes that of all.
+  const std::vector<std::string> axes{"x", "y", "z", "-x", "-y", "-z"};
+  const std::optional<UprightAxis> by_all = upright_axis(model, rotated(*input.markers, back), axes);
+  for (const std::string& up : axes) {
     const std::optional<double> other = upright(model, laboratory, *recording::axis_vector(up));
-    if (up == told || !other || *other < kLimits.markers.trunk_upright) continue;
-    const bool settable = std::string_view(up).size() == 1;
+    if (up == told || !other || *other < kLimits.markers.trunk_upright || by_all->name != up) continue;
+    const bool settable = up.size() == 1;
     findings.push_back(
         {.code = RemarkCode::vertical_across_trunk,
          .severity = Severity::warning,
@@ -180,7 +184,7 @@ void check_vertical(const Study& study,
              *now < -kLimits.markers.trunk_upright ? "stands on the head" : "lies",
              *now < -kLimits.markers.trunk_upright ? "up through" : "across",
              settable ? fmt::format("correct it: [markers] up = \"{}\"", up)
-                      : fmt::format("turn the markers of the file, whose {} points down{}", up + 1,
+                      : fmt::format("turn the markers of the file, whose {} points down{}", up.substr(1),
                                     *now < -kLimits.markers.trunk_upright ? ", or exchange left and right" : ""))});
     return;
   }

@@ -238,14 +238,10 @@ class Draft {
   }
 
   void find_up(const MarkerSeries& markers) {
-    std::optional<double> best;
-    for (const char up : {'y', 'z', 'x'}) {
-      const std::optional<double> score = upright(model_, markers, Vec3::Unit(up - 'x'));
-      if (!score || (best && *score <= *best + 1e-9)) continue;
-      best = score;
-      up_ = up;
-    }
-    if (best) up_cosine_ = *best;
+    const std::optional<UprightAxis> best = upright_axis(model_, markers, {"y", "z", "x"});
+    if (!best) return;
+    up_ = best->name[0];
+    up_cosine_ = best->cosine;
   }
 
   void subject_table() {
