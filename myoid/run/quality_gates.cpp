@@ -317,6 +317,28 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
   return list;
 }
 
+/// Returns a gate for questions of `init` that the study leaves open: each may change every number.
+std::optional<Gate> question_gate(const StudyResult& result) {
+  const std::optional<Remark>& asked = result.source.unanswered;
+  if (!asked) return std::nullopt;
+  return Gate{"Questions of the study file answered", GateStatus::warn, asked->says, "every line with TODO",
+              "Write the answer, and delete the line with TODO: myoid check lists them."};
+}
+
+/// Returns a gate for the unit of a joint's angle or torque that its numbers contradict; empty if there is none. A
+/// joint that hardly moves besides is a second witness.
+std::optional<Gate> unit_gate(const StudyResult& result) {
+  const std::vector<const Remark*> doubts = doubtful_units(result);
+  if (doubts.empty()) return std::nullopt;
+  const bool still =
+      largest_range_deg(result.source.study, result.trials).value_or(360.0) < study::kGateLimits.least_range_deg;
+  return Gate{"Units as the headers state", still ? GateStatus::fail : GateStatus::warn,
+              doubts.size() == 1 ? sentence(*doubts[0])
+                                 : fmt::format("{} (and {} more)", sentence(*doubts[0]), doubts.size() - 1),
+              "numbers that people reach, and that fit the other trials'",
+              "Every number of the fit rests on angles and torques: correct the unit first."};
+}
+
 Gate electrode_gate(const fit::ExchangedElectrodes& exchanged) {
   // A person whose synergists differ more than usual could explain this, too.
   return {
@@ -346,6 +368,9 @@ Gate scales_gate(const TorqueScales& scales) {
 
 std::vector<page::Gate> quality_gates(const StudyResult& result) {
   std::vector<Gate> list;
+  if (auto gate = question_gate(result)) list.push_back(std::move(*gate));
+  const std::optional<Gate> units = unit_gate(result);
+  if (units) list.push_back(*units);
   if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
   if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
   if (const int failed = failed_trials(result.trials); failed > 0) {
@@ -355,7 +380,8 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
   }
   list.push_back(recordings_gate(result));
   list.push_back(loads_gate(result.trials));
-  if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
+  // Wrong units explain a poor fit: what else might explain it is no finding.
+  if (result.fit.exchanged && !units) list.push_back(electrode_gate(*result.fit.exchanged));
   if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   if (result.fit.scales && result.fit.scales->differ()) list.push_back(scales_gate(*result.fit.scales));
   const auto add = [&list](std::vector<Gate> gates) { std::ranges::move(gates, std::back_inserter(list)); };
@@ -371,6 +397,29 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
   return list;
 }
 
+std::vector<const Remark*> doubtful_units(const StudyResult& result) {
+  std::vector<const Remark*> found;
+  for (const TrialResult& trial : result.trials) {
+    for (const Remark& remark : trial.remarks) {
+      if (remark.code == RemarkCode::unit_doubtful && remark.severity == Severity::warning && !remark.about.empty())
+        found.push_back(&remark);
+    }
+  }
+  return found;
+}
+
+std::vector<Remark> trial_warnings(const StudyResult& result) {
+  std::vector<Remark> found;
+  for (const TrialResult& trial : result.trials) {
+    for (const Remark& remark : trial.remarks) {
+      if (remark.severity != Severity::warning) continue;
+      found.push_back(remark);
+      found.back().where = trial.spec.name;
+    }
+  }
+  return grouped(found, Times::merged);
+}
+
 std::vector<Remark> all_faults(const StudyResult& result) {
   std::vector<Remark> faults;
   for (const TrialResult& t : result.trials) faults.insert(faults.end(), t.faults.begin(), t.faults.end());
@@ -382,10 +431,8 @@ page::Section recordings_section(const StudyResult& result) {
   page::Section section{"recordings", "Quality of the recordings", {}, {}, {}, {}};
   std::vector<Remark> faults = all_faults(result);
   std::vector<std::vector<page::Cell>> warnings;
-  for (const TrialResult& t : result.trials) {
-    for (const std::string& text : sentences(t.remarks, Severity::warning))
-      warnings.push_back({{"warning", page::Badge::weak}, {t.spec.name}, {""}, {text}, {""}});
-  }
+  for (const Remark& warning : trial_warnings(result))
+    warnings.push_back({{"warning", page::Badge::weak}, {warning.where}, {""}, {sentence(warning)}, {""}});
   if (faults.empty() && warnings.empty()) {
     section.paragraphs.emplace_back("No fault was found in any channel.");
     return section;

@@ -19,6 +19,12 @@ namespace myoid::run {
 /// report begins with this section.
 [[nodiscard]] page::Section recordings_section(const StudyResult& result);
 
+/// Returns the warnings of a trial that the unit of a joint's angle or torque is another than its header says.
+[[nodiscard]] std::vector<const Remark*> doubtful_units(const StudyResult& result);
+
+/// Returns the warnings of the trials beside the faults of their channels, each once with the trials that it is about.
+[[nodiscard]] std::vector<Remark> trial_warnings(const StudyResult& result);
+
 /// Returns all faults of the recordings; faults of the whole study come last.
 [[nodiscard]] std::vector<Remark> all_faults(const StudyResult& result);
 

@@ -112,6 +112,41 @@ TEST(QualityGates, ExchangedElectrodesAreAFailureOrOfSynergistsACaution) {
   EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
 }
 
+TEST(QualityGates, AUnitInDoubtComesBeforeAllThatItExplains) {
+  StudyResult result = some_result(0.01, 0, 90.0);
+  result.fit.exchanged = {.first = "BIC", .second = "TRI", .log_odds = 20.0, .r2 = 0.0};
+  result.trials[0].remarks = {{.code = RemarkCode::unit_doubtful, .about = "elbow_flexion", .says = "radians?"}};
+  EXPECT_EQ(quality_gates(result).front().name, "Units as the headers state");
+  EXPECT_EQ(quality_gates(result).front().status, GateStatus::warn);
+  EXPECT_EQ(status_of(result, "Electrodes on the muscles that they are named for"), GateStatus::info);
+  EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
+  // Where the joint hardly moves besides, the unit is the first of the failures.
+  StudyResult still = some_result(0.01, 0, 90.0 * kDegree);
+  still.trials[0].remarks = result.trials[0].remarks;
+  EXPECT_EQ(quality_gates(still).front().status, GateStatus::fail);
+}
+
+TEST(TrialWarnings, OneTextOfSeveralTrialsIsOneRemarkWithTheirNames) {
+  StudyResult result = some_result(0.01, 0, 90.0);
+  result.trials[0].remarks = {{.says = "the EMG is short"}, {.severity = Severity::note, .says = "a comma"}};
+  result.trials.resize(3, result.trials[0]);
+  result.trials[1].spec.name = "u";
+  result.trials[2].spec.name = "v";
+  const std::vector<Remark> found = trial_warnings(result);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].where, "t");
+  EXPECT_EQ(found[0].likewise, (std::vector<std::string>{"u", "v"}));
+  EXPECT_EQ(recordings_section(result).tables.at(0).rows.size(), 1U);
+}
+
+TEST(QualityGates, QuestionsThatNobodyAnsweredComeFirst) {
+  StudyResult result = some_result(0.01, 0, 90.0);
+  result.source.unanswered = Remark{.code = RemarkCode::unanswered, .says = "line 7: the person's mass"};
+  const Gate first = quality_gates(result).front();
+  EXPECT_EQ(first.status, GateStatus::warn);
+  EXPECT_EQ(first.value, result.source.unanswered->says);
+}
+
 TEST(QualityGates, NothingIsIdentifiedFromAMotionThatFailed) {
   EXPECT_EQ(verdict_of(some_result(0.01, 0, 90.0)), fit::Verdict::identified);
   const StudyResult bad = some_result(0.05, 0, 90.0);

@@ -9,6 +9,7 @@
 #include "myoid/ground/core/parallel.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/tables/csv_reader.h"
+#include "myoid/study/checks/open_questions.h"
 #include "myoid/study/checks/study_plausibility.h"
 #include "myoid/study/intake/read_trial.h"
 #include "myoid/study/study_model.h"
@@ -37,8 +38,13 @@ std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
 }
 
 StudySource read_source(const study::Study& study) {
-  StudySource source{
-      .study = study, .model_text = study::model_text(study), .model = {}, .truth = {}, .norms = {}, .files = {}};
+  StudySource source{.study = study,
+                     .model_text = study::model_text(study),
+                     .model = {},
+                     .truth = {},
+                     .norms = {},
+                     .files = {},
+                     .unanswered = {}};
   source.model = std::make_shared<const body::BodyModel>(study::load_model(study, source.model_text));
   return source;
 }
@@ -48,7 +54,9 @@ StudySource read_source(const study::Study& study) {
 StudyInputs read_inputs(const study::Study& study) {
   StudyInputs inputs{read_source(study), {}};
   StudySource& source = inputs.source;
-  source.files.push_back({study.file.string(), sha256(read_text_file(study.file))});
+  const std::string text = read_text_file(study.file);
+  source.unanswered = study::open_questions(text, study.file);
+  source.files.push_back({study.file.string(), sha256(text)});
   if (study.model.file) source.files.push_back({study.model.file->string(), sha256(source.model_text)});
   if (study.truth) source.truth = read_truth(*study.truth);
   for (const study::NormSpec& norm : study.norms) {

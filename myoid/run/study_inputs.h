@@ -27,6 +27,7 @@ struct StudySource {
   std::vector<TrueValue> truth;
   std::vector<study::Norm> norms;
   std::vector<InputFile> files;
+  std::optional<Remark> unanswered;  ///< Questions of `init` that the study leaves open.
 };
 
 /// All inputs of a study, as values.

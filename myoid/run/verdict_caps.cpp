@@ -100,7 +100,10 @@ std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vecto
   std::vector<VerdictCap> caps;
   if (motion_is_unreliable(result.source.study, result.trials))
     caps.push_back(of_all("The motion it rests on failed its quality gate: mend that first."));
-  if (result.fit.exchanged) caps.push_back(of_all("Two electrodes seem to be exchanged: mend that first."));
+  const bool doubtful = !doubtful_units(result).empty();
+  if (doubtful) caps.push_back(of_all("A unit of an angle or a torque seems to be another: mend that first."));
+  if (result.fit.exchanged && !doubtful)
+    caps.push_back(of_all("Two electrodes seem to be exchanged: mend that first."));
   if (result.fit.shifted) caps.push_back(of_all("EMG and torque seem to be on different clocks: mend that first."));
   if (result.fit.scales && result.fit.scales->differ())
     caps.push_back({.reason = "Dynamometer and masses disagree about the torque's scale: mend that first.",

@@ -97,7 +97,8 @@ constexpr std::array kNames = {
 static_assert(kNames.size() == static_cast<std::size_t>(RemarkCode::count_of_codes));
 
 bool are_alike(const Remark& a, const Remark& b) {
-  return a.code == b.code && a.severity == b.severity && a.about == b.about;
+  const bool same_words = a.says == b.says && a.remedy == b.remedy;
+  return a.code == b.code && a.severity == b.severity && a.about == b.about && (!a.about.empty() || same_words);
 }
 
 std::string quoted_name(const Remark& remark) { return "'" + remark.about + "'"; }
@@ -149,7 +150,7 @@ std::vector<std::string> sentences(const std::vector<Remark>& remarks, std::opti
 std::vector<Remark> grouped(const std::vector<Remark>& remarks, Times times) {
   std::vector<Remark> kept;
   for (const Remark& remark : remarks) {
-    const bool alone = remark.about.empty() || (remark.when && times == Times::kept);
+    const bool alone = remark.when && times == Times::kept;
     const auto same =
         alone ? kept.end()
               : std::find_if(kept.begin(), kept.end(), [&](const Remark& k) { return are_alike(k, remark); });

@@ -116,7 +116,7 @@ struct Remark {
   Severity severity = Severity::warning;
   std::string where = {};  ///< Trial or file; empty: the whole study.
   /// Marker, EMG channel, "plate 1", coordinate; two of them as "A, B". Remarks of one code about
-  /// one thing are alike; a remark without such a thing is like no other.
+  /// one thing are alike; without such a thing remarks of equal words and remedy are.
   std::string about = {};
   std::optional<Stretch> when = {};
   std::optional<double> value = {};        ///< The measured size, in the unit of the code's limit.

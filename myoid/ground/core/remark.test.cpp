@@ -35,12 +35,17 @@ TEST(Remark, OfOneThingInSeveralPlacesIsSaidOnce) {
   EXPECT_EQ(kept[2].severity, Severity::note);
 }
 
-TEST(Remark, WithATimeOrAboutNothingInParticularStandsAlone) {
+TEST(Remark, WithATimeOrOtherWordsAboutNothingInParticularStandsAlone) {
   std::vector<Remark> remarks{hum("a", "BIC"), hum("b", "BIC")};
   for (Remark& remark : remarks) remark.when = Stretch{0.0, 1.0};
   EXPECT_EQ(grouped(remarks).size(), 2U);
   EXPECT_EQ(grouped(remarks, Times::merged).size(), 1U);
-  EXPECT_EQ(grouped({hum("a", ""), hum("b", "")}, Times::merged).size(), 2U);
+  const std::vector<Remark> same = grouped({hum("a", ""), hum("b", ""), hum("b", "")}, Times::merged);
+  ASSERT_EQ(same.size(), 1U);
+  EXPECT_EQ(same[0].likewise, std::vector<std::string>{"b"});
+  Remark other = hum("b", "");
+  other.says += " louder";
+  EXPECT_EQ(grouped({hum("a", ""), other}, Times::merged).size(), 2U);
 }
 
 // Silent channels of an amplifier with sixteen: one line that names them all.

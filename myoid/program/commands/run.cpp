@@ -32,11 +32,11 @@ std::size_t tell_trials(const run::StudyResult& study, Remarks& remarks) {
   if (damaged > 0)
     remarks.warn(fmt::format("kept inverse kinematics of {} trials changed on the disk; computed again", damaged));
   for (const std::string& line : study::fault_summary(run::all_faults(study))) remarks.warn(line);
+  for (const Remark& warning : run::trial_warnings(study))
+    remarks.warn(fmt::format("trial {}: {}", warning.where, sentence(warning)));
   std::size_t details = 0;
   for (const run::TrialResult& trial : study.trials) {
     if (!trial.failure().empty()) remarks.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure()));
-    for (const std::string& warning : sentences(trial.remarks, Severity::warning))
-      remarks.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
     const std::vector<std::string> notes = sentences(trial.remarks, Severity::note);
     for (const std::string& note : notes) remarks.detail(fmt::format("{}: {}", trial.spec.name, note));
     details += notes.size();
@@ -67,11 +67,11 @@ void visit_videos(study::VideoChoice& video, study::SettingVisitor& v) {
 }
 
 void visit_exports(std::vector<results::ExportFormat>& formats, study::SettingVisitor& v) {
-  v.choices(
-      "export", formats,
-      {.says = "Muscles for [other programs](run.md#other-programs), by comma; osim, the identified model, is always "
-               "written.",
-       .option = {.by_comma = true, .one_each = true}});
+  v.choices("export", formats,
+            {.says = "Muscles for [other programs](run.md#other-programs), by comma; osim, the identified model, needs "
+                     "no asking: it "
+                     "is written where the fit identifies a number.",
+             .option = {.by_comma = true, .one_each = true}});
 }
 
 void visit_mat(std::string& mat, study::SettingVisitor& v) {

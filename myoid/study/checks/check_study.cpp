@@ -14,6 +14,7 @@
 #include "myoid/recording/tables/csv_reader.h"
 #include "myoid/study/checks/load_points.h"
 #include "myoid/study/checks/marker_distance.h"
+#include "myoid/study/checks/open_questions.h"
 #include "myoid/study/checks/recording_findings.h"
 #include "myoid/study/checks/stated_loads.h"
 #include "myoid/study/checks/study_plausibility.h"
@@ -118,21 +119,7 @@ class StudyCheck {
   void check_todos() {
     std::error_code error;
     if (!std::filesystem::is_regular_file(study_.file, error)) return;
-    const std::string text = read_text_file(study_.file);
-    std::vector<std::string> asked;
-    const auto lines = split_lines(text);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const auto at = lines[i].find("# TODO: ");
-      if (at == std::string_view::npos) continue;
-      std::string what(trim(lines[i].substr(at + 8)));
-      constexpr std::size_t kMost = 60;
-      if (what.size() > kMost) what = what.substr(0, what.rfind(' ', kMost)) + " ...";
-      asked.push_back(fmt::format("line {}: {}", i + 1, what));
-    }
-    if (asked.empty()) return;
-    add(RemarkCode::unanswered, Severity::warning, study_.file.filename().string(),
-        fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}", asked.size(),
-                    asked.size() == 1 ? "" : "s", asked.size() == 1 ? "s" : "", fmt::join(asked, "; ")));
+    if (auto asked = open_questions(read_text_file(study_.file), study_.file)) remarks_.push_back(std::move(*asked));
   }
 
   void check_model() {

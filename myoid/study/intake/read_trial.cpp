@@ -103,7 +103,9 @@ TimeSeries read_motion(const Study& study,
   // A dynamometer's table may hold one angle, near 0: the trials of a study are judged together.
   const std::string doubt = check_angle_unit(path, says_degrees, motion);
   if (!doubt.empty() && format_of(path) != FileFormat::text_table)
-    warn(input, RemarkCode::unit_doubtful, fmt::format("{}: {}", path.filename().string(), doubt));
+    input.remarks.push_back({.code = RemarkCode::unit_doubtful,
+                             .about = study.model.coordinate,
+                             .says = fmt::format("{}: {}", path.filename().string(), doubt)});
   if (!any)
     throw ReadError(
         path, 0,
