@@ -37,7 +37,9 @@ exec "\$here/lib/$loader" --library-path "\$here/lib" "\$here/lib/myoid" "\$@"
 SH
 chmod 755 "$work/$name/bin/myoid" "$work/$name/lib/$loader"
 "$build/bin/myoid" help-files "$work/$name/share"
-cp -r "$root/examples" "$root/LICENSE" "$root/NOTICE" "$root/licenses.txt" "$root/README.md" "$work/$name/"
+# The pages with all to which they link, so that every link leads to a file.
+(cd "$root" && cp -r --parents examples docs matlab cmake/layers.cmake .github/ISSUE_TEMPLATE LICENSE NOTICE licenses.txt \
+  README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CITATION.cff "$work/$name/")
 find "$work/$name" -name __pycache__ -prune -exec rm -rf {} +
 epoch=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct)}
 tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mode=go=rX,u+rw --mtime="@$epoch" -c "$name" |

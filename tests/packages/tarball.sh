@@ -23,4 +23,10 @@ done
 for file in LICENSE NOTICE licenses.txt share/doc/libraries/LGPL-2.1 examples/get_data share/man1/myoid.1; do
   [ -s "$place/$file" ] || { echo "$file is not in the archive"; exit 1; }
 done
+links=0
+while IFS=: read -r page link; do  # relative links of all pages, without the place on the page
+  links=$((links + 1))
+  [ -e "$(dirname "$page")/$link" ] || { echo "${page#"$place"/} links to $link, which is not in the archive"; exit 1; }
+done < <(cd "$place" && grep -roPH --include='*.md' '\]\(\K(?![a-z]+:|#)[^)\s#]+' "$place")
+[ "$links" -gt 300 ] || { echo "$links links were found, expected hundreds"; exit 1; }
 echo "the tarball: passed"
