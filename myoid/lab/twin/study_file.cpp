@@ -60,8 +60,9 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
       "# A virtual recording: protocol \"{}\", level {}, seed {}. Nobody was measured.\n"
       "# Analyse it with: myoid run study.toml --out results\n\n",
       name.substr(1, name.size() - 2), choice_name(protocol.level), recording.seed);
-  text += fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n", toml_text(subject.name),
-                      toml_number(subject.mass_kg), subject.sex);
+  text += fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n",
+                      toml_text(fmt::format("{}-{}", subject.name, recording.seed)), toml_number(subject.mass_kg),
+                      subject.sex);
   text += fmt::format(
       "[model]\n"
       "file = \"model.osim\"              # this subject's segments, the literature's muscles\n"

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "myoid/body/osim/osim_reader.h"
@@ -15,6 +16,8 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/recording/tables/trc_reader.h"
+#include "myoid/study/read_study.h"
+#include "myoid/study/run_identity.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -129,7 +132,7 @@ TEST_F(WriteRecording, AC3dFileHoldsMarkersAndEmg) {
 TEST_F(WriteRecording, TheStudyNamesWhatIsThere) {
   write_virtual_recording(recording(1, Level::noisy), directory_);
   const toml::table study = parse_toml(content(directory_ / "study.toml"), "study.toml");
-  EXPECT_EQ(study["subject"]["name"].value<std::string>(), "S\\1");
+  EXPECT_EQ(study["subject"]["name"].value<std::string>(), "S\\1-1");
   EXPECT_EQ(study["emg"]["kind"].value<std::string>(), "raw");
   EXPECT_EQ(study["model"]["held_mass"]["body"].value<std::string>(), "forearm_hand");
   EXPECT_LT(study["model"]["held_mass"]["at_m"][1].value<double>(), -0.3);
@@ -146,6 +149,17 @@ TEST_F(WriteRecording, TheStudyNamesWhatIsThere) {
   }
   EXPECT_EQ(trials[1].as_table()->get("held_mass_kg")->value<double>(), 2.0);
   EXPECT_TRUE(trials[2].as_table()->contains("external_torque"));
+}
+
+TEST_F(WriteRecording, AnotherSeedIsAnotherPersonForTheCommandsThatCompare) {
+  const auto person = [&](std::uint64_t seed, Level level) {
+    const fs::path place = directory_ / fmt::format("{}.{}", seed, static_cast<int>(level));
+    write_virtual_recording(recording(seed, level), place);
+    return study::identity_of(study::read_study(place / "study.toml"));
+  };
+  const study::RunIdentity first = person(1, Level::noisy);
+  EXPECT_EQ(study::differences(first, person(2, Level::noisy)).other.size(), 1U);
+  EXPECT_TRUE(study::differences(first, person(1, Level::noise_free)).other.empty());
 }
 
 TEST_F(WriteRecording, TruthHasARowForEveryParameter) {

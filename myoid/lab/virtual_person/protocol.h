@@ -49,7 +49,7 @@ inline constexpr std::string_view kDirectionNames[] = {"flexion", "extension", "
 constexpr ChoiceNames choice_names(Direction) { return kDirectionNames; }
 
 struct VirtualSubject {
-  std::string name = "virtual-1";
+  std::string name = "virtual";  ///< The seed follows in study.toml: another seed is another person.
   double mass_kg = 73.0;
   std::string sex = "male";  ///< "male" or "female": which fractions of body mass apply.
   double upper_arm_length_m = 0.30;
