@@ -36,15 +36,53 @@ Remark remark_of(const Repair& repair, std::string says) {
   return remark;
 }
 
+namespace {
+
+/// The first study and the first recording of a folder and its subfolders, by name, and the number of recordings.
+struct FolderContent {
+  std::filesystem::path study, recording;
+  std::size_t recordings = 0;
+};
+
+FolderContent content_of(const std::filesystem::path& folder) {
+  constexpr std::size_t kMost = 20'000;  // entries: a home directory has millions
+  namespace fs = std::filesystem;
+  FolderContent found;
+  std::error_code error;
+  const auto first = [](fs::path& least, const fs::path& path) {
+    if (least.empty() || path < least) least = path;
+  };
+  std::size_t seen = 0;
+  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
+       !error && at != end && seen < kMost; at.increment(error), ++seen) {
+    std::error_code ignored;
+    if (!at->is_regular_file(ignored)) continue;
+    const auto format = format_of(at->path());
+    if (at->path().filename() == "study.toml") first(found.study, at->path());
+    if (!format || !is_recording(*format)) continue;
+    first(found.recording, at->path());
+    ++found.recordings;
+  }
+  return found;
+}
+
+}  // namespace
+
 void refuse_folder(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return;
-  throw ReadError(path, 0,
-                  std::filesystem::exists(path / "study.toml", ignored)
-                      ? "this is a folder; did you mean the study.toml in it?"
-                      : fmt::format("this is a folder; name a file inside it, or draft a study of its recordings: "
-                                    "myoid init STUDY --from {}",
-                                    shell_word(path.string())));
+  const FolderContent found = content_of(path);
+  const auto check = [](const std::filesystem::path& file) {
+    return fmt::format("myoid check {}", shell_word(file.string()));
+  };
+  if (!found.study.empty()) throw ReadError(path, 0, "this is a folder; its study: {}", check(found.study));
+  if (found.recordings > 0)
+    throw ReadError(path, 0,
+                    "this is a folder without a study.toml; one recording of {}: {}; a study of all: myoid init STUDY "
+                    "--from {}",
+                    found.recordings, check(found.recording), shell_word(path.string()));
+  throw ReadError(path, 0, "this is a folder without a study.toml and without a recording ({})",
+                  endings_text([](const FormatEntry& entry) { return is_recording(entry.format); }));
 }
 
 namespace {

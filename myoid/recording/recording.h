@@ -18,7 +18,7 @@ namespace myoid::recording {
 /// storage file (.sto, .mot) have no unit. Throws ReadError.
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 
-/// Throws ReadError with the next step if the path is a folder.
+/// Throws ReadError with the next command if the path is a folder: for a study in it, for recordings in it.
 void refuse_folder(const std::filesystem::path& path);
 
 /// Returns "line 3: message", or the message alone if the repair has no line.

@@ -1,7 +1,10 @@
 #include "myoid/recording/recording.h"
 
+#include <filesystem>
 #include <fstream>
+#include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
@@ -10,6 +13,7 @@
 #include "myoid/recording/emg_reader.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::recording {
@@ -53,6 +57,20 @@ TEST(Recording, WhatIsNotThereOrNotKnownIsAReadError) {
   std::ofstream(folder / "a.xyz") << "?";
   EXPECT_THROW(static_cast<void>(read_recording(folder / "a.xyz")), ReadError);
   EXPECT_THROW(static_cast<void>(read_markers(folder / "a.xyz")), ReadError);
+}
+
+TEST(RefuseFolder, TheNextCommandFollowsFromWhatTheFolderHolds) {
+  const test::TemporaryFolder folder;
+  const auto message = [&] { return test::message_of([&] { refuse_folder(folder.path()); }); };
+  EXPECT_EQ(message().find("myoid "), std::string::npos) << message();
+  std::filesystem::create_directory(folder / "day");
+  for (const char* name : {"day/b.trc", "day/a.trc"}) std::ofstream(folder / name) << "x";
+  const std::string check = "myoid check " + folder.path().string();
+  EXPECT_THAT(message(), testing::AllOf(testing::HasSubstr(check + "/day/a.trc"), testing::HasSubstr("of 2"),
+                                        testing::HasSubstr("myoid init STUDY --from " + folder.path().string())));
+  std::ofstream(folder / "study.toml") << "x";
+  EXPECT_THAT(message(),
+              testing::AllOf(testing::HasSubstr(check + "/study.toml"), testing::Not(testing::HasSubstr("init"))));
 }
 
 }  // namespace
