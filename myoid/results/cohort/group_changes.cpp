@@ -9,6 +9,7 @@
 
 #include "myoid/ground/core/normal.h"
 #include "myoid/ground/math/statistics.h"
+#include "myoid/page/plain_unit.h"
 #include "myoid/page/tables.h"
 #include "myoid/page/typeset.h"
 #include "myoid/results/change_sentences.h"
@@ -25,10 +26,12 @@ Badge mark_of(Change change) {
 }
 
 page::StripCell change_cell(const ComparedParameter& p) {
-  page::StripCell cell{.value = p.difference, .verdict = page::spelled(name(p.change)), .badge = mark_of(p.change)};
+  const double scale = page::plain_unit(p.first.unit).per_si;
+  page::StripCell cell{
+      .value = scale * p.difference, .verdict = page::spelled(name(p.change)), .badge = mark_of(p.change)};
   if (p.smallest_detectable) {
-    cell.lower = p.difference - *p.smallest_detectable;
-    cell.upper = p.difference + *p.smallest_detectable;
+    cell.lower = scale * (p.difference - *p.smallest_detectable);
+    cell.upper = scale * (p.difference + *p.smallest_detectable);
   }
   return cell;
 }
@@ -54,8 +57,8 @@ page::StripCell& place(std::vector<page::StripGrid>& grids,
   }
   auto column = std::ranges::find(grid->columns, p.muscle, &page::StripColumn::name);
   if (column == grid->columns.end()) {
-    const std::string unit(symbol(p.first.unit));
-    column = grid->columns.insert(column, {.name = p.muscle, .unit = unit == "1" ? "" : unit, .middle = 0.0});
+    const std::string unit(page::plain_unit(p.first.unit).symbol);
+    column = grid->columns.insert(column, {.name = p.muscle, .unit = unit, .middle = 0.0});
     for (page::StripRow& row : grid->rows) row.cells.emplace_back();
   }
   return grid->rows[person].cells[static_cast<std::size_t>(column - grid->columns.begin())];

@@ -42,6 +42,17 @@ TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
   EXPECT_EQ(row[7].text, "-");  // a standard deviation of two is no number
 }
 
+TEST(ChangeSection, AnglesAreInDegrees) {
+  ComparedParameter angle = compared(Method::torque, 0.5235987755982988, Change::differs);  // pi / 6
+  angle.first.unit = angle.second.unit = Unit::radian;
+  angle.smallest_detectable = 0.17453292519943295;
+  const page::Section section = change_section({person("A", {angle})});
+  const page::StripGrid& grid = section.grids.at(0);
+  EXPECT_EQ(grid.columns[0].unit, "°");
+  EXPECT_NEAR(grid.rows[0].cells[0].value.value_or(0.0), 30.0, 1e-12);
+  EXPECT_NEAR(grid.rows[0].cells[0].lower.value_or(0.0), 20.0, 1e-12);
+}
+
 TEST(ChangeSection, NamesPersonsWhoseSessionsAreNotOfOneKind) {
   PersonChange unlike = person("A", {compared(Method::torque, 1.0, Change::no_change)});
   unlike.comparison.unlike = {"the model", "the estimator"};

@@ -11,6 +11,7 @@
 #include "myoid/ground/files/record_list.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/ground/math/statistics.h"
+#include "myoid/page/plain_unit.h"
 #include "myoid/page/read_gates.h"
 #include "myoid/results/change_sentences.h"
 
@@ -38,15 +39,21 @@ std::string chosen_method(const CsvTable& table) {
 }
 
 std::optional<GroupNumber> number_of(const CsvTable& table, const std::vector<std::string>& row) {
-  const auto value = [&](const char* name) { return parse_number(cell(table, row, name)); };
+  const std::string written = cell(table, row, "unit");
+  const auto known = parse_unit(written);
+  const page::PlainUnit unit = known && known->to_si == 1.0 ? page::plain_unit(known->unit) : page::PlainUnit{written};
+  const auto value = [&](const char* name) {
+    std::optional<double> number = parse_number(cell(table, row, name));
+    if (number) *number *= unit.per_si;
+    return number;
+  };
   const auto estimate = value("estimate");
   if (!estimate) return std::nullopt;
   const auto fit_case = choice_named<fit::FitCase>(cell(table, row, "case"));
-  const std::string unit = cell(table, row, "unit");
   return GroupNumber{
       .parameter = cell(table, row, "parameter") + branch_text(fit_case.value_or(fit::FitCase::both), ", "),
       .muscle = cell(table, row, "muscle"),
-      .unit = unit == "1" ? "" : unit,
+      .unit = std::string(unit.symbol),
       // A word that is no verdict vouches for nothing.
       .verdict = choice_named<fit::Verdict>(cell(table, row, "verdict")).value_or(fit::Verdict::not_identifiable),
       .estimate = *estimate,

@@ -12,7 +12,7 @@
 
 namespace myoid::results {
 
-/// A parameter of one person, from a row of parameters.csv.
+/// A parameter of one person, from a row of parameters.csv, in the unit in which people say it (`page::plain_unit`).
 struct GroupNumber {
   std::string parameter;  ///< With its case, where that is not "both".
   std::string muscle;     ///< Muscle, EMG channel, joint or "subject".

@@ -52,6 +52,27 @@ TEST(GroupPerson, HasBothReadingsOfANumber) {
   EXPECT_FALSE(numbers[1].given || numbers[1].given_low || numbers[1].given_high);
 }
 
+TEST(GroupPerson, NumbersAreInTheUnitsOfEveryOtherPage) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "run/parameters.csv",
+             "muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict\n"
+             "BIC,pennation_angle,rad,torque,both,1.0471975511965976,0.5235987755982988,,identified\n"
+             "BIC,optimal_fiber_length,m,torque,both,0.12,,,identified\n"
+             "BIC,max_shortening_speed,l_opt/s,torque,both,10,,,identified\n"
+             "BIC,emg_gain,1,torque,both,2,,,identified\n");
+  const std::vector<GroupPerson> found = read_group_persons({folder / "run"}, folder.path());
+  const std::vector<GroupNumber>& numbers = found.at(0).numbers;
+  ASSERT_EQ(numbers.size(), 4U);
+  EXPECT_EQ(numbers[0].unit, "°");
+  EXPECT_NEAR(numbers[0].estimate, 60.0, 1e-12);  // pi / 3
+  EXPECT_NEAR(numbers[0].low.value_or(0.0), 30.0, 1e-12);
+  EXPECT_EQ(numbers[1].unit, "cm");
+  EXPECT_NEAR(numbers[1].estimate, 12.0, 1e-12);
+  EXPECT_EQ(numbers[2].unit, "l_opt/s");
+  EXPECT_EQ(numbers[2].estimate, 10.0);
+  EXPECT_EQ(numbers[3].unit, "");
+}
+
 TEST(GroupPerson, TheNameIsThePartOfThePathInWhichRunsDiffer) {
   const test::TemporaryFolder folder;
   const fs::path one = run_with(folder / "sub-01/monday/out", "");
