@@ -227,7 +227,8 @@ struct TrialRemark {
 std::vector<TrialRemark> trial_remarks(const run::StudyResult& result) {
   const std::vector<run::OutlyingFold> outlying = run::outlying_folds(result.folds);
   const auto in_words = [](const Remark& remark) {
-    if (remark.code == RemarkCode::general || remark.code == RemarkCode::reading) return std::string("see its remarks");
+    if (remark.code == RemarkCode::general || remark.code == RemarkCode::reading)
+      return std::string("see its warnings");
     return page::spelled(name(remark.code)) + (remark.about.empty() ? "" : ": " + remark.about) +
            (remark.likewise.empty() ? "" : fmt::format(", likewise in {} more", remark.likewise.size()));
   };
@@ -306,12 +307,12 @@ std::string next_sentence(const run::StudyResult& result, const std::vector<page
 
 std::string trials_sentence(const run::StudyResult& result, std::size_t most) {
   const std::vector<TrialRemark> found = trial_remarks(result);
-  if (found.empty()) return result.trials.empty() ? "" : "No trial has a remark.";
+  if (found.empty()) return result.trials.empty() ? "" : "No trial has a warning.";
   std::vector<std::string> named;
   for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
     named.push_back(fmt::format("{} ({})", found[i].trial, found[i].says));
   const std::string more = found.size() > most ? fmt::format(" and {} more", found.size() - most) : "";
-  return fmt::format("Trials with remarks: {}{}.", fmt::join(named, ", "), more);
+  return fmt::format("Trials with warnings: {}{}.", fmt::join(named, ", "), more);
 }
 
 std::string answer_text(const run::StudyResult& result, const std::vector<page::Gate>& gates, std::size_t width) {

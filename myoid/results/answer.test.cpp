@@ -84,7 +84,7 @@ TEST(TrialsSentence, NamesTheWorstTrialsFirst) {
   result.trials.resize(4);
   for (std::size_t i = 0; i < 4; ++i) result.trials[i].spec.name = "t" + std::to_string(i);
   result.trials[0].faults = {{.code = RemarkCode::emg_hum, .severity = Severity::note}};
-  EXPECT_EQ(trials_sentence(result), "No trial has a remark.");
+  EXPECT_EQ(trials_sentence(result), "No trial has a warning.");
   result.trials[1].faults = {{.code = RemarkCode::emg_clipped, .about = "BIC"}};
   result.trials[2].remarks = {{.code = RemarkCode::general}};
   const std::string alone = trials_sentence(result);
@@ -93,8 +93,8 @@ TEST(TrialsSentence, NamesTheWorstTrialsFirst) {
   result.trials[1].faults[0].likewise.clear();
   result.trials[3].motion.failure = "no markers";
   EXPECT_EQ(trials_sentence(result),
-            "Trials with remarks: t3 (could not be computed), t1 (EMG clipped: BIC), t2 (see its remarks).");
-  EXPECT_EQ(trials_sentence(result, 1), "Trials with remarks: t3 (could not be computed) and 2 more.");
+            "Trials with warnings: t3 (could not be computed), t1 (EMG clipped: BIC), t2 (see its warnings).");
+  EXPECT_EQ(trials_sentence(result, 1), "Trials with warnings: t3 (could not be computed) and 2 more.");
 }
 
 TEST(AnswerText, HasAtMost24LinesOfTheWidth) {

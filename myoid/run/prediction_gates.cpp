@@ -10,6 +10,7 @@
 
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/ground/math/statistics.h"
+#include "myoid/page/typeset.h"
 #include "myoid/study/intake/limits.h"
 
 namespace myoid::run {
@@ -106,11 +107,13 @@ Gate distance_gate(const IdentificationResult& fit) {
   for (const fit::PriorDistance& d : fit.prior_distances) {
     most = std::max({most, d.distance, d.farthest_distance});
     if (std::max(d.distance, d.farthest_distance) <= kFar) continue;
-    far.push_back(fmt::format("{} {:.1f} ({} {:.1f})", d.muscle, d.distance, d.farthest, d.farthest_distance));
+    far.push_back(
+        fmt::format("{} {:.1f} ({} {:.1f})", d.muscle, d.distance, page::spelled(d.farthest), d.farthest_distance));
   }
   return {"Muscles within what is known of them", far.empty() ? GateStatus::pass : GateStatus::warn,
-          far.empty() ? fmt::format("at most {:.1f} prior standard deviations from the literature", most)
-                      : fmt::format("prior standard deviations from the literature: {}", fmt::join(far, "; ")),
+          far.empty() ? fmt::format("at most {:.1f} standard deviations between people from the literature", most)
+                      : fmt::format("farther from the literature than people differ, in standard deviations: {}",
+                                    fmt::join(far, "; ")),
           fmt::format("every muscle's numbers, one by one and together, within {:.0f}; of the logarithm of what cannot "
                       "be negative, such as F_max and lengths",
                       kFar),

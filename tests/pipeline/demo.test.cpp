@@ -30,7 +30,7 @@ TEST(Demo, AnswersInAtMost25LinesAndItsIntervalsHoldTheTruth) {
   EXPECT_THAT(demo.out, HasSubstr("The recording passed every question."));
   EXPECT_THAT(demo.out, HasSubstr("Biceps, greatest torque"));
   EXPECT_THAT(demo.out, HasSubstr("Record next: "));
-  EXPECT_THAT(demo.out, HasSubstr("No trial has a remark."));
+  EXPECT_THAT(demo.out, HasSubstr("No trial has a warning."));
   EXPECT_THAT(demo.err, testing::AllOf(HasSubstr("\nreads the recordings ... "), HasSubstr("\nfits the muscles ... ")));
   EXPECT_TRUE(std::filesystem::exists(folder / "first look/result/report.html"));
   EXPECT_TRUE(std::filesystem::exists(folder / "first look/recording/truth.csv"));

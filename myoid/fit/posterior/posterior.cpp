@@ -390,9 +390,9 @@ void add_warnings(const std::vector<Candidate>& candidates,
                      "order of files or column",
                      result.r2));
   if (candidates.size() > 1)
-    warn(RemarkCode::several_modes,
-         fmt::format("the posterior has {} modes nearly as good, the best with {:.0f} % of it: intervals are over all",
-                     candidates.size(), 100.0 * candidates.front().weight));
+    warn(RemarkCode::several_modes, fmt::format("{} unlike sets of numbers explain the recording nearly as well, the "
+                                                "best with {:.0f} % of the odds: intervals are over all",
+                                                candidates.size(), 100.0 * candidates.front().weight));
   if (sample.approximate)
     warn(RemarkCode::draws_unreliable,
          fmt::format("the draws of the posterior are not to be relied on: the sampler's chains differ (R-hat {:.2f}; "

@@ -13,7 +13,7 @@ namespace myoid::results {
 
 /// The forms in which identified muscles are written for other programs.
 enum class ExportFormat {
-  osim,       ///< The study's model with identified numbers; always written.
+  osim,       ///< The study's model with identified numbers; written where one is identified.
   ceinms,     ///< Subject of CEINMS 0.21.
   ceinms_rt,  ///< Subject of CEINMS-RT.
   osimx,      ///< Muscles of the NMSM Pipeline.
