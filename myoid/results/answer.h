@@ -36,12 +36,13 @@ struct AnswerRow {
 /// Returns the movements to record next and their gain; empty without a plan. A gate that failed is mended first.
 [[nodiscard]] std::string next_sentence(const run::StudyResult& result, const std::vector<page::Gate>& gates);
 
-/// Returns "Trials with warnings: press (EMG clipped: BIC), lift (predicted worse than the others)." with at most `most`
-/// trials by name, the worst first.
+/// Returns "Trials with warnings: press (EMG clipped: BIC), lift (predicted worse than the others)." with at most
+/// `most` trials by name, the worst first.
 [[nodiscard]] std::string trials_sentence(const run::StudyResult& result, std::size_t most = 4);
 
 /// Returns the answer of a run for a terminal, at most 24 lines of at most `width` columns: may the numbers be
-/// believed and why not, the numbers with both readings, the fit in sentences, trials with warnings, the next recording.
+/// believed and why not, the numbers with both readings, the fit in sentences, trials with warnings, the next
+/// recording.
 [[nodiscard]] std::string answer_text(const run::StudyResult& result,
                                       const std::vector<page::Gate>& gates,
                                       std::size_t width);
