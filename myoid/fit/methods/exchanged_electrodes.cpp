@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/methods/cross_validation.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/posterior/exploration.h"
@@ -20,6 +19,7 @@ namespace myoid::fit {
 namespace {
 
 constexpr double kFar = 2.0;           // standard deviations of a muscle's number
+constexpr double kExplained = 0.9;     // R2 from which a fit leaves too little for other names to explain
 constexpr std::size_t kMostPairs = 4;  // that are tried
 
 /// Returns pairs of channels behind the sums of their muscles' distances from what is known of people, greatest first.
@@ -34,7 +34,7 @@ std::vector<std::tuple<double, std::string, std::string>> doubtful_pairs(const S
   std::vector<std::tuple<double, std::string, std::string>> pairs;
   for (auto a = farthest.begin(); a != farthest.end(); ++a) {
     for (auto b = std::next(a); b != farthest.end(); ++b)
-      if (std::max(a->second, b->second) >= kFar || fit.r2 <= kVerdictRules.least_r2)
+      if (std::max(a->second, b->second) >= kFar || fit.r2 < kExplained)
         pairs.emplace_back(a->second + b->second, a->first, b->first);
   }
   std::ranges::sort(pairs, std::ranges::greater());

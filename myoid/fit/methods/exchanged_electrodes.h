@@ -20,7 +20,7 @@ struct ExchangedElectrodes {
 
 /// Fits the study again with two channels exchanged, and returns the pair that makes it the most probable, by
 /// kExchangedOdds at least (Laplace's evidence). Pairs are tried of which a muscle lies far from what is known of
-/// people in `fit`, of `data` by `options`; all, where this fit explains less than half of the torque.
+/// people in `fit`, of `data` by `options`; all, where this fit explains less than 90 % of the torque.
 [[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data,
                                                                       const EstimatorOptions& options,
                                                                       const IdentificationResult& fit);
