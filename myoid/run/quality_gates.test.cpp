@@ -116,9 +116,10 @@ TEST(QualityGates, AUnitInDoubtComesBeforeAllThatItExplains) {
   StudyResult result = some_result(0.01, 0, 90.0);
   result.fit.exchanged = {.first = "BIC", .second = "TRI", .log_odds = 20.0, .r2 = 0.0};
   result.trials[0].remarks = {{.code = RemarkCode::unit_doubtful, .about = "elbow_flexion", .says = "radians?"}};
-  EXPECT_EQ(quality_gates(result).front().name, "Units as the headers state");
+  EXPECT_EQ(quality_gates(result).front().value, "radians?");
   EXPECT_EQ(quality_gates(result).front().status, GateStatus::warn);
-  EXPECT_EQ(status_of(result, "Electrodes on the muscles that they are named for"), GateStatus::info);
+  const char* electrodes = "Electrodes on the muscles that they are named for";
+  EXPECT_EQ(status_of(result, electrodes), GateStatus::info);
   EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
   // Where the joint hardly moves besides, the unit is the first of the failures.
   StudyResult still = some_result(0.01, 0, 90.0 * kDegree);
