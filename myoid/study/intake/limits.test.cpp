@@ -131,6 +131,7 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
       {"", "not checked",
        fmt::format("maximal contractions, trials with their own window or clock, beginnings more than {:g} s apart",
                    l.clocks.same_begin_s)});
+  rows.push_back({"fewer rows or frames than the file states", "warning", "its end is absent"});
   rows.push_back({"a stated rate of a table beside its times", "warning",
                   fmt::format("{:g} ms apart at the recording's end", 1000.0 * l.clocks.apart_s)});
 }
@@ -359,6 +360,8 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
        fmt::format("its error is {:g} robust deviations above the others', {:g} times their median in N m, and its R² "
                    "is below theirs",
                    l.far_fold, l.larger_fold)},
+      {"lines with TODO", "warning", "any"},
+      {"a unit of an angle or torque in doubt", "warning; fails", "fails if the joint hardly moves"},
       {"two electrodes that seem to be exchanged", "warning; fails",
        fmt::format("the fit is 150 times as probable with both exchanged; fails if its R² is {:g} or less",
                    l.explains)},
