@@ -294,10 +294,12 @@ TEST(CommandLine, WhoNamesARecordingOrAFolderForAStudyIsLedToInit) {
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_THAT(run.err, leads("'" + recording + "'"));
   EXPECT_THAT(myoid({"check", recording}).out, leads("'" + recording + "'\n"));
-  std::filesystem::create_directory(folder / "empty");
-  const std::string empty = folder / "empty";
-  EXPECT_THAT(myoid({"run", empty, "--out", folder / "out"}).err, leads(empty));
-  EXPECT_THAT(myoid({"info", empty}).err, leads(empty));
+  std::filesystem::create_directory(folder / "lifts");
+  const std::string lifts = folder / "lifts";
+  EXPECT_EQ(myoid({"info", lifts}).exit_code, 3);  // no recording: nothing to draft a study of
+  std::filesystem::copy_file(recording, folder / "lifts/lift.trc");
+  EXPECT_THAT(myoid({"run", lifts, "--out", folder / "out"}).err, leads(lifts));
+  EXPECT_THAT(myoid({"info", lifts}).err, leads(lifts));
   EXPECT_THAT(myoid({"run", rec, "--out", folder / "out"}).err, HasSubstr("study.toml"));
 }
 
