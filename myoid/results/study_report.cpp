@@ -61,6 +61,9 @@ std::vector<std::string> assumptions(const run::StudyResult& result) {
       list.push_back(
           fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can hardly be told apart.",
                       muscle.name, *muscle.same_as));
+    if (muscle.without_emg)
+      list.push_back(fmt::format("{} has no EMG: its activation is an unknown signal (without_emg = \"{}\").",
+                                 muscle.name, choice_name(*muscle.without_emg)));
   }
   if (!result.source.study.subject.mass_kg && result.source.study.model.is_arm())
     list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");

@@ -61,7 +61,7 @@ void expect_any_effort(std::vector<fit::MuscleSetup>& muscles) {
   const Prior share = any_effort().own;
   for (fit::MuscleSetup& muscle : muscles) {
     const auto found = muscle.priors.find("max_isometric_force");
-    if (found == muscle.priors.end()) continue;
+    if (muscle.unseen || found == muscle.priors.end()) continue;
     Prior& prior = found->second;
     const double relative = prior.logarithmic ? prior.sd : prior.sd / prior.mean;
     prior = {.mean = prior.mean * share.mean, .sd = std::hypot(relative, share.sd), .logarithmic = true};

@@ -9,6 +9,7 @@
 #include "myoid/body/kinematics/lumped_muscles.h"
 #include "myoid/fit/beliefs/beliefs.h"
 #include "myoid/fit/measurement/nuisances.h"
+#include "myoid/fit/measurement/unseen_activations.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/resting_joints.h"
@@ -106,6 +107,7 @@ fit::StudyData estimator_data(const FitSource& source) {
     if (!study.fits(spec) && spec.use != study::Use::validation) continue;
     data.trials.push_back(trial_data(study, spec, trial, activation, groups, source.resting));
   }
+  fit::expect_activations(data);
   // Without an unknown gain EMG that is given as activation is taken at its word.
   const bool scaled = study.emg.kind == study::EmgKind::activation ? study.identify.gain : study.emg.has_mvc;
   data.rules = fit::nuisance_rules(data, scaled);
@@ -152,7 +154,8 @@ fit::ActivationSource activation_source(const study::Study& study,
   // Another program's normalisation is of unknown exactness.
   if (study.emg.kind != study::EmgKind::activation || !study.identify.gain) return source;
   for (const study::MuscleSpec& muscle : study.muscles) {
-    if (std::ranges::find(source.channels, muscle.emg, &fit::ChannelSource::channel) == source.channels.end())
+    if (!muscle.without_emg &&
+        std::ranges::find(source.channels, muscle.emg, &fit::ChannelSource::channel) == source.channels.end())
       source.channels.push_back({.channel = muscle.emg, .gain_sd = fit::beliefs::kEmgGain.sd});
   }
   return source;

@@ -199,6 +199,7 @@ class TrialCheck {
     if (files_.activations.empty()) return;
     double largest = 0.0;
     for (const fit::MuscleSetup& setup : data_.muscles) {
+      if (setup.unseen) continue;
       const Eigen::VectorXd a = trial_.activation.column(setup.emg_channel);
       const double low = a.minCoeff(), high = a.maxCoeff();
       largest = std::max(largest, high);
@@ -438,7 +439,8 @@ class TrialCheck {
       for (; emg < t.size() && t[emg] <= trial_.time_s[i]; ++emg) {
         if (emg > 0 && t[emg] - t[emg - 1] > kLag_s) quiet_since_s = t[emg];
         for (const fit::MuscleSetup& setup : data_.muscles) {
-          if (trial_.activation.values()(emg, trial_.activation.index(setup.emg_channel)) >= study::kFlatActivation)
+          if (!setup.unseen &&
+              trial_.activation.values()(emg, trial_.activation.index(setup.emg_channel)) >= study::kFlatActivation)
             quiet_since_s = t[emg];
         }
       }

@@ -74,7 +74,8 @@ void require_something_to_fit(const study::Study& study, const fit::StudyData& d
 std::vector<Remark> compare_activations(const fit::StudyData& data, const std::string& file) {
   std::vector<std::string> channels;
   for (const fit::MuscleSetup& muscle : data.muscles) {
-    if (std::ranges::find(channels, muscle.emg_channel) == channels.end()) channels.push_back(muscle.emg_channel);
+    if (!muscle.unseen && std::ranges::find(channels, muscle.emg_channel) == channels.end())
+      channels.push_back(muscle.emg_channel);
   }
   std::vector<Remark> found;
   for (std::size_t c = 0; c < channels.size(); ++c) {

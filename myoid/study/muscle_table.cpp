@@ -69,13 +69,20 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
                                .otherwise = "the one of this name"});
   v.must(!stated || !muscle.osim.empty(), "osim", "expected at least one muscle of the model");
   if (muscle.osim.empty()) muscle.osim = {muscle.name};
-  v.text(
+  v.choice(
+      "without_emg", muscle.without_emg,
+      {.says = "In place of `emg`: no electrode stands for the muscle. Its [activation](#without-emg) is an unknown "
+               "signal about a constant, or about the synergies of the measured EMG."});
+  const bool without = muscle.without_emg.has_value();
+  const bool has_emg = v.text(
       "emg", muscle.emg, muscle.same_as,
       {.says =
            "EMG channel; `{ same_as = \"MUSCLE\" }`: another muscle's channel, of a deep muscle without an electrode.",
-       .required = "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode",
+       .required =
+           without ? "" : "the EMG channel, or { same_as = \"MUSCLE\" } or without_emg where there is no electrode",
        .table = "same_as"});
-  if (!muscle.same_as) must_be_name(v, "emg", muscle.emg);
+  v.must(!(without && has_emg), "without_emg", "emg names a channel: leave one of the two out");
+  if (!muscle.same_as && !without) must_be_name(v, "emg", muscle.emg);
   muscle.emg = std::string(trim(muscle.emg));  // as the readers of recordings do with their labels
   v.table("start", !muscle.start.empty(), {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
           [&muscle](SettingVisitor& inside) { visit_start(muscle.start, inside); });

@@ -48,6 +48,11 @@ void check_muscles(const Study& study, const Names& names) {
       refuse(study, fmt::format("[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode{}", muscle.name,
                                 *muscle.same_as, not_among(*muscle.same_as, names)));
   }
+  const auto without = [](const MuscleSpec& m) { return m.without_emg.has_value(); };
+  if (std::ranges::all_of(study.muscles, without))
+    refuse(study,
+           "every [[muscle]] has without_emg, expected emg of one at least: without EMG no muscle can be identified: "
+           "`ik`, `id` and `so` do without");
   for (const std::string& wanted : study.identify.muscles) {
     if (!names.contains(wanted))
       refuse(study, fmt::format("[identify] muscles: '{}' is no [[muscle]]{}", wanted, not_among(wanted, names)));

@@ -135,11 +135,12 @@ struct EmgSpec {
 
 struct MuscleSpec {
   std::string name;
-  std::vector<std::string> osim;        ///< Muscles of the model that act as this one.
-  std::string emg;                      ///< EMG channel.
-  std::optional<std::string> same_as;   ///< For a muscle without an electrode: the muscle whose channel it uses.
-  std::map<std::string, double> start;  ///< Starting values by parameter name, SI.
-  std::vector<std::string> fixed;       ///< Parameters held at their start.
+  std::vector<std::string> osim;       ///< Muscles of the model that act as this one.
+  std::string emg;                     ///< EMG channel; empty with `without_emg`.
+  std::optional<std::string> same_as;  ///< For a muscle without an electrode: the muscle whose channel it uses.
+  std::optional<fit::WithoutEmg> without_emg = {};  ///< Where no electrode stands for the muscle.
+  std::map<std::string, double> start;              ///< Starting values by parameter name, SI.
+  std::vector<std::string> fixed;                   ///< Parameters held at their start.
   bool operator==(const MuscleSpec&) const = default;
 };
 

@@ -44,6 +44,18 @@ TEST(ParseStudy, ATieToAMuscleThatIsNotThereIsRefused) {
   EXPECT_NE(message.find("BICC"), std::string::npos) << message;
 }
 
+TEST(ParseStudy, AMuscleWithoutEmgHasNoChannel) {
+  const std::string trial = "[[trial]]\nname = \"t\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n";
+  const std::string bic = "[[muscle]]\nname = \"BIC\"\nemg = \"biceps\"\n";
+  const std::string bra = "[[muscle]]\nname = \"BRA\"\nwithout_emg = ";
+  const Study study = parse_study(bic + bra + "\"synergies\"\n" + trial, "s.toml");
+  EXPECT_EQ(study.muscles.at(1).without_emg, fit::WithoutEmg::synergies);
+  EXPECT_EQ(study.muscles.at(1).emg, "");
+  EXPECT_NE(study_message(bic + bra + "\"synergy\"\n" + trial).find("'synergies'"), std::string::npos);
+  EXPECT_NE(study_message(bic + bra + "\"unseen\"\nemg = \"biceps\"\n" + trial), "");
+  EXPECT_NE(study_message(bra + "\"unseen\"\n" + trial).find("without_emg"), std::string::npos);
+}
+
 TEST(ParseStudy, TwoTrialsOfOneNameAreRefused) {
   const std::string message =
       study_message(kMinimal + "[[trial]]\nname = \"t1\"\nmotion = \"b.mot\"\nemg = \"b.sto\"\n");

@@ -130,6 +130,19 @@ bool wishes_product(const Study& study, const std::string& muscle) {
   });
 }
 
+/// Refuses methods that take the muscles one by one where a muscle has no EMG.
+void require_torques(const Study& study) {
+  const auto other =
+      std::ranges::find_if(study.identify.methods, [](fit::Method m) { return m != fit::Method::torque; });
+  const auto without =
+      std::ranges::find_if(study.muscles, [](const MuscleSpec& m) { return m.without_emg.has_value(); });
+  if (other == study.identify.methods.end() || without == study.muscles.end()) return;
+  throw InvalidInput(
+      fmt::format("{}: [[muscle]] {}: found without_emg and method = \"{}\", which needs the EMG of every muscle; "
+                  "expected [identify] method = \"torque\"",
+                  study.file.string(), without->name, fit::name(*other)));
+}
+
 /// Applies the study's settings to the model, after a check that it has the study's names.
 body::BodyModel prepared(const Study& study, body::BodyModel model) {
   body::require_lengths_in_m(model, study.model.file.value_or("arm4.osim"));
@@ -267,13 +280,15 @@ bool takes_model_law(const Study& study) {
 }
 
 std::vector<fit::MuscleSetup> muscle_setups(const Study& study, const body::BodyModel& model) {
+  require_torques(study);
   std::vector<fit::MuscleSetup> setups;
   const std::vector<body::MuscleGroup> groups = muscle_groups(study, model);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const MuscleSpec& spec = study.muscles[g];
     fit::MuscleSetup setup;
     setup.name = spec.name;
-    setup.emg_channel = spec.emg;
+    setup.emg_channel = spec.without_emg ? spec.name + " without EMG" : spec.emg;
+    if (spec.without_emg) setup.unseen = fit::UnseenActivation{.by = *spec.without_emg, .parts = {}};
     setup.start = {};
     for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
       const auto head = body::hill_parameters(model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties);

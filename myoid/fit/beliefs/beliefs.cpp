@@ -7,20 +7,21 @@ namespace myoid::fit {
 
 namespace beliefs {
 
-constexpr std::array kAll = {&kMaxForce,       &kFiberLength,        &kWidth,           &kCurvature,
-                             &kProduct,        &kSlopeRatio,         &kPlateau,         &kSpeed,
-                             &kTendonSlack,    &kPennation,          &kPassiveForce,    &kPassiveStrain,
-                             &kPassiveShape,   &kLengthActivation,   &kTendonStrain,    &kActivationShare,
-                             &kEmgDelay,       &kEmgDelayBesideLags, &kEmgGain,         &kEmgShape,
-                             &kEmgExponent,    &kExcitationTime,     &kActivationTime,  &kDeactivationTime,
-                             &kStiffnessShare, &kOffsetShare,        &kViscosityShare,  &kStiffness,
-                             &kOffset,         &kViscosity,          &kInertia,         &kLeastEffort,
-                             &kEmgNoise,       &kEmgBandwidth,       &kModelError,      &kRestingWeight,
-                             &kRestingTissue,  &kTorqueNoise,        &kTorqueNoiseTime, &kTrialTorqueNoise,
-                             &kStrength,       &kIndependentRows,    &kUnlikeness,      &kMomentArm,
-                             &kMomentArmSlope, &kTorqueScale,        &kTendonStretch,   &kCrossTalk,
-                             &kGainDrift,      &kRiseAndFall,        &kVoluntaryEffort, &kUnknownEmgNoise,
-                             &kFascicleError,  &kFascicleErrorTime,  &kFascicleScale,   &kFascicleOffset};
+constexpr std::array kAll = {&kMaxForce,         &kFiberLength,        &kWidth,           &kCurvature,
+                             &kProduct,          &kSlopeRatio,         &kPlateau,         &kSpeed,
+                             &kTendonSlack,      &kPennation,          &kPassiveForce,    &kPassiveStrain,
+                             &kPassiveShape,     &kLengthActivation,   &kTendonStrain,    &kActivationShare,
+                             &kEmgDelay,         &kEmgDelayBesideLags, &kEmgGain,         &kEmgShape,
+                             &kEmgExponent,      &kExcitationTime,     &kActivationTime,  &kDeactivationTime,
+                             &kStiffnessShare,   &kOffsetShare,        &kViscosityShare,  &kStiffness,
+                             &kOffset,           &kViscosity,          &kInertia,         &kLeastEffort,
+                             &kEmgNoise,         &kEmgBandwidth,       &kModelError,      &kRestingWeight,
+                             &kRestingTissue,    &kTorqueNoise,        &kTorqueNoiseTime, &kTrialTorqueNoise,
+                             &kStrength,         &kIndependentRows,    &kUnlikeness,      &kMomentArm,
+                             &kMomentArmSlope,   &kTorqueScale,        &kTendonStretch,   &kCrossTalk,
+                             &kGainDrift,        &kRiseAndFall,        &kVoluntaryEffort, &kUnknownEmgNoise,
+                             &kFascicleError,    &kFascicleErrorTime,  &kFascicleScale,   &kFascicleOffset,
+                             &kUnseenActivation, &kUnseenLevel,        &kSynergyWeight,   &kOwnActivation};
 
 /// The muscle parameters whose prior lies about their starting value.
 constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvature,

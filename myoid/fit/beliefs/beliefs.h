@@ -236,6 +236,23 @@ inline constexpr Belief kUnknownEmgNoise =
     belief("noise of an EMG envelope, over that of a bandwidth of 150 Hz", 1.0, 1.0, logarithm, "")
         .judged("where no bandwidth is known");
 
+inline constexpr Belief kUnseenActivation =
+    belief("activation of a muscle without EMG", 0.12, 0.12, value, "")
+        .used("`without_emg = \"unseen\"`; the spread is that in time")
+        .from("muscles of the leg in walking, means over a cycle of 5 to 20 % (Perry and Burnfield 2010)");
+inline constexpr Belief kUnseenLevel =
+    belief("mean of that activation in a session, over the expected one", 1.0, 0.7, value, "")
+        .used("`without_emg = \"unseen\"`")
+        .from("the same range");
+inline constexpr Belief kSynergyWeight =
+    belief("weight of a synergy of the measured EMG in a muscle without EMG", 1.0, 1.0, value, "")
+        .used("`without_emg = \"synergies\"`; together they make the mean activation stated above")
+        .from("mean and spread of a number of which no more is known than that it is not negative");
+inline constexpr Belief kOwnActivation =
+    belief("activation that no synergy explains", 0.0, 0.06, value, "")
+        .used("`without_emg = \"synergies\"`")
+        .from("judgment: synergies leave 10 to 25 % of the variance of measured EMG (Ivanenko 2004)");
+
 inline constexpr std::string_view kFascicles = "measured fascicles";
 inline constexpr Belief kFascicleError =
     belief("error of a fascicle's length", 0.002, 0.5, logarithm, "m")

@@ -46,7 +46,7 @@ std::vector<std::string> strained_channels(const StudyData& data) {
   std::vector<std::string> channels;
   for (const MuscleSetup& muscle : data.muscles) {
     const std::string& channel = muscle.emg_channel;
-    if (std::ranges::find(channels, channel) != channels.end()) continue;
+    if (muscle.unseen || std::ranges::find(channels, channel) != channels.end()) continue;
     const bool strained = std::ranges::any_of(data.trials, [&](const TrialData& trial) {
       return trial.calibration && trial.activation.find(channel) &&
              trial.activation.column(channel).maxCoeff() >= kStrained;

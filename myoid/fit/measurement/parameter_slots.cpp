@@ -87,11 +87,20 @@ void decide_muscle(ParameterSlot& slot,
   if (field == kMaxForce) slot.common_sd = options.unseen.strength;
 }
 
-/// Decides the delay: one for all channels, with the first channel's as the unknown, unless each has its own.
-void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::size_t channels) {
+bool is_unseen(const StudyData& data, const std::string& channel) {
+  return std::any_of(data.muscles.begin(), data.muscles.end(),
+                     [&](const MuscleSetup& setup) { return setup.unseen && setup.emg_channel == channel; });
+}
+
+/// Decides the delay: one for all channels, with the first channel's as the unknown, unless each has its own. An
+/// activation without EMG has none of its own.
+void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::size_t channels, bool is_unseen) {
   slot.free = !options.delay_s;
   slot.prior = Prior{.mean = options.delay_prior_mean_s, .sd = options.delay_prior_sd_s};
-  if (options.delay_per_channel) return;
+  if (options.delay_per_channel) {
+    slot.free = slot.free && !is_unseen;
+    return;
+  }
   slot.follows = slot.owner > 0;
   for (std::size_t c = 1; c < channels && !slot.follows; ++c) slot.tied.push_back(static_cast<int>(c));
 }
@@ -187,7 +196,8 @@ ParameterSlots default_slots(const StudyData& data,
                       measures_fascicles(data, k));
       if (field.scope == channel) {
         slot.value = values.channels[k][static_cast<std::size_t>(field.field)];
-        if (field.field == kDelay) decide_delay(slot, options, names.channels.size());
+        if (field.field == kDelay)
+          decide_delay(slot, options, names.channels.size(), is_unseen(data, names.channels[k]));
         if (field.field == kGain) decide_gain(slot, options, names.channels[k]);
       }
       result.slots.push_back(std::move(slot));

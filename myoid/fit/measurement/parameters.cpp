@@ -170,7 +170,9 @@ ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& option
     owners_.muscles.push_back(setup.name);
     const auto it = std::find(owners_.channels.begin(), owners_.channels.end(), setup.emg_channel);
     channel_of_muscle_.push_back(static_cast<int>(it - owners_.channels.begin()));
-    if (it == owners_.channels.end()) owners_.channels.push_back(setup.emg_channel);
+    if (it != owners_.channels.end()) continue;
+    owners_.channels.push_back(setup.emg_channel);
+    unseen_.push_back(setup.unseen);
   }
   owners_.joints = joint_names(data);
   held_.channels.assign(owners_.channels.size(), {options.usual_delay_s(), 1.0, 0.0, 0.040, 0.015, 0.050, 1.0});

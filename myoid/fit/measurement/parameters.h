@@ -59,6 +59,10 @@ class ParameterMap {
   /// Returns the index of the unknown that moves this number of this owner; -1: the number is held.
   [[nodiscard]] Eigen::Index find(Scope scope, int field, int owner) const;
   [[nodiscard]] int channel_of_muscle(std::size_t muscle) const { return channel_of_muscle_[muscle]; }
+  /// Returns the prior of a channel that stands for a muscle without EMG; empty: an electrode's channel.
+  [[nodiscard]] const std::optional<UnseenActivation>& unseen_activation(std::size_t channel) const {
+    return unseen_[channel];
+  }
   [[nodiscard]] double longest_delay_s() const { return longest_delay_s_; }
 
   /// The derivative d value / d z of a number of the model.
@@ -78,7 +82,8 @@ class ParameterMap {
   ModelValues held_;
   OwnerNames owners_;
   std::vector<int> channel_of_muscle_;
-  std::vector<double> slope_ratio_;  ///< Per muscle; 0: the product is the parameter.
+  std::vector<std::optional<UnseenActivation>> unseen_;  ///< Per channel.
+  std::vector<double> slope_ratio_;                      ///< Per muscle; 0: the product is the parameter.
   bool normalised_ = false;
   double longest_delay_s_ = 0.0;
 };

@@ -215,7 +215,11 @@ void validate(const StudyData& data) {
       }
     }
     require_finite(trial.activation, fmt::format("trial '{}': activation", trial.name));
-    for (const MuscleSetup& muscle : data.muscles) (void)trial.activation.index(muscle.emg_channel);
+    for (const MuscleSetup& muscle : data.muscles) {
+      (void)trial.activation.index(muscle.emg_channel);
+      if (!muscle.unseen) continue;
+      for (const std::string& part : muscle.unseen->parts) (void)trial.activation.index(part);
+    }
   }
 }
 

@@ -9,12 +9,31 @@
 #include <Eigen/Core>
 
 #include "myoid/fit/measurement/muscle_law.h"
+#include "myoid/ground/core/choice.h"
 #include "myoid/ground/core/prior.h"
 #include "myoid/ground/core/stretch.h"
 #include "myoid/ground/core/time_series.h"
 #include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::fit {
+
+/// The prior of an activation that no electrode measured.
+enum class WithoutEmg {
+  unseen,     ///< A constant.
+  synergies,  ///< The non-negative factors of the measured EMG.
+};
+inline constexpr std::string_view kWithoutEmgNames[] = {"unseen", "synergies"};
+constexpr ChoiceNames choice_names(WithoutEmg) { return kWithoutEmgNames; }
+
+/// The prior of an activation that no electrode measured: a sum of signals, each with an unknown factor of mean 1 that
+/// stays the same over a session, and an error about the sum.
+struct UnseenActivation {
+  WithoutEmg by = WithoutEmg::unseen;
+  std::vector<std::string> parts;  ///< Channels of TrialData::activation; MuscleSetup::emg_channel is their sum.
+  double part_sd = 0.0;            ///< Of each part's factor.
+  double sd = 0.0;                 ///< Of the error, which is that of an activation, 0..1.
+  double cutoff_hz = 0.0;          ///< Above it the error has no power.
+};
 
 /// One muscle to identify: start of the search, bounds and priors.
 struct MuscleSetup {
@@ -27,8 +46,9 @@ struct MuscleSetup {
   /// Priors by parameter; absent: no prior. A prior for `eccentric_slope_ratio` makes that ratio
   /// the unknown, from which V_sh V_shl follows.
   std::map<std::string, Prior> priors;
-  std::vector<std::string> given_priors;  ///< Names of the `priors` that the study gives.
-  MuscleExtras extras;                    ///< Terms beyond the source paper's law.
+  std::vector<std::string> given_priors;        ///< Names of the `priors` that the study gives.
+  MuscleExtras extras;                          ///< Terms beyond the source paper's law.
+  std::optional<UnseenActivation> unseen = {};  ///< Of a muscle without EMG; empty: an electrode measured it.
 };
 
 [[nodiscard]] bool contains(const std::vector<std::string>& names, std::string_view name);

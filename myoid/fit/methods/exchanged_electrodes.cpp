@@ -27,6 +27,7 @@ std::vector<std::tuple<double, std::string, std::string>> doubtful_pairs(const S
                                                                          const IdentificationResult& fit) {
   std::map<std::string, double> farthest;
   for (const MuscleSetup& setup : data.muscles) {
+    if (setup.unseen) continue;
     double& distance = farthest[setup.emg_channel];
     const auto known = std::ranges::find(fit.prior_distances, setup.name, &PriorDistance::muscle);
     if (known != fit.prior_distances.end()) distance = std::max(distance, known->farthest_distance);

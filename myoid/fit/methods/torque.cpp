@@ -38,6 +38,20 @@ void add_predictions(const StudyData& data, const EstimatorOptions& options, Ide
   }
 }
 
+/// Of a muscle without EMG F_max is not told, and every other number is weak at best.
+void add_muscles_without_emg(const StudyData& data, std::vector<VerdictCap>& caps) {
+  for (const MuscleSetup& muscle : data.muscles) {
+    if (!muscle.unseen) continue;
+    const std::string says = fmt::format(
+        "no EMG of {} was recorded: its force is the product of F_max and an activation that is not known. Record an "
+        "EMG of {}",
+        muscle.name, muscle.name);
+    caps.push_back(
+        {.reason = says, .owners = {muscle.name}, .parameters = {"max_isometric_force"}, .finding = Finding::no_emg});
+    caps.push_back({.reason = says, .owners = {muscle.name}});
+  }
+}
+
 }  // namespace
 
 EstimatorOptions remembering_drives(EstimatorOptions options) {
@@ -58,6 +72,7 @@ std::vector<VerdictCap> caps_of_torque(const StudyData& data,
     result.warnings.push_back({.code = RemarkCode::motion_alone, .says = std::move(says)});
     caps.push_back({.reason = fmt::format("motion alone tells {:.1f} % of the torque", 100.0 * *share)});
   }
+  add_muscles_without_emg(data, caps);
   if (!options.predictions) return caps;
   if (const std::optional<LateEmg> late = late_emg_of_no_delay(data, options, result)) {
     result.warnings.push_back({.code = RemarkCode::late_emg, .says = "emg_delay: " + late->sentence()});

@@ -11,6 +11,7 @@
 
 #include "myoid/fit/measurement/muscle_activation.h"
 #include "myoid/fit/measurement/nuisances.h"
+#include "myoid/fit/measurement/unseen_activations.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/ground/core/error.h"
 
@@ -356,6 +357,65 @@ TEST(MotionAlone, SaysNothingOfAnEffortBesideTheMotion) {
   IdentificationResult result;
   EXPECT_TRUE(caps_of_torque(data, {.predictions = false}, result).empty());
   EXPECT_TRUE(result.warnings.empty());
+}
+
+/// Takes the muscle out of the study, and leaves its torque in.
+StudyData without_muscle(StudyData data, std::size_t k) {
+  std::vector<Eigen::Index> others;
+  for (std::size_t i = 0; i < data.muscles.size(); ++i)
+    if (i != k) others.push_back(static_cast<Eigen::Index>(i));
+  data.muscles.erase(data.muscles.begin() + static_cast<std::ptrdiff_t>(k));
+  for (TrialData& trial : data.trials) {
+    for (Eigen::MatrixXd* of : {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n})
+      *of = (*of)(Eigen::all, others).eval();
+  }
+  return data;
+}
+
+/// Distance of the truth of F_max beyond the interval, in widths of the interval, of the muscle that is worst off.
+double farthest_strength(const ElbowStudy& study, const StudyData& data) {
+  const IdentificationResult result = identify_torque(data);
+  double farthest = 0.0;
+  for (const ParameterEstimate& e : result.estimates) {
+    if (e.parameter != "max_isometric_force") continue;
+    const double truth = true_value(study, e);
+    farthest = std::max(
+        {farthest, (*e.ci_low - truth) / (*e.ci_high - *e.ci_low), (truth - *e.ci_high) / (*e.ci_high - *e.ci_low)});
+  }
+  return farthest;
+}
+
+/// Three muscles with EMG, and BRA without, which acts half as much.
+ElbowStudy with_hidden_brachialis(WithoutEmg by) {
+  ElbowStudy study =
+      elbow_study({.trials = 2, .seconds = 10.0, .emg_cv = 0.05, .torque_sd_nm = 0.3, .with_priors = true});
+  constexpr std::size_t kHidden = 1;
+  for (TrialData& trial : study.data.trials)
+    trial.torque_nm -= 0.5 * trial.moment_arm_m.col(kHidden).cwiseProduct(trial.force_n.col(kHidden));
+  MuscleSetup& hidden = study.data.muscles[kHidden];
+  hidden.emg_channel = hidden.name + " without EMG";
+  hidden.unseen = UnseenActivation{.by = by, .parts = {}};
+  expect_activations(study.data);
+  return study;
+}
+
+TEST(WithoutEmg, IntervalsOfTheOtherMusclesHoldTheTruthThatLeavingTheMuscleOutMisses) {
+  for (const WithoutEmg by : {WithoutEmg::unseen, WithoutEmg::synergies}) {
+    const ElbowStudy study = with_hidden_brachialis(by);
+    EXPECT_EQ(farthest_strength(study, study.data), 0.0) << choice_name(by);
+  }
+  const ElbowStudy study = with_hidden_brachialis(WithoutEmg::unseen);
+  EXPECT_GT(farthest_strength(study, without_muscle(study.data, 1)), 0.0);
+}
+
+TEST(WithoutEmg, NoNumberOfTheMuscleIsIdentifiedAndItsStrengthIsNotTold) {
+  const ElbowStudy study = with_hidden_brachialis(WithoutEmg::unseen);
+  const IdentificationResult result = identify_torque(study.data);
+  const std::string& name = study.data.muscles[1].name;
+  for (const ParameterEstimate& e : result.estimates)
+    if (e.muscle == name) EXPECT_NE(e.verdict, Verdict::identified) << e.parameter;
+  EXPECT_TRUE(find(result, name, "max_isometric_force").verdict == Verdict::not_identifiable ||
+              find(result, name, "max_isometric_force").verdict == Verdict::prior_dominated);
 }
 
 }  // namespace

@@ -66,8 +66,9 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
     range_[j] = of.bounds.upper - of.bounds.lower;
     if (of.prior.sd > 0.0) prior_mean_[j] = of.prior.mean;
   }
-  const bool known = std::all_of(parameters().channels().begin(), parameters().channels().end(),
-                                 [&](const std::string& name) { return options.of(name).bandwidth_hz > 0.0; });
+  bool known = true;
+  for (std::size_t c = 0; c < parameters().channels().size(); ++c)
+    known = known && (parameters().unseen_activation(c) || options.of(parameters().channels()[c]).bandwidth_hz > 0.0);
   const std::optional<Eigen::Index> fascicle = likelihood_.fascicle_place();
   noise_mean_.setZero(kNoiseFieldCount + likelihood_.trial_count() + (fascicle ? 1 : 0));
   noise_sd_.setConstant(noise_mean_.size(), beliefs::kTrialTorqueNoise.sd);

@@ -222,9 +222,13 @@ Eigen::VectorXd Likelihood::grown(const Eigen::VectorXd& z) const {
   return (unseen_.growth * (z - reference_)).array().exp();
 }
 
-Eigen::VectorXd Likelihood::envelope_scale(std::size_t r, const NoiseValues& noise) const {
-  Eigen::VectorXd scale = std::exp(2.0 * noise[kEmgFactor]) * runs_[r].envelope_sd.cwiseAbs2();
-  for (Eigen::Index c = 0; c < scale.size(); ++c) scale[c] *= runs_[r].errors[static_cast<std::size_t>(c)].share();
+Eigen::VectorXd Likelihood::envelope_scale(const TrialRun& run, const NoiseValues& noise) {
+  Eigen::VectorXd scale = std::exp(2.0 * noise[kEmgFactor]) * run.envelope_sd.cwiseAbs2();
+  for (std::size_t c = 0; c < run.errors.size(); ++c) {
+    const auto column = static_cast<Eigen::Index>(c);
+    scale[column] *= run.errors[c].share();
+    if (!run.parts[c].empty()) scale[column] = run.envelope_sd[column] * run.envelope_sd[column];
+  }
   return scale;
 }
 
@@ -235,7 +239,7 @@ double Likelihood::torque_variance(std::size_t r, const NoiseValues& noise) cons
 Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
                                                 const TorqueSignals& signals,
                                                 const NoiseValues& noise) const {
-  const Eigen::VectorXd scale = envelope_scale(r, noise);
+  const Eigen::VectorXd scale = envelope_scale(runs_[r], noise);
   const Eigen::Index rows = runs_[r].measured_count(), n = runs_[r].time_s.size();
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, rows);
   for (Eigen::Index c = 0; c < scale.size(); ++c) {
@@ -330,7 +334,7 @@ void Likelihood::pull_back(
           2.0 * fascicle_variance(noise) * diagonal_sums(by_a.block(row, row, m, m)).dot(correlation);
   }
 
-  const Eigen::VectorXd scale = envelope_scale(r, noise);
+  const Eigen::VectorXd scale = envelope_scale(runs_[r], noise);
   const Eigen::VectorXd of_rows = run.reduction.transposed(w);
   TorqueSignals by{of_rows.head(run.row_count()),
                    Eigen::MatrixXd::Zero(signals.by_noise.rows(), signals.by_noise.cols()),
@@ -346,7 +350,7 @@ void Likelihood::pull_back(
       by_d.segment(pair.i, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.j, n));
       if (pair.i != pair.j) by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
     }
-    gradient.by_noise[kEmgFactor] += by_d.dot(d);
+    if (run.parts[static_cast<std::size_t>(c)].empty()) gradient.by_noise[kEmgFactor] += by_d.dot(d);
   }
 
   gradient.by_z.setZero(map_.size());

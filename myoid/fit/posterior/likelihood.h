@@ -37,7 +37,8 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// 0.2 % of its root mean square y_i at the least (kLeastTorqueError): a torque that never changes would be infinitely
 /// exact otherwise. The noise of an envelope and the error of an angle act on all joints that the muscle crosses. A is
 /// one block per run. S W^2 S', of the unseen quantities, couples all runs; Woodbury's identity includes it. K_c is L
-/// behind the filters of the envelope and the drive (EmgNoise). Q and the size of S belong to reference values of the
+/// behind the filters of the envelope and the drive (EmgNoise). An activation without EMG is a channel with an error of
+/// its own, without kappa (UnseenActivation). Q and the size of S belong to reference values of the
 /// unknowns; in the quadratic form alone the columns that multiply F_max grow with it (Unseen::growth), because a
 /// determinant that followed would prefer muscles whose errors are small. The errors of angle and rate in Q are
 /// independent from sample to sample. The constant -n/2 ln(2 pi) is left out.
@@ -164,8 +165,8 @@ class Likelihood {
   [[nodiscard]] Eigen::VectorXd grown(const Eigen::VectorXd& z) const;
   /// Returns b^2 sigma_T^2 of the run.
   [[nodiscard]] double torque_variance(std::size_t run, const NoiseValues& noise) const;
-  /// Returns kappa^2 sd_c^2 of each channel.
-  [[nodiscard]] Eigen::VectorXd envelope_scale(std::size_t run, const NoiseValues& noise) const;
+  /// Returns kappa^2 sd_c^2 of each channel, sd_c^2 of an activation without EMG.
+  [[nodiscard]] static Eigen::VectorXd envelope_scale(const TrialRun& run, const NoiseValues& noise);
   [[nodiscard]] Eigen::MatrixXd envelope_covariance(std::size_t run,
                                                     const TorqueSignals& signals,
                                                     const NoiseValues& noise) const;

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "myoid/fit/measurement/unseen_activations.h"
+
 #include "tests/support/crowded_study.h"
 #include "tests/support/elbow_study.h"
 #include "tests/support/exact_sensors.h"
@@ -27,6 +29,19 @@ using test::freed;
 using test::kNoise;
 using test::kNoiseOfLeg;
 using test::leg_study;
+
+constexpr double kUnseenSd = 0.05;
+
+/// Takes the EMG of these muscles out of the study.
+void hide_emg(const std::vector<std::size_t>& muscles, const std::vector<WithoutEmg>& by, StudyData& data) {
+  for (std::size_t i = 0; i < muscles.size(); ++i) {
+    MuscleSetup& setup = data.muscles[muscles[i]];
+    setup.emg_channel += " without EMG";
+    setup.unseen = UnseenActivation{.by = by[i], .parts = {}};
+  }
+  expect_activations(data);
+  for (const std::size_t k : muscles) data.muscles[k].unseen->sd = kUnseenSd;
+}
 
 /// Force of one muscle by the plain law: activation a (n), lengths and rates of the run.
 Eigen::VectorXd written_force(const TrialRun& run, std::size_t k, const MuscleValues& p, const Eigen::VectorXd& a) {
@@ -119,8 +134,11 @@ WrittenRun written_run(const Likelihood& likelihood,
     for (Eigen::Index j = 0; j < joints; ++j) {
       const Eigen::ArrayXd arm = run.arm_m.col(k).segment(j * n, n);
       written.torque.segment(j * n, n).array() += arm * force.array();
-      // The torque is proportional to the activation, and so to the envelope.
-      written.by_channel.col(static_cast<Eigen::Index>(c)).segment(j * n, n).array() += arm * force.array();
+      // The torque is proportional to the activation, and so to the envelope; of an activation without EMG the error
+      // does not grow with it.
+      const Eigen::ArrayXd by_noise =
+          map.unseen_activation(c) ? Eigen::ArrayXd(arm * force.array() / a(values).array()) : arm * force.array();
+      written.by_channel.col(static_cast<Eigen::Index>(c)).segment(j * n, n).array() += by_noise;
       for (Eigen::Index turned = 0; turned < joints; ++turned) {
         // dq moves a length by -r dq and a rate by -r dq'.
         const Eigen::ArrayXd moved = run.arm_m.col(k).segment(turned * n, n);
@@ -163,8 +181,9 @@ Eigen::MatrixXd written_covariance(const TrialRun& run,
       root.middleRows(j * n, n) = filter * modulation.asDiagonal();
     }
     // 0.57 / (2 B T), T the time that two passes of second order average.
-    const double variance = 0.7555 * 0.7555 / (2.0 * 150.0 * 0.4815 / envelope_cutoff_hz) * run.errors[c].share();
-    q += std::exp(2.0 * noise[kEmgFactor]) * variance * root * root.transpose();
+    const double of_noise = 0.7555 * 0.7555 / (2.0 * 150.0 * 0.4815 / envelope_cutoff_hz) * run.errors[c].share();
+    q += (run.parts[c].empty() ? std::exp(2.0 * noise[kEmgFactor]) * of_noise : kUnseenSd * kUnseenSd) * root *
+         root.transpose();
   }
   return q;
 }
@@ -306,6 +325,14 @@ TEST(Likelihood, TheValueOfTwoJointsIsThatOfTheWholeCovarianceWrittenOut) {
     expect_written_out(study.data, kNoiseOfLeg, believed);
 }
 
+TEST(Likelihood, TheValueWithoutEmgOfOneMuscleIsThatOfTheWholeCovarianceWrittenOut) {
+  for (const WithoutEmg by : {WithoutEmg::unseen, WithoutEmg::synergies}) {
+    ElbowStudy study = leg_study({.seconds = 7.0, .emg_cv = 0.1, .torque_sd_nm = 1.0});
+    hide_emg({1}, {by}, study.data);  // of both joints
+    expect_written_out(study.data, kNoiseOfLeg, Believed::nothing_exact);
+  }
+}
+
 /// Compares the gradient with differences of the value.
 void expect_gradient(const Likelihood& likelihood, const NoiseValues& noise) {
   Eigen::VectorXd z = likelihood.parameters().start();
@@ -356,6 +383,13 @@ TEST(Likelihood, TheGradientOfTwoJointsIsThatOfDifferences) {
     options.state(muscle.name).rest = 0.02;
   }
   expect_gradient(Likelihood(study.data, options), kNoiseOfLeg);
+}
+
+TEST(Likelihood, TheGradientWithoutEmgOfTwoMusclesIsThatOfDifferences) {
+  ElbowStudy study = leg_study({.seconds = 6.0, .emg_cv = 0.1, .torque_sd_nm = 1.0});
+  study.data.rules = {freed("joint_torque_offset")};
+  hide_emg({1, 4}, {WithoutEmg::synergies, WithoutEmg::unseen}, study.data);
+  expect_gradient(Likelihood(study.data, {}), kNoiseOfLeg);
 }
 
 TEST(Likelihood, TheGradientWithFasciclesIsThatOfDifferences) {

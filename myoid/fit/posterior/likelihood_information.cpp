@@ -104,12 +104,7 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
   for (std::size_t j = 0; j < run.joints.size(); ++j)
     of.variance_nm2.segment(run.first_row(j), run.time_s.size()).array() +=
         std::exp(2.0 * noise[kTorqueSd]) * std::pow(recorded_.size_share(run.joints[j]), 2);
-  for (std::size_t c = 0; c < run.errors.size(); ++c) {
-    const auto channel = static_cast<Eigen::Index>(c);
-    const double scale =
-        std::exp(2.0 * noise[kEmgFactor]) * std::pow(run.envelope_sd[channel], 2) * run.errors[c].share();
-    of.variance_nm2 += scale * here.signals().by_noise.col(channel).cwiseAbs2();
-  }
+  of.variance_nm2 += here.signals().by_noise.cwiseAbs2() * envelope_scale(run, noise);
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
     const Eigen::Index first = run.first_row(j);
     if (options_.angle_sd_rad > 0.0 || options_.angle_rate_sd_radps > 0.0)

@@ -341,7 +341,10 @@ void fill_fit(const Candidate& best, const Sample& sample, IdentificationResult&
   result.envelope_variance.setZero(runs.front().envelope_sd.size());
   for (const TrialRun& run : runs) result.envelope_variance += run.envelope_sd.cwiseAbs2();
   result.envelope_variance *= std::exp(2.0 * noise[kEmgFactor]) / static_cast<double>(runs.size());
-  result.emg_cv = std::sqrt(result.envelope_variance.mean());
+  for (std::size_t c = 0; c < map.channels().size(); ++c)
+    if (map.unseen_activation(c)) result.envelope_variance[static_cast<Eigen::Index>(c)] = 0.0;
+  const auto measured = std::max<Eigen::Index>(1, (result.envelope_variance.array() > 0.0).count());
+  result.emg_cv = std::sqrt(result.envelope_variance.sum() / static_cast<double>(measured));
 }
 
 /// Keeps at most kKeptDraws draws as values, evenly spaced among all draws.

@@ -16,7 +16,8 @@ namespace myoid::fit {
 struct TorqueSignals {
   Eigen::VectorXd torque_nm;  ///< n J: T^_j = sum_k r_jk F_k + the joint's own torque.
   /// n J x channels: D_c, the change of torque by one standard deviation of rectified EMG, relative to the envelope
-  /// (TrialRun::envelope_sd): d T^ / d ln u_c n(u) / (sd u), with n(u) / (sd u) from noise_over_envelope.
+  /// (TrialRun::envelope_sd): d T^ / d ln u_c n(u) / (sd u), with n(u) / (sd u) from noise_over_envelope; of an
+  /// activation without EMG d T^ / d ln u / u, the change by an activation of 1.
   Eigen::MatrixXd by_noise;
   /// n K: lengths of the fibers of TrialRun::fascicles. The noise of an envelope, which moves a fiber by some 0.5 mm,
   /// is left out.

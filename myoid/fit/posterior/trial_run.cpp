@@ -35,26 +35,41 @@ std::vector<std::vector<Eigen::Index>> pieces(const std::vector<Eigen::Index>& r
 
 using Drives = std::vector<std::shared_ptr<const Drive>>;  // by channel
 
-/// Returns the drive behind the envelope of each channel.
+/// Returns the drive behind the envelope of each channel. An activation without EMG has no noise.
 Drives drives_of(const TrialData& trial, const EstimatorOptions& options, const ParameterMap& map) {
   const EnvelopeError plain(options.envelope_cutoff_hz, {});
   const auto memory = options.drives ? options.drives : std::make_shared<DriveMemory>();
   Drives drives;
-  for (const std::string& name : map.channels())
-    drives.push_back(memory->behind(trial.activation, name, envelope_spread(options, name), options.rest_level(name),
-                                    plain, options.envelope_cutoff_hz));
+  for (std::size_t c = 0; c < map.channels().size(); ++c) {
+    const std::string& name = map.channels()[c];
+    const double noise_sd = map.unseen_activation(c) ? 0.0 : envelope_spread(options, name);
+    drives.push_back(
+        memory->behind(trial.activation, name, noise_sd, options.rest_level(name), plain, options.envelope_cutoff_hz));
+  }
   return drives;
 }
 
-void add_envelopes(const Drives& drives, const EstimatorOptions& options, const ParameterMap& map, TrialRun& run) {
+void add_envelopes(const TrialData& trial,
+                   const Drives& drives,
+                   const EstimatorOptions& options,
+                   const ParameterMap& map,
+                   TrialRun& run) {
   run.envelope_sd.resize(static_cast<Eigen::Index>(drives.size()));
+  run.parts.resize(drives.size());
   run.rest.resizeLike(run.envelope_sd);
   for (std::size_t c = 0; c < drives.size(); ++c) {
     const std::string& name = map.channels()[c];
     const auto column = static_cast<Eigen::Index>(c);
-    run.envelope_sd[column] = envelope_spread(options, name);
-    run.rest[column] = options.rest_level(name);
     run.envelopes.push_back(drives[c]->envelope);
+    run.rest[column] = options.rest_level(name);
+    if (const std::optional<UnseenActivation>& unseen = map.unseen_activation(c)) {
+      run.envelope_sd[column] = unseen->sd;
+      run.errors.emplace_back(unseen->cutoff_hz, std::array<double, 2>{});
+      for (const std::string& part : unseen->parts)
+        run.parts[c].emplace_back(trial.activation.time_s(), trial.activation.column(part));
+      continue;
+    }
+    run.envelope_sd[column] = envelope_spread(options, name);
     run.errors.push_back(EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.law))
                              .behind(drives[c]->left));
   }
@@ -113,7 +128,7 @@ TrialRun make_run(const TrialData& trial,
   run.measured_nm.resize(static_cast<Eigen::Index>(joints) * run.reduction.outputs());
   for (std::size_t j = 0; j < joints; ++j) add_joint(of_joint(trial, j), rows, j, map, run);
   add_fascicles(trial, rows, run);
-  add_envelopes(drives, options, map, run);
+  add_envelopes(trial, drives, options, map, run);
   return run;
 }
 

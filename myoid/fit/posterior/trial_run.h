@@ -32,8 +32,10 @@ struct TrialRun {
   Eigen::VectorXd dynamics_nm{};        ///< n J: of JointData; empty: no dynamometer.
   std::vector<Envelope> envelopes{};    ///< Per EMG channel: the drive (drive.h).
   std::vector<EnvelopeError> errors{};  ///< Per EMG channel: the envelope's error.
-  Eigen::VectorXd envelope_sd{};        ///< Per EMG channel: relative sd of rectified EMG behind its filter.
-  Eigen::VectorXd rest{};               ///< Per EMG channel: resting over full level, 0 where not known.
+  /// Per EMG channel: relative sd of rectified EMG behind its filter, or UnseenActivation::sd.
+  Eigen::VectorXd envelope_sd{};
+  std::vector<std::vector<Envelope>> parts{};  ///< Per EMG channel: UnseenActivation::parts; empty: measured.
+  Eigen::VectorXd rest{};                      ///< Per EMG channel: resting over full level, 0 where not known.
   double interval_s = 0.0;
   Reduction reduction;
   Eigen::VectorXd measured_nm{};         ///< m J: L y.

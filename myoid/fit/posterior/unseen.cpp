@@ -42,9 +42,26 @@ struct Collector {
     add_tendon(k);
   }
 
+  /// Adds the factors of the parts of an activation without EMG.
+  void add_parts_of_activation(std::size_t k) {
+    const auto c = static_cast<std::size_t>(map_.channel_of_muscle(k));
+    const std::optional<UnseenActivation>& unseen = map_.unseen_activation(c);
+    if (!unseen) return;
+    const double delay_s = values_.channels[c][kDelay];
+    for (std::size_t part = 0; part < unseen->parts.size(); ++part) {
+      add(fmt::format("{}.activation_{}", data_.muscles[k].name, part + 1), Source::electrodes, unseen->part_sd);
+      quantities_.back().of_session = true;
+      multiplies_strength_of(k);
+      for_runs(k, [&](const OfMuscle& of, auto column) {
+        column += of.torque * share_of_part(of.run.parts[c], part, of.run.time_s, delay_s);
+      });
+    }
+  }
+
   void add_electrodes() {
     const std::size_t channels = map_.channels().size();
     for (std::size_t c = 0; c < channels; ++c) {
+      if (map_.unseen_activation(c)) continue;
       add(map_.channels()[c] + ".gain_drift", Source::electrodes, spreads_.gain_drift, kGainDriftSize);
       quantities_.back().of_session = true;
       for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque * of.run.session; });
@@ -57,7 +74,7 @@ struct Collector {
       add(map_.channels()[c] + ".rise_and_fall", Source::model, beliefs::kRiseAndFall.sd, kRiseAndFallSize);
       for_channel(c, [&](const OfMuscle& of, auto column) { column += of.torque * earlier(of.at, c).abs(); });
       for (std::size_t other = 0; other < channels; ++other) {
-        if (other == c) continue;
+        if (other == c || map_.unseen_activation(other)) continue;
         add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]), Source::electrodes,
             spreads_.crosstalk, kCrosstalkSize);
         for_channel(c, [&](const OfMuscle& of, auto column) { column += of.torque * alien_share(of.at, c, other); });
@@ -218,6 +235,20 @@ struct Collector {
                          of_other = activation_of(at, other).max(0.0).pow(1.0 / exponent(other));
     const double x = std::max(spreads_.crosstalk, kNoneActs);
     return (1.0 - (1.0 - (x * of_other / e).square()).max(0.0).pow(0.5 * exponent(channel))) / x;
+  }
+
+  /// Returns one part's share of the sum of all parts.
+  static Eigen::ArrayXd share_of_part(const std::vector<Envelope>& parts,
+                                      std::size_t part,
+                                      const Eigen::VectorXd& time_s,
+                                      double delay_s) {
+    Eigen::ArrayXd share(time_s.size());
+    for (Eigen::Index i = 0; i < share.size(); ++i) {
+      double sum = 0.0;
+      for (const Envelope& each : parts) sum += each.at(time_s[i] - delay_s).value;
+      share[i] = parts[part].at(time_s[i] - delay_s).value / std::max(sum, kNoneActs);
+    }
+    return share;
   }
 
   /// Returns the change of ln a by an activation that comes earlier [1/s].
@@ -403,6 +434,7 @@ Unseen unseen_quantities(const StudyData& data,
     collector.add_geometry(k);
     collector.add_model_errors(k);
     collector.add_fascicles(k);
+    collector.add_parts_of_activation(k);
   }
   collector.center_lags();
   collector.add_electrodes();

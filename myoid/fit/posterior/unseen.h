@@ -47,6 +47,8 @@ struct UnseenQuantity {
 /// and a slope of the joint, as ErrorShapes; where the muscles share a free delay, a lag is its difference from their
 /// mean.
 ///
+/// Activation without EMG: the part of the muscle's torque that each part of the expected activation makes.
+///
 /// Measured fiber lengths have rows of their own: what changes a muscle's force stretches its tendon, and what changes
 /// its length moves its fibers. Fascicles: a scale and an offset of the lengths of each measured muscle.
 struct Unseen {

@@ -59,9 +59,13 @@ TrialRun run_of(const VoluntaryStates& states,
   run.resting_nm.setZero(rows);
   run.envelope_sd.setZero(greatest_envelope.size());
   run.rest.setZero(greatest_envelope.size());
-  for (Eigen::Index c = 0; c < greatest_envelope.size(); ++c)
-    run.envelopes.push_back(constant_envelope(
-        map.channel_of_muscle(states.muscle) == static_cast<int>(c) ? greatest_envelope[c] : kAtRest));
+  for (std::size_t c = 0; c < map.channels().size(); ++c) {
+    const bool pulls = map.channel_of_muscle(states.muscle) == static_cast<int>(c);
+    run.envelopes.push_back(constant_envelope(pulls ? greatest_envelope[static_cast<Eigen::Index>(c)] : kAtRest));
+    const std::optional<UnseenActivation>& unseen = map.unseen_activation(c);
+    // A maximal effort does not depend on the expected activation.
+    run.parts.emplace_back(unseen ? unseen->parts.size() : 0, constant_envelope(0.0));
+  }
   return run;
 }
 

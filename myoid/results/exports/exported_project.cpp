@@ -236,6 +236,7 @@ class Exporter {
     const MuscleValues& own = fit_.values.muscles[m];
     const ForeignMuscle& theirs = theirs_[m];
     ProjectMuscle found{name, {}, {{data_.muscles[m].emg_channel, 1.0}}};
+    if (data_.muscles[m].unseen) found.inputs.clear();
     const auto set = [&](MuscleQuantity quantity, double value, double before) {
       found.numbers[quantity] = {.value = value, .start = before};
     };

@@ -208,6 +208,11 @@ void set_lags(const json& method, Predictor& p) {
 Predictor start_of(const study::Study& study, const body::BodyModel& model) {
   Predictor p;
   for (const MuscleSetup& setup : study::muscle_setups(study, model)) {
+    if (setup.unseen)
+      throw InvalidInput(
+          fmt::format("[[muscle]] {}: found without_emg, expected emg: a prediction in real time takes "
+                      "every activation from EMG; leave the muscle out of the study",
+                      setup.name));
     const auto known = std::find_if(p.channels.begin(), p.channels.end(),
                                     [&](const auto& channel) { return channel.name == setup.emg_channel; });
     const auto index = static_cast<std::size_t>(known - p.channels.begin());

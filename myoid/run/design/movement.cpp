@@ -85,6 +85,11 @@ double positive_part(double x, double e) { return 0.5 * (x + std::sqrt(x * x + e
 std::vector<std::string> channels_of(const std::vector<fit::MuscleSetup>& muscles) {
   std::vector<std::string> channels;
   for (const fit::MuscleSetup& m : muscles) {
+    if (m.unseen)
+      throw InvalidInput(
+          fmt::format("[[muscle]] {}: found without_emg, expected emg: a movement is planned for muscles "
+                      "whose activation is known",
+                      m.name));
     if (std::ranges::find(channels, m.emg_channel) == channels.end()) channels.push_back(m.emg_channel);
   }
   return channels;

@@ -20,6 +20,7 @@ ElectrodeTies electrode_ties(const std::vector<MuscleSetup>& muscles) {
   std::vector<std::string> channels;
   std::map<std::string, std::vector<const MuscleSetup*>> of_channel;
   for (const MuscleSetup& muscle : muscles) {
+    if (muscle.unseen) continue;
     std::vector<const MuscleSetup*>& group = of_channel[muscle.emg_channel];
     if (group.empty()) channels.push_back(muscle.emg_channel);
     group.push_back(&muscle);

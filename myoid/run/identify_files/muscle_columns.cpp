@@ -80,7 +80,7 @@ std::string plain(std::string_view text) {
 
 /// Returns the program's own names of columns: the parameters, alone and with suffixes.
 std::vector<std::string> own_names() {
-  std::vector<std::string> names{"muscle", "emg", std::string(kSpeedInLengths)};
+  std::vector<std::string> names{"muscle", "emg", "without_emg", std::string(kSpeedInLengths)};
   for (const fit::ParameterField& field : fit::parameter_fields()) {
     if (field.scope != fit::Scope::muscle) continue;
     for (const char* suffix : {"", "_fixed", "_lower", "_upper", "_prior_sd"})

@@ -48,7 +48,11 @@ std::vector<study::MuscleSpec> muscle_specs(const MuscleTable& table) {
     study::MuscleSpec spec;
     spec.name = setup.name;
     spec.osim = {setup.name};
-    spec.emg = setup.emg_channel;
+    if (setup.unseen) {
+      spec.without_emg = setup.unseen->by;
+    } else {
+      spec.emg = setup.emg_channel;
+    }
     for (const muscle::HillField& field : muscle::kHillFields) {
       const std::string name(field.name);
       const auto assumed = table.assumed.find(name);

@@ -41,6 +41,7 @@ double* extra_field(fit::MuscleExtras& extras, std::string_view name) {
   return nullptr;
 }
 
+constexpr const char* kWithoutEmg = "without_emg";
 constexpr const char* kProduct = "eccentric_curvature_product";
 constexpr const char* kRatio = "eccentric_slope_ratio";
 constexpr const char* kSpeed = "max_shortening_speed";
@@ -114,6 +115,13 @@ StartingMuscle read_start(const Row& row) {
   setup.name = row.cell("muscle");
   if (setup.name.empty()) row.fail("a muscle without a name");
   setup.emg_channel = row.cell("emg").empty() ? setup.name : row.cell("emg");
+  if (const std::string word = row.cell(kWithoutEmg); !word.empty()) {
+    const auto by = choice_named<fit::WithoutEmg>(word);
+    if (!by || !row.cell("emg").empty())
+      row.fail(fmt::format("muscle '{}': found without_emg '{}' and emg '{}', expected {} and an empty emg", setup.name,
+                           word, row.cell("emg"), fmt::join(choice_names(fit::WithoutEmg{}), " or ")));
+    setup.unseen = fit::UnseenActivation{.by = *by, .parts = {}};
+  }
   const std::optional<double> ratio = row.number(kRatio);
   if (ratio && row.cell(kProduct).empty()) result.slope_ratio = row.positive(kRatio);
   for (const muscle::HillField& field : muscle::kHillFields) {

@@ -94,6 +94,7 @@ Pulls pulls_on(const Study& study, const body::BodyModel& model, const std::stri
   Pulls pulls;
   std::vector<double> strengths;
   for (std::size_t k = 0; k < study.muscles.size(); ++k) {
+    if (study.muscles[k].without_emg) continue;
     const auto known = std::ranges::find(pulls.channels, study.muscles[k].emg);
     const auto at = static_cast<std::size_t>(known - pulls.channels.begin());
     if (known == pulls.channels.end()) {

@@ -39,7 +39,7 @@ std::vector<Remark> shared_muscles(const Study& study) {
                                                 "force would count twice; name it in one",
                                                 name, a.name, b.name)});
       }
-      if (a.emg != b.emg || a.same_as || b.same_as) continue;
+      if (a.emg != b.emg || a.same_as || b.same_as || a.without_emg) continue;
       findings.push_back({.code = RemarkCode::shared_channel,
                           .severity = Severity::warning,
                           .where = "study",

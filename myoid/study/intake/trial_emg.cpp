@@ -34,7 +34,7 @@ void name_by_target_muscle(const Study& study,
   std::vector<Channel> channels = file.data.channels();
   bool renamed = false;
   for (const MuscleSpec& muscle : study.muscles) {
-    if (file.data.find(muscle.emg)) continue;
+    if (muscle.without_emg || file.data.find(muscle.emg)) continue;
     std::vector<std::size_t> targets;
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const auto it = file.target_muscle.find(channels[c].name);
@@ -57,7 +57,7 @@ std::vector<TimeSeries> on_other_clocks(const Study& study,
   std::vector<TimeSeries> found;
   for (const MuscleSpec& muscle : study.muscles) {
     const auto has = [&](const TimeSeries& s) { return s.find(muscle.emg).has_value(); };
-    if (has(file.data) || std::ranges::any_of(found, has)) continue;
+    if (muscle.without_emg || has(file.data) || std::ranges::any_of(found, has)) continue;
     try {
       TimeSeries one = recording::read_emg(path, study.emg.unit, study.emg.kind != EmgKind::raw, {muscle.emg}).data;
       if (has(one)) found.push_back(std::move(one));
@@ -113,7 +113,7 @@ void join_clocks(const Study& study,
 
 void require_channels(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
   for (const MuscleSpec& muscle : study.muscles) {
-    if (emg.find(muscle.emg)) continue;
+    if (muscle.without_emg || emg.find(muscle.emg)) continue;
     std::vector<std::string> names;
     for (const Channel& channel : emg.channels()) names.push_back(channel.name);
     throw ReadError(path, 0,
@@ -233,7 +233,7 @@ TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Reme
   require_kind(study, *trial.emg, file.data, input);
   std::vector<std::string> wanted;
   for (const MuscleSpec& muscle : study.muscles) {
-    if (std::ranges::find(wanted, muscle.emg) == wanted.end()) wanted.push_back(muscle.emg);
+    if (!muscle.without_emg && std::ranges::find(wanted, muscle.emg) == wanted.end()) wanted.push_back(muscle.emg);
   }
   // The EMG may begin earlier than the motion, because of the delay.
   TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input);
