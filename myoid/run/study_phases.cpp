@@ -6,6 +6,7 @@
 
 #include "myoid/fit/measurement/muscle_activation.h"
 #include "myoid/fit/measurement/parameters.h"
+#include "myoid/fit/measurement/unseen_activations.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/methods/torque.h"
 #include "myoid/recording/signals/emg_envelope.h"
@@ -87,6 +88,7 @@ fit::StudyData plain_data(const FitSource& source, fit::StudyData data) {
       if (trials[i]->spec.name == trial.name) trial.activation = recording::normalise(plain[i], normalisation);
     }
   }
+  fit::expect_activations(data);
   return data;
 }
 

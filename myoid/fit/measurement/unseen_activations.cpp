@@ -72,7 +72,9 @@ Eigen::MatrixXd far_rows(const Eigen::MatrixXd& x, Eigen::Index count) {
   return w;
 }
 
+/// Adds the channels unless the trial has them.
 void add_channels(TrialData& trial, const std::vector<std::string>& names, const Eigen::MatrixXd& values) {
+  if (trial.activation.find(names.front())) return;
   std::vector<Channel> channels = trial.activation.channels();
   for (const std::string& name : names) channels.push_back({name, Unit::dimensionless});
   Eigen::MatrixXd all(values.rows(), trial.activation.channel_count() + values.cols());

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
 
 #include "tests/support/temporary_folder.h"
@@ -39,6 +40,21 @@ TEST(MuscleSpecs, ATableIsMusclesWithStartsAndParametersWithTheRest) {
   EXPECT_EQ(rule("pennation_angle").value, 0.2);
   EXPECT_EQ(rule("tendon_strain").free, true);
   for (const fit::ParameterRule& each : rules) EXPECT_EQ(each.owners, std::vector<std::string>{"BIC"});
+}
+
+TEST(MuscleSpecs, AMuscleWithoutEmgHasNoChannel) {
+  const test::TemporaryFolder folder;
+  const auto table_of = [&](const std::string& rows) {
+    write_file(folder / "muscles.csv",
+               "muscle,emg,without_emg,max_isometric_force,optimal_fiber_length\nBIC,biceps,,900,0.1\n" + rows);
+    return read_muscles_csv(folder / "muscles.csv", true);
+  };
+  const std::vector<study::MuscleSpec> specs = muscle_specs(table_of("BRA,,unseen,900,0.1\n"));
+  EXPECT_EQ(specs.at(0).without_emg, std::nullopt);
+  EXPECT_EQ(specs.at(1).without_emg, fit::WithoutEmg::unseen);
+  EXPECT_EQ(specs.at(1).emg, "");
+  EXPECT_THROW((void)table_of("BRA,,passive,900,0.1\n"), ReadError);
+  EXPECT_THROW((void)table_of("BRA,biceps,unseen,900,0.1\n"), ReadError);
 }
 
 }  // namespace
