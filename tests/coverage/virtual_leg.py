@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """A leg of 34 muscles with 9 EMG channels: do intervals and verdicts hold where most muscles have no EMG?
 
-usage: virtual_leg.py MYOID MODEL.osim [--persons 4] [--few] [--choices left-out,tie,unseen,synergies] [--out FOLDER]
+usage: virtual_leg.py MYOID MODEL.osim [--persons 4] [--few | --knee] [--choices left-out,tie,unseen,synergies] [--out FOLDER]
 
-MODEL: gait2392. --few: a leg of 17 muscles. Its paths give lengths and moment arms about hip, knee and ankle of made-up movements. Every person has
+MODEL: gait2392. --few: a leg of 17 muscles. --knee: ten
+muscles and the torque of the knee, six EMG channels. Its paths give lengths and moment arms about hip, knee and ankle of made-up movements. Every person has
 muscles, moment arms, activations and errors of measurement of its own; the law of a muscle is written here. Activations
 are sums of five synergies and a part of the muscle's own. The study gets the model's muscles and paths, torques with
 errors and nine noisy envelopes. Per choice the script prints the share of 95 % intervals of the person that hold the
@@ -19,7 +20,8 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 
-JOINTS = ["hip_flexion_r", "knee_angle_r", "ankle_angle_r"]
+ANGLES = ["hip_flexion_r", "knee_angle_r", "ankle_angle_r"]
+JOINTS = list(ANGLES)
 MEASURED = ["glut_max2", "rect_fem", "vas_lat", "vas_med", "bifemlh", "semiten", "med_gas", "soleus", "tib_ant"]
 TIED = {"glut_max1": "glut_max2", "glut_max3": "glut_max2", "glut_med1": "glut_max2", "glut_med2": "glut_max2",
         "glut_med3": "glut_max2", "add_mag1": "semiten", "add_mag2": "semiten", "add_mag3": "semiten",
@@ -28,6 +30,8 @@ TIED = {"glut_max1": "glut_max2", "glut_max3": "glut_max2", "glut_med1": "glut_m
         "vas_int": "vas_lat", "lat_gas": "med_gas", "tib_post": "soleus", "flex_dig": "soleus", "per_long": "soleus",
         "per_brev": "soleus", "ext_dig": "tib_ant"}
 FEW = ["psoas", "iliacus", "vas_int", "semimem", "lat_gas", "bifemsh", "tib_post", "glut_max1"]
+KNEE = ["rect_fem", "vas_lat", "vas_med", "bifemlh", "semiten", "med_gas"]
+HIDDEN_AT_KNEE = ["vas_int", "semimem", "lat_gas", "bifemsh"]
 MUSCLES = MEASURED + list(TIED)
 RATE = 100.0
 SECONDS = 8.0
@@ -72,7 +76,7 @@ def write(path, names, t, values):
 def paths(program, model, t, q, folder):
     """Lengths, n x muscles, and moment arms, n x muscles x joints, by the model."""
     folder.mkdir(parents=True)
-    write(folder / "q.mot", JOINTS, t, q)
+    write(folder / "q.mot", ANGLES, t, q)
     subprocess.run([program, "paths", "--model", model, "--motion", folder / "q.mot", "--out", folder / "out"],
                    check=True, capture_output=True)
     length = columns(folder / "out/MuscleAnalysis_Length.sto")
@@ -123,8 +127,8 @@ class Person:
     def length(self, trial, k):
         """The muscle's own length: that of the model, and of arms that differ by a factor."""
         own = trial["length"][:, k].copy()
-        for j in range(len(JOINTS)):
-            moved = -np.cumsum(trial["arm"][:, k, j] * np.gradient(trial["q"][:, j]))
+        for j, joint in enumerate(JOINTS):
+            moved = -np.cumsum(trial["arm"][:, k, j] * np.gradient(trial["q"][:, ANGLES.index(joint)]))
             own += (self.arm[k, j] - 1) * (moved - moved.mean())
         return own
 
@@ -172,7 +176,7 @@ def emg_line(m, choice):
 
 def write_study(folder, choice, start, names):
     study = folder / f"{choice}.toml"
-    text = (f'[model]\nbuiltin = "none"\ncoordinate = ["{JOINTS[0]}", "{JOINTS[1]}", "{JOINTS[2]}"]\n'
+    text = ('[model]\nbuiltin = "none"\ncoordinate = [' + ", ".join(f'"{j}"' for j in JOINTS) + ']\n'
             '[emg]\nkind = "activation"\n[identify]\nmethod = "torque"\ncross_validate = false\n')
     for m in MUSCLES:
         if m not in MEASURED and choice == "left-out":
@@ -252,12 +256,16 @@ def main():
     parser.add_argument("--persons", type=int, default=4)
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--few", action="store_true")
+    parser.add_argument("--knee", action="store_true")
     parser.add_argument("--choices", default="left-out,tie,unseen,synergies")
     parser.add_argument("--out", default="virtual-leg")
     args = parser.parse_args()
     out = pathlib.Path(args.out)
     if args.few:
         MUSCLES[:] = MEASURED + FEW
+    if args.knee:
+        MEASURED[:], JOINTS[:] = KNEE, ["knee_angle_r"]
+        MUSCLES[:] = KNEE + HIDDEN_AT_KNEE
     start = starts(args.model)
     kinds = {"slow": "slow", "fast": "fast", "squat": "squat", "swing": "swing", "held": "fast"}
     scores = {choice: Score() for choice in args.choices.split(",")}

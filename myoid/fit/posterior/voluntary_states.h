@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "myoid/fit/measurement/postures.h"
 #include "myoid/fit/posterior/likelihood.h"
-#include "myoid/fit/posterior/postures.h"
 #include "myoid/fit/posterior/trial_run.h"
 
 namespace myoid::fit {

@@ -1,4 +1,4 @@
-#include "myoid/fit/posterior/postures.h"
+#include "myoid/fit/measurement/postures.h"
 
 #include <cmath>
 
