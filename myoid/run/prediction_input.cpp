@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/fit/measurement/unseen_activations.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/nearest_word.h"
 #include "myoid/run/effort_prior.h"
@@ -67,6 +68,7 @@ std::vector<TrialData> other_trials(const PredictionChoice& choice, PredictionIn
     throw InvalidInput(fmt::format("{}: found the muscles {}, expected those of the run: {}", choice.study,
                                    fmt::join(found, ", "), fmt::join(wanted, ", ")));
   for (TrialData& trial : other.fit_input.data.trials) trial.calibration = false;
+  fit::expect_activations_of(input.fit.data, other.fit_input.data.trials);
   return std::move(other.fit_input.data.trials);
 }
 

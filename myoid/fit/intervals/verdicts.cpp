@@ -173,7 +173,6 @@ Verdict verdict_of(Finding finding) {
     case Finding::too_wide:
     case Finding::far_from_prior:
     case Finding::cut_off:
-    case Finding::no_emg:
     case Finding::late_emg:
       return Verdict::not_identifiable;
     case Finding::impossible:

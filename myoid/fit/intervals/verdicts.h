@@ -84,7 +84,6 @@ enum class Finding {
   given_strength,   ///< Narrow enough, if F_max is right.
   half_the_prior,   ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
   contradicted,     ///< Narrow enough, but another fit of the muscle contradicts it.
-  no_emg,           ///< Of a muscle without EMG: F_max and activation are one product.
   late_emg,         ///< EMG that comes after the torque tells no delay (fit/methods/emg_clock.h).
   fault,            ///< A fault of the recording, or of the fit as a whole, touches it.
   narrow

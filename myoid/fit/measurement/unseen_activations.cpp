@@ -15,7 +15,7 @@ namespace myoid::fit {
 namespace {
 
 constexpr double kInterval_s = 0.01;  // at which envelopes are factorized
-constexpr Eigen::Index kMostSamples = 4000;
+constexpr Eigen::Index kMostEnvelopeRows = 4000;
 constexpr int kPasses = 400;  // multiplicative updates
 constexpr double kTiny = 1e-12;
 constexpr const char* kConstantName = "expected activation without EMG";
@@ -48,7 +48,7 @@ Eigen::MatrixXd fitted_envelopes(const StudyData& data, const std::vector<std::s
     all.conservativeResize(all.rows() + here.rows(), Eigen::NoChange);
     all.bottomRows(here.rows()) = here;
   }
-  const Eigen::Index stride = std::max<Eigen::Index>(1, all.rows() / kMostSamples);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, all.rows() / kMostEnvelopeRows);
   return all(Eigen::seqN(0, (all.rows() + stride - 1) / stride, stride), Eigen::all);
 }
 
@@ -163,6 +163,13 @@ double bandwidth_hz(const Eigen::MatrixXd& values, double interval_s) {
   return kSlowest_hz;
 }
 
+std::string without_emg_says(const std::string& muscle) {
+  return fmt::format(
+      "no EMG of {} was recorded: its force is the product of F_max and an activation that is not known; record its "
+      "EMG",
+      muscle);
+}
+
 void expect_activations(StudyData& data) {
   const auto uses = [&](WithoutEmg by) {
     return std::ranges::any_of(data.muscles,
@@ -186,6 +193,19 @@ void expect_activations(StudyData& data) {
   if (uses(WithoutEmg::synergies)) synergies = add_synergies(data, channels);
   for (MuscleSetup& muscle : data.muscles)
     if (muscle.unseen) expect(muscle.unseen->by == WithoutEmg::unseen ? constant : synergies, cutoff_hz, muscle, data);
+}
+
+void expect_activations_of(const StudyData& fitted, std::vector<TrialData>& others) {
+  const std::vector<std::string> channels = measured_channels(fitted);
+  if (std::ranges::none_of(fitted.muscles, [](const MuscleSetup& muscle) { return muscle.unseen.has_value(); })) return;
+  StudyData both = fitted;
+  for (TrialData& trial : others) {
+    trial.calibration = false;
+    trial.activation = trial.activation.select(channels);
+    both.trials.push_back(trial);
+  }
+  expect_activations(both);
+  std::ranges::copy(both.trials.end() - std::ssize(others), both.trials.end(), others.begin());
 }
 
 }  // namespace myoid::fit

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "myoid/fit/measurement/study_data.h"
@@ -11,6 +14,12 @@ namespace myoid::fit {
 /// fitted trials. Its error lasts as long as the measured activations do. Data whose muscles all have EMG stay as they
 /// are. Throws InvalidInput if no muscle has EMG.
 void expect_activations(StudyData& data);
+
+/// Returns the reason for which F_max of such a muscle is not told, with the remedy.
+[[nodiscard]] std::string without_emg_says(const std::string& muscle);
+
+/// Fills these channels of trials that another study recorded anew, by the synergies of `fitted`.
+void expect_activations_of(const StudyData& fitted, std::vector<TrialData>& others);
 
 /// Returns W, channels x factors, of the non-negative factorization X = H W' of envelopes X, n x channels: the fewest
 /// factors that leave at most `unexplained` of the sum of squares. Deterministic.

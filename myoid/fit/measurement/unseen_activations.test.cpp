@@ -101,6 +101,23 @@ TEST(ExpectActivations, FillsAConstantAndSynergiesOfTheBelievedMean) {
   EXPECT_GT(data.muscles[4].unseen->sd, data.muscles[5].unseen->sd);
 }
 
+TEST(ExpectActivations, OfAnotherStudysTrialsAreTheSynergiesOfTheFit) {
+  StudyData data = study_of(four_channels());
+  data.muscles.push_back({.name = "q", .emg_channel = "q without EMG", .start = {}});
+  data.muscles.back().unseen = UnseenActivation{.by = WithoutEmg::synergies, .parts = {}};
+  StudyData other = data;
+  other.trials[0].activation = study_of(0.5 * four_channels().rowwise().reverse()).trials[0].activation;
+  expect_activations(data);
+  expect_activations(other);
+  std::vector<TrialData> trials = other.trials;
+  expect_activations_of(data, trials);
+  EXPECT_NE(trials[0].activation.column("q without EMG"), other.trials[0].activation.column("q without EMG"));
+  // The trial of the fit itself is as the fit has it.
+  trials = data.trials;
+  expect_activations_of(data, trials);
+  EXPECT_EQ(trials[0].activation.column("q without EMG"), data.trials[0].activation.column("q without EMG"));
+}
+
 TEST(ExpectActivations, RefusesAStudyWithoutAnyEmg) {
   StudyData data = study_of(four_channels());
   for (MuscleSetup& muscle : data.muscles) muscle.unseen = UnseenActivation{.by = WithoutEmg::unseen, .parts = {}};

@@ -7,6 +7,7 @@
 
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/measurement/told_by_motion.h"
+#include "myoid/fit/measurement/unseen_activations.h"
 #include "myoid/fit/methods/emg_clock.h"
 #include "myoid/fit/methods/plain_fit.h"
 #include "myoid/fit/methods/prediction.h"
@@ -42,12 +43,11 @@ void add_predictions(const StudyData& data, const EstimatorOptions& options, Ide
 void add_muscles_without_emg(const StudyData& data, std::vector<VerdictCap>& caps) {
   for (const MuscleSetup& muscle : data.muscles) {
     if (!muscle.unseen) continue;
-    const std::string says = fmt::format(
-        "no EMG of {} was recorded: its force is the product of F_max and an activation that is not known. Record an "
-        "EMG of {}",
-        muscle.name, muscle.name);
-    caps.push_back(
-        {.reason = says, .owners = {muscle.name}, .parameters = {"max_isometric_force"}, .finding = Finding::no_emg});
+    const std::string says = without_emg_says(muscle.name);
+    caps.push_back({.reason = says,
+                    .owners = {muscle.name},
+                    .parameters = {"max_isometric_force"},
+                    .finding = Finding::no_effect});
     caps.push_back({.reason = says, .owners = {muscle.name}});
   }
 }

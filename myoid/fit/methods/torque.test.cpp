@@ -414,8 +414,9 @@ TEST(WithoutEmg, NoNumberOfTheMuscleIsIdentifiedAndItsStrengthIsNotTold) {
   const std::string& name = study.data.muscles[1].name;
   for (const ParameterEstimate& e : result.estimates)
     EXPECT_FALSE(e.muscle == name && e.verdict == Verdict::identified) << e.parameter;
-  EXPECT_TRUE(find(result, name, "max_isometric_force").verdict == Verdict::not_identifiable ||
-              find(result, name, "max_isometric_force").verdict == Verdict::prior_dominated);
+  const ParameterEstimate& strength = find(result, name, "max_isometric_force");
+  EXPECT_EQ(strength.verdict, Verdict::not_identifiable);
+  EXPECT_EQ(strength.reason, without_emg_says(name));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/intervals/verdicts.h"
 #include "myoid/fit/measurement/parameter_fields.h"
+#include "myoid/fit/measurement/unseen_activations.h"
 #include "myoid/fit/posterior/exploration.h"
 #include "myoid/fit/posterior/learned_sizes.h"
 #include "myoid/fit/posterior/voluntary_torque.h"
@@ -210,6 +211,8 @@ void judge_row(const Reporting& of,
   if (p.is(Scope::channel, kDelay)) facts.scale = Scale::delay;
   facts.shares = of.shares[unknown];
   e.variance_shares = facts.shares;
+  if (p.is(Scope::muscle, kMaxForce) && of.data.muscles[static_cast<std::size_t>(owner)].unseen)
+    facts.no_effect = without_emg_says(of.data.muscles[static_cast<std::size_t>(owner)].name);
   const bool of_width = p.is(Scope::muscle, kWidth);
   if (of_width || p.is(Scope::muscle, kFiberLength)) {
     const auto k = static_cast<std::size_t>(owner);
