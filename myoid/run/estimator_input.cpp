@@ -111,7 +111,10 @@ fit::StudyData estimator_data(const FitSource& source) {
   // Without an unknown gain EMG that is given as activation is taken at its word.
   const bool scaled = study.emg.kind == study::EmgKind::activation ? study.identify.gain : study.emg.has_mvc;
   data.rules = fit::nuisance_rules(data, scaled);
-  if (effort_is_unknown(study)) data.rules.push_back(effort_bounds());
+  if (effort_is_unknown(study)) {
+    data.rules.push_back(effort_bounds());
+    data.rules.back().owners = fit::measured_channels(data);
+  }
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
   fit::free_speeds(data, fit::unstated_speeds(data, study.identify.muscles));
   return data;

@@ -105,8 +105,13 @@ void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::siz
   for (std::size_t c = 1; c < channels && !slot.follows; ++c) slot.tied.push_back(static_cast<int>(c));
 }
 
-/// Makes a gain an unknown if it has a prior.
-void decide_gain(ParameterSlot& slot, const EstimatorOptions& options, const std::string& channel) {
+/// Makes a gain an unknown if it has a prior. That of an activation without EMG is its level, and its error's.
+void decide_gain(ParameterSlot& slot, const EstimatorOptions& options, const std::string& channel, bool is_unseen) {
+  if (is_unseen && options.priors) {
+    slot.free = true;
+    slot.prior = Prior{.mean = slot.value, .sd = beliefs::kUnseenLevel.sd, .logarithmic = true};
+    return;
+  }
   const ChannelSource source = options.of(channel);
   if (!options.priors || !(source.gain_sd.value_or(0.0) > 0.0)) return;
   slot.free = true;
@@ -196,9 +201,9 @@ ParameterSlots default_slots(const StudyData& data,
                       measures_fascicles(data, k));
       if (field.scope == channel) {
         slot.value = values.channels[k][static_cast<std::size_t>(field.field)];
-        if (field.field == kDelay)
-          decide_delay(slot, options, names.channels.size(), is_unseen(data, names.channels[k]));
-        if (field.field == kGain) decide_gain(slot, options, names.channels[k]);
+        const bool unseen = is_unseen(data, names.channels[k]);
+        if (field.field == kDelay) decide_delay(slot, options, names.channels.size(), unseen);
+        if (field.field == kGain) decide_gain(slot, options, names.channels[k], unseen);
       }
       result.slots.push_back(std::move(slot));
     }

@@ -20,14 +20,6 @@ constexpr int kPasses = 400;  // multiplicative updates
 constexpr double kTiny = 1e-12;
 constexpr const char* kConstantName = "expected activation without EMG";
 
-/// Returns the measured channels that the muscles name, each once.
-std::vector<std::string> measured_channels(const StudyData& data) {
-  std::vector<std::string> names;
-  for (const MuscleSetup& muscle : data.muscles)
-    if (!muscle.unseen && !contains(names, muscle.emg_channel)) names.push_back(muscle.emg_channel);
-  return names;
-}
-
 /// Returns every stride-th row of the channels in a trial, never below zero.
 Eigen::MatrixXd envelopes_in(const TrialData& trial, const std::vector<std::string>& channels, Eigen::Index stride) {
   const Eigen::MatrixXd values = trial.activation.select(channels).values().cwiseMax(0.0);
@@ -111,7 +103,7 @@ std::vector<std::string> add_synergies(StudyData& data, const std::vector<std::s
 void expect(const std::vector<std::string>& parts, double cutoff_hz, MuscleSetup& muscle, StudyData& data) {
   const bool constant = muscle.unseen->by == WithoutEmg::unseen;
   muscle.unseen->parts = parts;
-  muscle.unseen->part_sd = (constant ? beliefs::kUnseenLevel : beliefs::kSynergyWeight).sd;
+  muscle.unseen->part_sd = constant ? 0.0 : beliefs::kSynergyWeight.sd;
   muscle.unseen->sd = (constant ? beliefs::kUnseenActivation : beliefs::kOwnActivation).sd;
   muscle.unseen->cutoff_hz = cutoff_hz;
   for (TrialData& trial : data.trials) {
@@ -121,6 +113,13 @@ void expect(const std::vector<std::string>& parts, double cutoff_hz, MuscleSetup
 }
 
 }  // namespace
+
+std::vector<std::string> measured_channels(const StudyData& data) {
+  std::vector<std::string> names;
+  for (const MuscleSetup& muscle : data.muscles)
+    if (!muscle.unseen && !contains(names, muscle.emg_channel)) names.push_back(muscle.emg_channel);
+  return names;
+}
 
 Eigen::MatrixXd activations_of(const Eigen::MatrixXd& synergies, const Eigen::MatrixXd& envelopes) {
   Eigen::MatrixXd h = (envelopes * synergies).cwiseMax(kTiny);

@@ -15,6 +15,9 @@ namespace myoid::fit {
 /// are. Throws InvalidInput if no muscle has EMG.
 void expect_activations(StudyData& data);
 
+/// Returns the measured channels that the muscles name, each once.
+[[nodiscard]] std::vector<std::string> measured_channels(const StudyData& data);
+
 /// Returns the reason for which F_max of such a muscle is not told, with the remedy.
 [[nodiscard]] std::string without_emg_says(const std::string& muscle);
 

@@ -46,7 +46,7 @@ struct Collector {
   void add_parts_of_activation(std::size_t k) {
     const auto c = static_cast<std::size_t>(map_.channel_of_muscle(k));
     const std::optional<UnseenActivation>& unseen = map_.unseen_activation(c);
-    if (!unseen) return;
+    if (!unseen || !(unseen->part_sd > 0.0)) return;
     const double delay_s = values_.channels[c][kDelay];
     for (std::size_t part = 0; part < unseen->parts.size(); ++part) {
       add(fmt::format("{}.activation_{}", data_.muscles[k].name, part + 1), Source::electrodes, unseen->part_sd);
