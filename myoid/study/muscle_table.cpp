@@ -72,7 +72,8 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
   v.choice(
       "without_emg", muscle.without_emg,
       {.says = "In place of `emg`: no electrode stands for the muscle. Its [activation](#without-emg) is an unknown "
-               "signal about a constant, or about the synergies of the measured EMG."});
+               "signal about a constant, or about the synergies of the measured EMG.",
+       .silent = !muscle.without_emg});
   const bool without = muscle.without_emg.has_value();
   const bool has_emg = v.text(
       "emg", muscle.emg, muscle.same_as,
@@ -80,7 +81,8 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
            "EMG channel; `{ same_as = \"MUSCLE\" }`: another muscle's channel, of a deep muscle without an electrode.",
        .required =
            without ? "" : "the EMG channel, or { same_as = \"MUSCLE\" } or without_emg where there is no electrode",
-       .table = "same_as"});
+       .table = "same_as",
+       .silent = without});
   v.must(!(without && has_emg), "without_emg", "emg names a channel: leave one of the two out");
   if (!muscle.same_as && !without) must_be_name(v, "emg", muscle.emg);
   muscle.emg = std::string(trim(muscle.emg));  // as the readers of recordings do with their labels

@@ -6,6 +6,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/study/read_study.h"
+#include "myoid/study/study_text.h"
 
 #include "tests/support/message_of.h"
 
@@ -51,6 +52,7 @@ TEST(ParseStudy, AMuscleWithoutEmgHasNoChannel) {
   const Study study = parse_study(bic + bra + "\"synergies\"\n" + trial, "s.toml");
   EXPECT_EQ(study.muscles.at(1).without_emg, fit::WithoutEmg::synergies);
   EXPECT_EQ(study.muscles.at(1).emg, "");
+  EXPECT_EQ(parse_study(study_toml(study), "s.toml"), study);
   EXPECT_NE(study_message(bic + bra + "\"synergy\"\n" + trial).find("synergies"), std::string::npos);
   EXPECT_NE(study_message(bic + bra + "\"unseen\"\nemg = \"biceps\"\n" + trial), "");
   EXPECT_NE(study_message(bra + "\"unseen\"\n" + trial).find("without_emg"), std::string::npos);

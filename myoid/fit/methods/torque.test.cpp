@@ -380,8 +380,8 @@ struct Strengths {
 Strengths strengths_of(const ElbowStudy& study, const StudyData& data) {
   Strengths found;
   for (const ParameterEstimate& e : identify_torque(data).estimates) {
-    const double truth = true_value(study, e);
     if (e.parameter != "max_isometric_force" || e.muscle == study.data.muscles[1].name) continue;
+    const double truth = true_value(study, e);
     found.held += *e.ci_low <= truth && truth <= *e.ci_high ? 1 : 0;
     found.widths += (*e.ci_high - *e.ci_low) / truth;
   }
