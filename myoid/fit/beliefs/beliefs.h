@@ -238,16 +238,16 @@ inline constexpr Belief kUnknownEmgNoise =
 
 inline constexpr Belief kUnseenActivation =
     belief("activation of a muscle without EMG", 0.12, 0.12, value, "")
-        .used("`without_emg = \"unseen\"`; the spread is that in time")
+        .used("`without_emg`; the spread in time of `unseen`")
         .from("muscles of the leg in walking, means over a cycle of 5 to 20 % (Perry and Burnfield 2010)");
 inline constexpr Belief kUnseenLevel =
-    belief("mean of that activation in a session, over the expected one", 1.0, 0.7, value, "")
-        .used("`without_emg = \"unseen\"`")
+    belief("level of that activation and of its error, over the expected one: `emg_gain`", 1.0, 0.7, logarithm, "")
+        .used("`without_emg`")
         .from("the same range");
 inline constexpr Belief kSynergyWeight =
     belief("weight of a synergy of the measured EMG in a muscle without EMG", 1.0, 1.0, value, "")
-        .used("`without_emg = \"synergies\"`; together they make the mean activation stated above")
-        .from("mean and spread of a number of which no more is known than that it is not negative");
+        .used("`without_emg = \"synergies\"`")
+        .from("judgment: not negative");
 inline constexpr Belief kOwnActivation =
     belief("activation that no synergy explains", 0.0, 0.06, value, "")
         .used("`without_emg = \"synergies\"`")
