@@ -115,10 +115,11 @@ WrittenRun written_run(const Likelihood& likelihood,
   for (Eigen::Index k = 0; k < muscles; ++k) {
     const auto muscle = static_cast<std::size_t>(k);
     const auto c = static_cast<std::size_t>(map.channel_of_muscle(muscle));
-    const auto a = [&](const ModelValues& of) {
+    const auto u = [&](const ModelValues& of) {
       return Eigen::VectorXd(
           run.time_s.unaryExpr([&](double t) { return run.envelopes[c].at(t - of.channels[c][kDelay]).value; }));
     };
+    const auto a = [&](const ModelValues& of) { return Eigen::VectorXd(of.channels[c][kGain] * u(of)); };
     const Eigen::VectorXd force = written_force(run, muscle, values.muscles[muscle], a(values));
     const double h = 1e-5;
     const auto change = [&](Eigen::MatrixXd TrialRun::*what) {
@@ -135,9 +136,9 @@ WrittenRun written_run(const Likelihood& likelihood,
       const Eigen::ArrayXd arm = run.arm_m.col(k).segment(j * n, n);
       written.torque.segment(j * n, n).array() += arm * force.array();
       // The torque is proportional to the activation, and so to the envelope; of an activation without EMG the error
-      // does not grow with it.
+      // does not grow with it, and shares its gain.
       const Eigen::ArrayXd by_noise =
-          map.unseen_activation(c) ? Eigen::ArrayXd(arm * force.array() / a(values).array()) : arm * force.array();
+          map.unseen_activation(c) ? Eigen::ArrayXd(arm * force.array() / u(values).array()) : arm * force.array();
       written.by_channel.col(static_cast<Eigen::Index>(c)).segment(j * n, n).array() += by_noise;
       for (Eigen::Index turned = 0; turned < joints; ++turned) {
         // dq moves a length by -r dq and a rate by -r dq'.
