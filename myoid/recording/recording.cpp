@@ -49,8 +49,10 @@ FolderContent content_of(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   FolderContent found;
   std::error_code error;
-  const auto first = [](fs::path& least, const fs::path& path) {
-    if (least.empty() || path < least) least = path;
+  // A table may hold anything.
+  const auto rank = [](const fs::path& path) { return std::pair(format_of(path) == FileFormat::text_table, path); };
+  const auto first = [&](fs::path& least, const fs::path& path) {
+    if (least.empty() || rank(path) < rank(least)) least = path;
   };
   std::size_t seen = 0;
   for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;

@@ -99,7 +99,7 @@ page::Section errors_section(const RunComparison& comparison) {
 
 std::string headline(const RunComparison& comparison) {
   const std::string unlike = unlike_sentence(comparison);
-  return changes_sentence(comparison) + (unlike.empty() ? "" : " ") + unlike;
+  return unlike + (unlike.empty() ? "" : " ") + changes_sentence(comparison);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
+#include "myoid/study/run_identity.h"
 #include "myoid/study/run_record.h"
 
 namespace myoid::run {
@@ -50,9 +51,17 @@ std::vector<std::string> muscles_of(const FitInput& input) {
   return list;
 }
 
-/// Returns the trials of another study of the same muscles, all held back.
-std::vector<TrialData> other_trials(const PredictionChoice& choice, PredictionInput& input) {
+/// Returns the trials of another study of the same person and muscles, all held back; warns of another person.
+std::vector<TrialData> other_trials(const std::filesystem::path& folder,
+                                    const PredictionChoice& choice,
+                                    PredictionInput& input) {
   study::Study study = study::read_study(choice.study);
+  const study::IdentityDifferences unlike =
+      study::differences(study::identity_of(study), study::read_run_identity(folder));
+  for (const std::vector<std::string>& found : {unlike.grave, unlike.other})
+    for (const std::string& text : found)
+      input.remarks.push_back({.says = fmt::format("{}: {}, in the run; the bands hold for the run's person and model",
+                                                   choice.study, text)});
   study.identify.methods = {fit::Method::torque};
   if (!from_maximal_effort(study.emg))
     input.remarks.push_back(
@@ -106,7 +115,7 @@ PredictionInput prediction_input(const std::filesystem::path& folder, const Pred
                         .trials = {},
                         .files = std::move(base.source.files),
                         .remarks = {}};
-  const std::vector<TrialData> all = choice.study.empty() ? input.fit.data.trials : other_trials(choice, input);
+  const std::vector<TrialData> all = choice.study.empty() ? input.fit.data.trials : other_trials(folder, choice, input);
   input.trials = chosen(all, choice.trials);
   return input;
 }

@@ -1,4 +1,5 @@
 // `myoid predict`: the numbers of a run's validation, made again from its files alone.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -99,6 +100,10 @@ TEST(PredictCommand, TakesTheTrialsOfAnotherStudyOfThePersonAndRefusesWhatIsNotT
       myoid({"predict", results, "--study", second / "study.toml", "--trials", "heavy", "--out", folder / "other"});
   ASSERT_EQ(other.exit_code, 0) << other.err;
   EXPECT_EQ(read_rows(folder / "other/predictions.csv").at(0).at("fitted"), "false");
+  const fs::path somebody = recording_in(folder, "somebody", 4);
+  const Finished foreign =
+      myoid({"predict", results, "--study", somebody / "study.toml", "--trials", "heavy", "--out", folder / "foreign"});
+  EXPECT_GT(std::ranges::count(foreign.err, '\n'), std::ranges::count(other.err, '\n'));  // another subject
   const Finished unknown = myoid({"predict", results, "--trials", "quick", "--out", folder / "unknown"});
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, HasSubstr("there are slow, heavy, fast"));
