@@ -11,6 +11,7 @@ The page of the demo is docs/sample.html, too.
 import base64
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -253,6 +254,11 @@ def page_of(name, program, work):
     return work / file
 
 
+def alone(text):
+    """A report without the links to the files beside it."""
+    return re.sub(r'<p class="save">(?:<a href="figures/[^"]*">[A-Z]+</a> ?)+</p>\n?', "", text)
+
+
 def main(program, work, *names):
     unknown = set(names) - {p.name for p in PICTURES}
     if unknown:
@@ -269,7 +275,7 @@ def main(program, work, *names):
             continue
         page = page_of(p.page, program, work)
         if p.page == "demo":
-            shutil.copy(page, FIGURES.parent / "sample.html")
+            (FIGURES.parent / "sample.html").write_text(alone(page.read_text(encoding="utf-8")), encoding="utf-8")
         if page is None:
             print(f"{p.name} stays as it is: there is no {DATA / PAGES[p.page][2]}")
             continue
