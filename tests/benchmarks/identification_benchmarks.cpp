@@ -1,4 +1,4 @@
-// What docs/data/timings.txt promises of identification: ten trials of ten seconds at 200 Hz.
+// Identification of ten trials of ten seconds at 200 Hz.
 #include <string>
 
 #include <benchmark/benchmark.h>
