@@ -12,8 +12,8 @@
 namespace myoid::muscle {
 namespace {
 
-/// Of the logarithms. Central differences: relative to the derivative the truncation is h^2 = 2e-5, and the
-/// integrator's noise tolerance / h = 2e-5.
+/// Step h of the logarithms in central differences. Relative to the derivative the truncation is h^2 = 2e-5, and the
+/// integrator's noise is tolerance / h = 2e-5.
 constexpr double kStep = 5e-3;
 
 /// Returns the derivatives of one recording's forces from those of `forces_about`.

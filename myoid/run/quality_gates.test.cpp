@@ -121,7 +121,7 @@ TEST(QualityGates, AUnitInDoubtComesBeforeAllThatItExplains) {
   const char* electrodes = "Electrodes on the muscles that they are named for";
   EXPECT_EQ(status_of(result, electrodes), GateStatus::info);
   EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
-  // Where the joint hardly moves besides, the unit is the first of the failures.
+  // The joint hardly moves, too: the unit is the first failure.
   StudyResult still = some_result(0.01, 0, 90.0 * kDegree);
   still.trials[0].remarks = result.trials[0].remarks;
   EXPECT_EQ(quality_gates(still).front().status, GateStatus::fail);

@@ -39,7 +39,7 @@ void add_predictions(const StudyData& data, const EstimatorOptions& options, Ide
   }
 }
 
-/// Of a muscle without EMG F_max is not told, and every other number is weak at best.
+/// Caps the numbers of muscles without EMG: nothing tells F_max, and every other number is weak at best.
 void add_muscles_without_emg(const StudyData& data, std::vector<VerdictCap>& caps) {
   for (const MuscleSetup& muscle : data.muscles) {
     if (!muscle.unseen) continue;

@@ -372,7 +372,7 @@ StudyData without_muscle(StudyData data, std::size_t k) {
   return data;
 }
 
-/// Of the muscles with EMG: F_max whose intervals hold the truth, and the sum of the intervals' widths over the truth.
+/// The number of muscles with EMG whose intervals of F_max hold the truth, and the sum of the widths over the truth.
 struct Strengths {
   int held = 0;
   double widths = 0.0;

@@ -145,8 +145,8 @@ study::Study seen_from(const std::filesystem::path& folder, study::Study study) 
   if (study.model.file) turn(*study.model.file);
   for (study::TrialSpec& trial : study.trials) {
     for (std::optional<std::filesystem::path>* path :
-         {&trial.emg, &trial.motion, &trial.given.lengths, &trial.given.velocities, &trial.given.torques,
-          &trial.given.forces}) {
+         {&trial.emg, &trial.motion, &trial.fascicles, &trial.given.lengths, &trial.given.velocities,
+          &trial.given.torques, &trial.given.forces}) {
       if (*path) turn(**path);
     }
     for (std::filesystem::path& path : trial.given.moment_arms) turn(path);

@@ -148,6 +148,7 @@ TEST(IdentifyStudy, ATrialHasItsMeasuredFasciclesOrNone) {
   ASSERT_GT(study.trials.size(), 1U);
   EXPECT_FALSE(study.trials[0].fascicles);
   EXPECT_EQ(study.trials[1].fascicles, "ultrasound.csv");
+  EXPECT_EQ(seen_from("results", study).trials[1].fascicles, "../ultrasound.csv");
   EXPECT_TRUE(without_effect(files.options).empty());
   files.options.files.fascicles.pop_back();
   EXPECT_THROW((void)identify_study(files.options, table, remarks), InvalidInput);

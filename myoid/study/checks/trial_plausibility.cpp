@@ -163,13 +163,14 @@ void check_vertical(const Study& study,
   const MarkerSeries laboratory = rotated(trunk, back);
   const std::optional<double> now = upright(model, laboratory, input.up_L);
   if (!now || *now > kLimits.markers.trunk_across) return;
-  // Where the model's trunk lies at the default pose, its markers name another axis than all markers together. `init`
-  // takes that of all.
+  // The trunk of a model may lie at the default pose. The axis by which all markers stand upright, which `init` writes,
+  // decides.
   const std::vector<std::string> axes{"x", "y", "z", "-x", "-y", "-z"};
   const std::optional<UprightAxis> by_all = upright_axis(model, rotated(*input.markers, back), axes);
   for (const std::string& up : axes) {
     const std::optional<double> other = upright(model, laboratory, *recording::axis_vector(up));
-    if (up == told || !other || *other < kLimits.markers.trunk_upright || by_all->name != up) continue;
+    if (up == told || !other || *other < kLimits.markers.trunk_upright) continue;
+    if (!by_all || by_all->name != up) continue;
     const bool settable = up.size() == 1;
     findings.push_back(
         {.code = RemarkCode::vertical_across_trunk,
