@@ -39,9 +39,34 @@ void add_predictions(const StudyData& data, const EstimatorOptions& options, Ide
   }
 }
 
-/// Caps the numbers of muscles without EMG: nothing tells F_max, and every other number is weak at best.
+/// Returns the measured muscles that pull with a muscle without EMG about a joint of which it makes a tenth of the
+/// strength or more, by the starting values: its torque may be counted as theirs.
+std::vector<std::string> pulling_with(std::size_t hidden, const StudyData& data) {
+  constexpr double kMuch = 0.1;
+  std::vector<std::string> found;
+  for (const TrialData& trial : data.trials) {
+    for (std::size_t j = 0; j < joint_count(trial); ++j) {
+      const Eigen::RowVectorXd arm_m = joint_at(trial, j).moment_arm_m.colwise().mean();
+      Eigen::RowVectorXd strength_nm = arm_m * (arm_m[static_cast<Eigen::Index>(hidden)] > 0.0 ? 1.0 : -1.0);
+      for (std::size_t k = 0; k < data.muscles.size(); ++k)
+        strength_nm[static_cast<Eigen::Index>(k)] *= data.muscles[k].start.max_isometric_force_n;
+      const double all_nm = strength_nm.cwiseMax(0.0).sum();
+      if (!(strength_nm[static_cast<Eigen::Index>(hidden)] >= kMuch * all_nm)) continue;
+      for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+        const MuscleSetup& muscle = data.muscles[k];
+        if (!muscle.unseen && strength_nm[static_cast<Eigen::Index>(k)] > 0.0 && !fit::contains(found, muscle.name))
+          found.push_back(muscle.name);
+      }
+    }
+  }
+  return found;
+}
+
+/// Caps the numbers of muscles without EMG: nothing tells F_max, and every other number is weak at best, as those of
+/// the muscles that pull with them.
 void add_muscles_without_emg(const StudyData& data, std::vector<VerdictCap>& caps) {
-  for (const MuscleSetup& muscle : data.muscles) {
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    const MuscleSetup& muscle = data.muscles[k];
     if (!muscle.unseen) continue;
     const std::string says = without_emg_says(muscle.name);
     caps.push_back({.reason = says,
@@ -49,6 +74,11 @@ void add_muscles_without_emg(const StudyData& data, std::vector<VerdictCap>& cap
                     .parameters = {"max_isometric_force"},
                     .finding = Finding::no_effect});
     caps.push_back({.reason = says, .owners = {muscle.name}});
+    std::vector<std::string> others = pulling_with(k, data);
+    if (others.empty()) continue;
+    caps.push_back({.reason = fmt::format(
+                        "{} pulls with it and has no EMG: torque of one may be counted as the other's", muscle.name),
+                    .owners = std::move(others)});
   }
 }
 

@@ -423,5 +423,25 @@ TEST(WithoutEmg, NoNumberOfTheMuscleIsIdentifiedAndItsStrengthIsNotTold) {
   EXPECT_EQ(strength.reason, without_emg_says(name));
 }
 
+TEST(WithoutEmg, NumbersOfTheMusclesThatPullWithItRestOnItUnlessItIsSmall) {
+  ElbowStudy study = with_hidden_brachialis(WithoutEmg::unseen);
+  const auto caps = [&] {
+    EstimatorOptions options;
+    options.predictions = false;
+    IdentificationResult result;
+    return caps_of_torque(study.data, options, result);
+  };
+  const Eigen::RowVectorXd arm = study.data.trials[0].moment_arm_m.colwise().mean();
+  std::vector<std::string> pull;
+  for (std::size_t k = 0; k < study.data.muscles.size(); ++k)
+    if (k != 1 && arm[static_cast<Eigen::Index>(k)] * arm[1] > 0.0) pull.push_back(study.data.muscles[k].name);
+  ASSERT_EQ(pull.size(), 2U);
+  const std::size_t count = caps().size();
+  EXPECT_EQ(caps().back().owners, pull);
+  EXPECT_TRUE(caps().back().parameters.empty());
+  study.data.muscles[1].start.max_isometric_force_n *= 0.01;
+  EXPECT_EQ(caps().size(), count - 1);
+}
+
 }  // namespace
 }  // namespace myoid::fit
