@@ -41,11 +41,14 @@ std::string owner_of(const ComparedParameter& p) { return page::spelled(page::pl
 /// Returns "8 %", or the size itself where the number of the first session is no scale.
 std::string share_or_size(const ComparedParameter& p, double size) {
   if (!(std::abs(p.of_first.value) > 0.0)) return with_unit(size, p.first.unit);
-  const double percent = 100.0 * size / std::abs(p.of_first.value);
-  return percent < 99.5 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
+  return percent_text(100.0 * size / std::abs(p.of_first.value)) + " %";
 }
 
 }  // namespace
+
+std::string percent_text(double percent) {
+  return std::abs(percent) < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
+}
 
 bool rests_on_measurement(fit::Method method) { return method != fit::Method::paper; }
 

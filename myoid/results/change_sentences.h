@@ -20,6 +20,9 @@ namespace myoid::results {
 /// that both sessions tell, and why a number is not compared otherwise.
 [[nodiscard]] std::string change_text(const ComparedParameter& parameter);
 
+/// Returns two digits of a share in percent, three from 100 on: "8", "-63", "105".
+[[nodiscard]] std::string percent_text(double percent);
+
 /// Returns the branch of a muscle between `before` and `behind`; empty if the number is of both branches.
 [[nodiscard]] std::string branch_text(fit::FitCase fit_case, std::string_view before, std::string_view behind = "");
 

@@ -337,6 +337,13 @@ TEST(CompareRuns, AGreatestTorqueIsTestedByItselfAndMayBeOfAnotherEffort) {
   EXPECT_NEAR(*c.parameters[1].smallest_detectable, 0.005 * std::sqrt(2.0), 1e-6) << "a length knows no effort";
 }
 
+TEST(CompareRuns, APercentHasNoExponent) {
+  EXPECT_EQ(percent_text(105.2), "105");
+  EXPECT_EQ(percent_text(-99.6), "-100");
+  EXPECT_EQ(percent_text(7.26), "7.3");
+  EXPECT_EQ(percent_text(-63.4), "-63");
+}
+
 TEST(CompareRuns, AFolderWithoutARunIsRefused) {
   const test::TemporaryFolder folder;
   const auto good = run(folder.path() / "one", {{"BIC", 600, 30, "identified"}}, 1.0);

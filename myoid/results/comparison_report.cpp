@@ -50,8 +50,10 @@ std::string value_text(const page::SessionValue& of) {
   return of.lower && of.upper ? fmt::format("{} ({})", value, page::format_interval(*of.lower, *of.upper)) : value;
 }
 
-std::string percent_text(const ComparedParameter& p) {
-  return p.of_first.value == 0.0 ? "-" : fmt::format("{:+.2g}", 100.0 * p.difference / std::abs(p.of_first.value));
+std::string change_in_percent(const ComparedParameter& p) {
+  if (p.of_first.value == 0.0) return "-";
+  const double percent = 100.0 * p.difference / std::abs(p.of_first.value);
+  return (percent < 0.0 ? "" : "+") + percent_text(percent);
 }
 
 /// Draws the numbers that both sessions tell, the greatest torques first.
@@ -119,7 +121,7 @@ page::Table compared_table(const RunComparison& comparison, fit::Method of, bool
                           {value_text(shown(p.of_first, unit))},
                           {value_text(shown(p.of_second, unit))},
                           {page::format_value(p.difference * unit.per_si)},
-                          {percent_text(p)},
+                          {change_in_percent(p)},
                           {p.p_value ? fmt::format("{:.2g}", *p.p_value) : "–"},
                           {verdict(p), badge(p.change), change_text(p)}});
   }

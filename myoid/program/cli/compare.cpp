@@ -48,7 +48,7 @@ nlohmann::ordered_json to_json(const results::RunComparison& comparison) {
 
 /// Prints the sentence and the numbers that both sessions tell; with `all` the others, too.
 void print(const results::RunComparison& comparison, bool all) {
-  for (const std::string& sentence : {results::changes_sentence(comparison), results::unlike_sentence(comparison),
+  for (const std::string& sentence : {results::unlike_sentence(comparison), results::changes_sentence(comparison),
                                       results::reading_sentence(comparison)})
     if (!sentence.empty()) say("{}\n\n", sentence);
   for (const fit::Method method : results::methods_of(comparison))
