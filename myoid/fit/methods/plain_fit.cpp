@@ -32,8 +32,9 @@ constexpr Eigen::Index kFewSamples = 500, kSamplesAnUnknown = 10;
 /// Share of the data's sum of squares above which a search has left residuals.
 constexpr double kNear = 1e-4;
 constexpr double kMet = 1e-12;
-constexpr double kLeast = 10.0;  ///< Samples that even a short trial keeps.
-constexpr double kNamed = 0.05;  ///< Share of an open direction from which it names a number.
+constexpr double kLeast = 10.0;              ///< Samples that even a short trial keeps.
+constexpr Eigen::Index kMostUnknowns = 100;  ///< A step of the search takes time with their cube.
+constexpr double kNamed = 0.05;              ///< Share of an open direction from which it names a number.
 
 /// Residuals and unknowns of one study. Rows are those of the runs, one after the other.
 class PlainFit {
@@ -258,7 +259,7 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
   const auto begin = std::chrono::steady_clock::now();
   const EstimatorOptions as_it_is = plain(options);
   const PlainFit whole(data, as_it_is);
-  if (whole.map().size() == 0) return std::nullopt;
+  if (whole.map().size() == 0 || whole.map().size() > kMostUnknowns) return std::nullopt;
   const std::optional<math::LeastSquaresResult> found = minimum_of(data, as_it_is, whole);
   if (!found) return std::nullopt;
   const math::CovarianceResult covariance = math::covariance(found->jacobian, found->residual);
@@ -286,7 +287,8 @@ std::optional<IdentificationResult> fit_exactly(const StudyData& data, const Est
 
 std::optional<IdentificationResult> exact_fit(const StudyData& data, const EstimatorOptions& options) {
   for (std::size_t k = 0; k < data.muscles.size(); ++k)
-    if (measures_fascicles(data, k)) return std::nullopt;  // a length by ultrasound has noise
+    // A length by ultrasound has noise, and an activation without EMG is a guess.
+    if (measures_fascicles(data, k) || data.muscles[k].unseen) return std::nullopt;
   StudyData freed = data;
   hold_nuisances(freed);
   StudyData held = freed;

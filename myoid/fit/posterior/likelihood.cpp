@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/measurement/told_by_motion.h"
@@ -257,13 +258,18 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
 Likelihood::AllRuns Likelihood::all_runs(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   AllRuns all{.weights = weights(noise),
               .turned = Eigen::VectorXd(static_cast<Eigen::Index>(unseen_.slopes.size())),
-              .shared = {},
-              .variance = {}};
+              .shared = {}};
   for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
     const auto& [quantity, unknown, reach] = unseen_.slopes[s];
     all.turned[static_cast<Eigen::Index>(s)] = reach * std::tanh((z[unknown] - reference_[unknown]) / reach);
   }
   return all;
+}
+
+math::Woodbury Likelihood::AllRuns::joined(const std::vector<Block>& blocks) const {
+  math::Woodbury::Blocks halves;
+  for (const Block& block : blocks) halves.push_back(&block.unseen_half);
+  return {std::move(halves), weights.size()};
 }
 
 Eigen::MatrixXd Likelihood::turned_columns(std::size_t r, const AllRuns& all) const {
@@ -285,19 +291,20 @@ bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& nois
   const double weight = row_weight_[r], log_of_a = log_determinant(block.factor);
   if (weight < 1.0) block.factor.compute(a / weight);
   block.whitening = block.factor.matrixL().solve(Eigen::MatrixXd::Identity(a.rows(), a.rows()));
-  const Eigen::VectorXd white = block.whitening * residual(r, signals);
-  block.solved = block.whitening.transpose() * white;
+  block.white = block.whitening * residual(r, signals);
+  block.solved = block.whitening.transpose() * block.white;
   block.unseen = turned_columns(r, all) * all.weights.asDiagonal();
   block.unseen_half.noalias() = block.whitening * block.unseen;
-  block.projected.noalias() = block.unseen_half.transpose() * white;
-  block.gram.setZero(all.weights.size(), all.weights.size());
-  block.gram.selfadjointView<Eigen::Lower>().rankUpdate(block.unseen_half.transpose());
-  block.own = -0.5 * (white.squaredNorm() + weight * log_of_a);
+  block.own = -0.5 * (block.white.squaredNorm() + weight * log_of_a);
   return std::isfinite(block.own);
 }
 
-void Likelihood::pull_back(
-    std::size_t r, const NoiseValues& noise, const AllRuns& all, const Block& block, Gradient& gradient) const {
+void Likelihood::pull_back(std::size_t r,
+                           const NoiseValues& noise,
+                           const AllRuns& all,
+                           const Block& block,
+                           const Eigen::MatrixXd& half_left,
+                           Gradient& gradient) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
   const Eigen::Index rows = run.measured_count(), m = run.reduction.outputs();
@@ -306,7 +313,6 @@ void Likelihood::pull_back(
   // of all runs Sigma^-1 is C'^-1 (1 - U G^-1 U') C^-1. A block's A is that of the measurement over
   // the rows' weight, by which the determinant's A^-1 is multiplied.
   const Eigen::VectorXd w = block.solved - block.whitening.transpose() * (block.unseen_half * all.shared);
-  const Eigen::MatrixXd half_left = block.unseen_half * all.variance;
   Eigen::MatrixXd half = row_weight_[r] * Eigen::MatrixXd::Identity(rows, rows);
   half.noalias() -= half_left * block.unseen_half.transpose();
   const Eigen::MatrixXd half_right = half * block.whitening;
@@ -391,37 +397,33 @@ double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gra
     }
   });
   constexpr double kNever = -std::numeric_limits<double>::infinity();
-  const Eigen::Index quantities = all.weights.size();
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(quantities, quantities);
-  Eigen::VectorXd projected = Eigen::VectorXd::Zero(quantities);
   double result = 0.0;
+  std::vector<Eigen::MatrixXd> white;
   for (const Block& block : blocks) {
     if (!block.positive) return kNever;
-    gram += block.gram;
-    projected += block.projected;
+    white.emplace_back(block.white);
     result += block.own;
   }
+  const math::Woodbury joined = all.joined(blocks);
   const Eigen::VectorXd factors = grown(z);
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(quantities, quantities);
-  const Eigen::LLT<Eigen::MatrixXd> factor(identity + gram);  // lower halves
-  const Eigen::LLT<Eigen::MatrixXd> factor_grown(identity + factors.asDiagonal() * gram * factors.asDiagonal());
-  if (factor.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
-  const Eigen::VectorXd expected = factor_grown.solve(factors.cwiseProduct(projected));
+  const Eigen::MatrixXd solved = joined.positive() ? joined.solve(white, factors) : Eigen::MatrixXd();
+  if (solved.size() == 0 && factors.size() > 0) return kNever;
+  const Eigen::VectorXd expected = solved.col(0);
   all.shared = factors.cwiseProduct(expected);
-  result += 0.5 * (projected.dot(all.shared) - log_determinant(factor));
+  result += 0.5 * (joined.project(white).col(0).dot(all.shared) - joined.log_determinant());
   if (gradient == nullptr || !std::isfinite(result)) return result;
-  all.variance = factor.solve(identity);
+  const math::Woodbury::Left left = joined.left();
   std::vector<Gradient> parts(runs_.size());
   parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
     for (std::size_t r = range.begin(); r < range.end(); ++r) {
-      pull_back(r, noise, all, blocks[r], parts[r]);
+      pull_back(r, noise, all, blocks[r], left.blocks[r], parts[r]);
     }
   });
   gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
   gradient->by_noise.setZero(noise.size());
-  for (Eigen::Index i = 0; i < quantities; ++i) {
+  for (Eigen::Index i = 0; i < expected.size(); ++i) {
     if (const std::optional<NoiseField> size = unseen_.quantities[static_cast<std::size_t>(i)].size)
-      gradient->by_noise[*size] += expected[i] * expected[i] - (1.0 - all.variance(i, i));
+      gradient->by_noise[*size] += expected[i] * expected[i] - (1.0 - left.diagonal[i]);
   }
   for (const Gradient& part : parts) {
     gradient->by_z += part.by_z;

@@ -178,8 +178,13 @@ class Likelihood {
   [[nodiscard]] Eigen::MatrixXd turned_columns(std::size_t run, const AllRuns& all) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
   [[nodiscard]] bool fill(std::size_t run, const AllRuns& all, const NoiseValues& noise, Block& block) const;
-  void pull_back(
-      std::size_t run, const NoiseValues& noise, const AllRuns& all, const Block& block, Gradient& gradient) const;
+  /// `half_left` is C^-1 L S W G^-1.
+  void pull_back(std::size_t run,
+                 const NoiseValues& noise,
+                 const AllRuns& all,
+                 const Block& block,
+                 const Eigen::MatrixXd& half_left,
+                 Gradient& gradient) const;
   /// Adds the gradient by which the columns of S turn (Unseen::slopes). `w` is Sigma^-1 r,
   /// `half_left` is C^-1 L S W G^-1.
   void add_gradient_of_columns(std::size_t run,

@@ -11,34 +11,32 @@ namespace myoid::fit {
 Likelihood::Information Likelihood::information(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   const Point point(map_, z);
   const AllRuns all = all_runs(z, noise);
-  const Eigen::VectorXd& w = all.weights;
-  const Eigen::Index p = map_.size(), quantities = w.size();
+  const Eigen::Index p = map_.size();
   std::vector<Block> blocks(runs_.size());
-  std::vector<Eigen::MatrixXd> solved(runs_.size());  // A^-1 L J
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(quantities, quantities);
-  Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(quantities, p);
+  std::vector<Eigen::MatrixXd> white(runs_.size());  // C^-1 L J
   Information result{Eigen::MatrixXd::Zero(p, p),
                      std::vector<Eigen::MatrixXd>(kSourceCount, Eigen::MatrixXd::Zero(p, p))};
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Block& block = blocks[r];
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, point.values, &point.by_owner);
     if (!fill(r, all, noise, block)) return result;
-    solved[r] = block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(p)));
-    gram += block.gram;
-    cross += block.unseen.transpose() * solved[r];
+    white[r] = block.whitening * runs_[r].reduction.apply(block.evaluation->jacobian(p));
   }
-  const Eigen::MatrixXd shared = gram.llt().solve(cross);  // = (S W)' Sigma^-1 J; lower half of gram
+  const Eigen::MatrixXd shared = all.joined(blocks).solve(white);  // = (S W)' Sigma^-1 J
   const auto of = [&](Source source) -> Eigen::MatrixXd& { return result.by_source[static_cast<std::size_t>(source)]; };
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const Eigen::MatrixXd k = solved[r] - blocks[r].whitening.transpose() * (blocks[r].unseen_half * shared);
+    const Eigen::MatrixXd k = blocks[r].whitening.transpose() * (white[r] - blocks[r].unseen_half * shared);
     const Eigen::MatrixXd envelopes = envelope_covariance(r, blocks[r].evaluation->signals(), noise) / row_weight_[r];
     const Eigen::MatrixXd a = blocks[r].factor.reconstructedMatrix();
     of(Source::electrodes) += k.transpose() * envelopes * k;
     of(Source::noise) += k.transpose() * (a - envelopes) * k;
   }
-  for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
-    const auto row = shared.row(static_cast<Eigen::Index>(i));
-    of(unseen_.quantities[i].source) += row.transpose() * row;
+  for (int source = 0; source < kSourceCount; ++source) {
+    std::vector<Eigen::Index> its;
+    for (std::size_t i = 0; i < unseen_.quantities.size(); ++i)
+      if (unseen_.quantities[i].source == static_cast<Source>(source)) its.push_back(static_cast<Eigen::Index>(i));
+    const Eigen::MatrixXd rows = shared(its, Eigen::all);
+    of(static_cast<Source>(source)).noalias() += rows.transpose() * rows;
   }
   for (const Eigen::MatrixXd& part : result.by_source) result.information += part;
   return result;
@@ -67,21 +65,21 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
 Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   const Point point(map_, z);
   const AllRuns all = all_runs(z, noise);
-  const Eigen::VectorXd& w = all.weights;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(w.size(), w.size());
-  Eigen::VectorXd projected = Eigen::VectorXd::Zero(w.size());
-  Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(w.size(), map_.size());
+  std::vector<Block> blocks(runs_.size());
+  std::vector<Eigen::MatrixXd> white(runs_.size());  // C^-1 [r, L J]
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    Block block;
+    Block& block = blocks[r];
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, point.values, &point.by_owner);
-    if (!fill(r, all, noise, block)) continue;
-    gram += block.gram;
-    projected += block.projected;
-    cross += block.unseen.transpose() *
-             block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(map_.size())));
+    white[r].setZero(runs_[r].measured_count(), 1 + map_.size());
+    if (!fill(r, all, noise, block)) {
+      block.unseen_half.setZero(white[r].rows(), all.weights.size());
+      continue;
+    }
+    white[r] << block.white, block.whitening * runs_[r].reduction.apply(block.evaluation->jacobian(map_.size()));
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
-  return {factor.solve(projected), factor.solve(Eigen::MatrixXd::Identity(w.size(), w.size())), -factor.solve(cross)};
+  const math::Woodbury joined = all.joined(blocks);
+  const Eigen::MatrixXd solved = joined.solve(white);
+  return {solved.col(0), joined.inverse(), -solved.rightCols(map_.size())};
 }
 
 Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
