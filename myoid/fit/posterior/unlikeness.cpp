@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "myoid/fit/beliefs/beliefs.h"
+#include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/statistics.h"
 
 namespace myoid::fit {
@@ -85,17 +86,24 @@ Unlikeness::Unlikeness(const std::vector<Unknown>& free) : free_(free) {
 }
 
 double Unlikeness::expected(const Eigen::MatrixXd& information, const Eigen::VectorXd& b) const {
-  const Eigen::Index p = judged_.size();
+  // With A the matrix at lambda = 1, R^2 the judged numbers' precision there, R A^-1 R = V diag(e) V' and c =
+  // 1/lambda^2 - 1, the inverse at lambda is A^-1 - W diag(c / (1 + c e)) W', W = A^-1 R V.
+  const Eigen::LLT<Eigen::MatrixXd> at_one(information + prior_precision(free_, 1.0));
+  const Eigen::MatrixXd inverse = at_one.solve(Eigen::MatrixXd::Identity(b.size(), b.size()));
+  const Eigen::VectorXd root = judged_.cwiseSqrt();
+  const math::SymmetricEigen eigen = math::symmetric_eigen(root.asDiagonal() * inverse * root.asDiagonal());
+  const Eigen::MatrixXd w = inverse * root.asDiagonal() * eigen.vectors;
+  const Eigen::VectorXd along = w.transpose() * b, at_rest = inverse * b;
   Eigen::ArrayXd density(kGrid);
   for (Eigen::Index i = 0; i < kGrid; ++i) {
-    const Eigen::MatrixXd prior = prior_precision(free_, std::exp(log_lambda_[i]));
-    const Eigen::LDLT<Eigen::MatrixXd> all(information + prior);
-    const Eigen::VectorXd off = all.solve(b);
+    const double c = std::exp(-2.0 * log_lambda_[i]) - 1.0;
+    const Eigen::ArrayXd grown = (1.0 + c * eigen.values.array()).max(1e-300);
+    const Eigen::VectorXd less = (c / grown).matrix();
+    const Eigen::VectorXd off = at_rest - w * less.cwiseProduct(along);
+    const Eigen::VectorXd variance = inverse.diagonal() - w.cwiseAbs2() * less;
     // Of |P| only the judged numbers' part depends on lambda.
-    density[i] = log_prior_[i] - static_cast<double>(count_) * log_lambda_[i] +
-                 0.5 * (b.dot(off) - all.vectorD().array().abs().log().sum());
-    const Eigen::VectorXd variance = all.solve(Eigen::MatrixXd::Identity(p, p)).diagonal();
-    for (Eigen::Index j = 0; j < p; ++j) {
+    density[i] = log_prior_[i] - static_cast<double>(count_) * log_lambda_[i] + 0.5 * (b.dot(off) - grown.log().sum());
+    for (Eigen::Index j = 0; j < b.size(); ++j) {
       const Unknown& of = free_[static_cast<std::size_t>(j)];
       if (judged_[j] > 0.0)
         density[i] += log_share_within(of.bounds, of.prior.mean + off[j], std::sqrt(std::max(variance[j], 1e-300)));
