@@ -91,9 +91,13 @@ Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, C
     rows_ += run.measured_nm.size();
     if (trial_of_run_.empty() || run.trial != runs_[trial_of_run_.size() - 1].trial) ++trials_;
     trial_of_run_.push_back(trials_ - 1);
-    auto& of_channels = envelope_noise_.emplace_back();
-    for (const EnvelopeError& error : run.errors)
-      of_channels.emplace_back(run.reduction, error.from_white(run.interval_s));
+    auto& noises = envelope_noise_.emplace_back();
+    for (std::size_t c = 0; c < run.errors.size(); ++c) {
+      const Eigen::VectorXd from_white = run.errors[c].from_white(run.interval_s);
+      auto of = std::ranges::find(noises, from_white, &NoiseOfChannels::from_white);
+      if (of == noises.end()) of = noises.insert(of, {from_white, EmgNoise(run.reduction, from_white)});
+      of->channels.push_back(static_cast<Eigen::Index>(c));
+    }
   }
   if (session == nullptr) recorded_.told_by_motion = told_by_motion_alone(data).value_or(0.0);
   weigh_rows();
@@ -243,12 +247,15 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
   const Eigen::VectorXd scale = envelope_scale(runs_[r], noise);
   const Eigen::Index rows = runs_[r].measured_count(), n = runs_[r].time_s.size();
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, rows);
-  for (Eigen::Index c = 0; c < scale.size(); ++c) {
-    const auto d = signals.by_noise.col(c);
+  const Eigen::MatrixXd& d = signals.by_noise;
+  for (const NoiseOfChannels& of : envelope_noise_[r]) {
     add_noise(
-        runs_[r], envelope_noise_[r][static_cast<std::size_t>(c)],
+        runs_[r], of.noise,
         [&](const JointPair& pair) {
-          return Eigen::VectorXd(scale[c] * d.segment(pair.i, n).cwiseProduct(d.segment(pair.j, n)));
+          Eigen::VectorXd variance = Eigen::VectorXd::Zero(n);
+          for (const Eigen::Index c : of.channels)
+            variance += scale[c] * d.col(c).segment(pair.i, n).cwiseProduct(d.col(c).segment(pair.j, n));
+          return variance;
         },
         a);
   }
@@ -345,19 +352,23 @@ void Likelihood::pull_back(std::size_t r,
   TorqueSignals by{of_rows.head(run.row_count()),
                    Eigen::MatrixXd::Zero(signals.by_noise.rows(), signals.by_noise.cols()),
                    of_rows.tail(run.all_rows() - run.row_count())};
-  for (Eigen::Index c = 0; c < scale.size(); ++c) {
-    const auto d = signals.by_noise.col(c);
-    auto by_d = by.by_noise.col(c);
+  for (const NoiseOfChannels& of : envelope_noise_[r]) {
     for (const JointPair& pair : joint_pairs(run)) {
       // A_ij and its transpose A_ji share the factor D_i D_j; A_ii occurs once.
       const auto of_pair = by_a.block(pair.row_i, pair.row_j, m, m);
-      const Eigen::VectorXd by_product = envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(
+      const Eigen::VectorXd by_product = of.noise.pull_back(
           pair.i == pair.j ? Eigen::MatrixXd(of_pair) : Eigen::MatrixXd(0.5 * (of_pair + of_pair.transpose())));
-      by_d.segment(pair.i, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.j, n));
-      if (pair.i != pair.j) by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
+      for (const Eigen::Index c : of.channels) {
+        const auto d = signals.by_noise.col(c);
+        auto by_d = by.by_noise.col(c);
+        by_d.segment(pair.i, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.j, n));
+        if (pair.i != pair.j) by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
+      }
     }
-    if (run.parts[static_cast<std::size_t>(c)].empty()) gradient.by_noise[kEmgFactor] += by_d.dot(d);
   }
+  for (Eigen::Index c = 0; c < scale.size(); ++c)
+    if (run.parts[static_cast<std::size_t>(c)].empty())
+      gradient.by_noise[kEmgFactor] += by.by_noise.col(c).dot(signals.by_noise.col(c));
 
   gradient.by_z.setZero(map_.size());
   block.evaluation->pull_back(by, gradient.by_z);

@@ -208,7 +208,13 @@ class Likelihood {
   Columns columns_are_;
   ParameterMap map_;
   std::vector<TrialRun> runs_;
-  std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.
+  /// Channels of a run whose envelopes err behind one filter, as activations without EMG do.
+  struct NoiseOfChannels {
+    Eigen::VectorXd from_white;
+    EmgNoise noise;
+    std::vector<Eigen::Index> channels = {};
+  };
+  std::vector<std::vector<NoiseOfChannels>> envelope_noise_;  ///< Per run.
   /// Per run: L Q L' and the least errors of torque and fiber lengths, which no unknown changes.
   std::vector<Eigen::MatrixXd> given_;
   std::vector<Eigen::Index> trial_of_run_;  ///< Per run: its trial among the fitted trials.

@@ -1,5 +1,6 @@
 #include "myoid/ground/math/woodbury.h"
 
+#include <cmath>
 #include <utility>
 
 #include "myoid/ground/core/parallel.h"
@@ -22,7 +23,8 @@ Woodbury::Woodbury(Blocks blocks, Eigen::Index columns) : blocks_(std::move(bloc
     rows_ += block->rows();
   }
   if (by_rows()) {
-    factor_.compute(over_rows(nullptr));
+    product_ = over_rows(blocks_, Eigen::VectorXd::Ones(columns_));
+    factor_.compute(Eigen::MatrixXd::Identity(rows_, rows_) + product_);
     return;
   }
   std::vector<Eigen::MatrixXd> parts(blocks_.size());
@@ -30,23 +32,23 @@ Woodbury::Woodbury(Blocks blocks, Eigen::Index columns) : blocks_(std::move(bloc
     parts[r].setZero(columns_, columns_);
     parts[r].selfadjointView<Eigen::Lower>().rankUpdate(blocks_[r]->transpose());
   });
-  gram_.setZero(columns_, columns_);
-  for (const Eigen::MatrixXd& part : parts) gram_ += part;
-  factor_.compute(Eigen::MatrixXd::Identity(columns_, columns_) + gram_);
+  product_.setZero(columns_, columns_);
+  for (const Eigen::MatrixXd& part : parts) product_ += part;
+  factor_.compute(Eigen::MatrixXd::Identity(columns_, columns_) + product_);
 }
+
+bool Woodbury::positive() const { return factor_.info() == Eigen::Success && std::isfinite(log_determinant()); }
 
 double Woodbury::log_determinant() const { return 2.0 * factor_.matrixLLT().diagonal().array().log().sum(); }
 
-Eigen::MatrixXd Woodbury::over_rows(const Eigen::VectorXd* factors) const {
-  Eigen::MatrixXd m(rows_, rows_);
-  for_each_block(blocks_.size(), [&](std::size_t r) {
-    Eigen::MatrixXd scaled = *blocks_[r];
-    if (factors != nullptr) scaled *= factors->cwiseAbs2().asDiagonal();
+Eigen::MatrixXd Woodbury::over_rows(const Blocks& blocks, const Eigen::VectorXd& f) const {
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(rows_, rows_);
+  for_each_block(blocks.size(), [&](std::size_t r) {
+    const Eigen::MatrixXd scaled = *blocks[r] * f.asDiagonal();
     for (std::size_t s = 0; s <= r; ++s)
-      m.block(first_[r], first_[s], scaled.rows(), blocks_[s]->rows()).noalias() = scaled * blocks_[s]->transpose();
+      m.block(first_[r], first_[s], scaled.rows(), blocks[s]->rows()).noalias() = scaled * blocks[s]->transpose();
   });
-  m.diagonal().array() += 1.0;
-  return m;  // the lower half
+  return m;
 }
 
 Eigen::MatrixXd Woodbury::stacked(const std::vector<Eigen::MatrixXd>& b) const {
@@ -75,11 +77,20 @@ Eigen::MatrixXd Woodbury::solve(const std::vector<Eigen::MatrixXd>& b) const {
 Eigen::MatrixXd Woodbury::solve(const std::vector<Eigen::MatrixXd>& b, const Eigen::VectorXd& factors) const {
   Factor scaled;
   if (by_rows()) {
-    scaled.compute(over_rows(&factors));
+    std::vector<Eigen::Index> changed;
+    for (Eigen::Index j = 0; j < columns_; ++j)
+      if (factors[j] != 1.0) changed.push_back(j);
+    std::vector<Eigen::MatrixXd> parts;
+    for (const Eigen::MatrixXd* block : blocks_) parts.emplace_back((*block)(Eigen::all, changed));
+    Blocks of_parts;
+    for (const Eigen::MatrixXd& part : parts) of_parts.push_back(&part);
+    const Eigen::VectorXd more = factors(changed).cwiseAbs2().array() - 1.0;
+    scaled.compute(Eigen::MatrixXd::Identity(rows_, rows_) + product_ + over_rows(of_parts, more));
     if (scaled.info() != Eigen::Success) return {};
     return factors.asDiagonal() * transposed_times(scaled.solve(stacked(b)));
   }
-  scaled.compute(Eigen::MatrixXd::Identity(columns_, columns_) + factors.asDiagonal() * gram_ * factors.asDiagonal());
+  scaled.compute(Eigen::MatrixXd::Identity(columns_, columns_) +
+                 factors.asDiagonal() * product_ * factors.asDiagonal());
   if (scaled.info() != Eigen::Success) return {};
   return scaled.solve(factors.asDiagonal() * project(b));
 }

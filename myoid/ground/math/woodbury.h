@@ -20,7 +20,7 @@ class Woodbury {
   Woodbury(Blocks blocks, Eigen::Index columns);
 
   /// Returns false where G is not finite or not positive definite.
-  [[nodiscard]] bool positive() const { return factor_.info() == Eigen::Success; }
+  [[nodiscard]] bool positive() const;
   [[nodiscard]] double log_determinant() const;
   /// Returns U' b, b in blocks as U.
   [[nodiscard]] Eigen::MatrixXd project(const std::vector<Eigen::MatrixXd>& b) const;
@@ -41,8 +41,8 @@ class Woodbury {
  private:
   using Factor = Eigen::LLT<Eigen::MatrixXd>;
   [[nodiscard]] bool by_rows() const { return rows_ < columns_; }
-  /// Returns 1 + U F^2 U'; null: 1 + U U'.
-  [[nodiscard]] Eigen::MatrixXd over_rows(const Eigen::VectorXd* factors) const;
+  /// Returns the lower half of U F U'.
+  [[nodiscard]] Eigen::MatrixXd over_rows(const Blocks& blocks, const Eigen::VectorXd& f) const;
   [[nodiscard]] Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& b) const;
   /// Returns U' c, c as high as all blocks.
   [[nodiscard]] Eigen::MatrixXd transposed_times(const Eigen::MatrixXd& c) const;
@@ -50,8 +50,8 @@ class Woodbury {
   Blocks blocks_;
   std::vector<Eigen::Index> first_;  ///< First row of each block.
   Eigen::Index rows_ = 0, columns_ = 0;
-  Eigen::MatrixXd gram_;  ///< U' U, the lower half; empty where M is factored.
-  Factor factor_;         ///< Of G or M.
+  Eigen::MatrixXd product_;  ///< U' U, or U U' where this is smaller; the lower half.
+  Factor factor_;            ///< Of G or M.
 };
 
 }  // namespace myoid::inline ground::math
