@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "myoid/ground/math/spline.h"
+#include "myoid/ground/math/toeplitz.h"
 
 namespace myoid::fit {
 namespace {
@@ -229,7 +230,7 @@ Smoothed smooth(const Eigen::VectorXd& values,
   const Eigen::Index n = values.size();
   const Eigen::VectorXd of_drive = covariances(spectra.drive, error, interval_s, n - 1),
                         of_noise = covariances(error.spectrum() / error.step_hz(), error, interval_s, n - 1);
-  const Eigen::MatrixXd prior = toeplitz(of_drive), correlation = toeplitz(of_noise);
+  const Eigen::MatrixXd prior = math::toeplitz(of_drive), correlation = math::toeplitz(of_noise);
   const double mean = values.mean(), least = 0.001 * values.maxCoeff();
   Smoothed result;
   result.drive = moving_mean(values, static_cast<Eigen::Index>(std::lround(0.25 / interval_s)));

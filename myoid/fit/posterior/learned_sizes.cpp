@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "myoid/ground/math/bounded.h"
+#include "myoid/ground/math/decompositions.h"
 
 namespace myoid::fit {
 namespace {
@@ -13,9 +12,10 @@ namespace {
 constexpr double kMostWider = 2.0;  // of y' over y: a size that the torque hardly tells has a long tail
 
 Eigen::VectorXd deviations(const Density& density, const Eigen::VectorXd& z, const NoiseValues& noise) {
-  Eigen::MatrixXd all = density.likelihood().information(z, noise).information + density.precision();
-  all.diagonal() *= 1.0 + 1e-10;
-  return all.ldlt().solve(Eigen::MatrixXd::Identity(z.size(), z.size())).diagonal().cwiseMax(0.0).cwiseSqrt();
+  return math::inverse_of_positive(density.likelihood().information(z, noise).information + density.precision())
+      .diagonal()
+      .cwiseMax(0.0)
+      .cwiseSqrt();
 }
 
 }  // namespace

@@ -10,21 +10,13 @@
 #include "myoid/fit/measurement/told_by_motion.h"
 #include "myoid/fit/posterior/likelihood_block.h"
 #include "myoid/ground/core/parallel.h"
+#include "myoid/ground/math/toeplitz.h"
 
 namespace myoid::fit {
 namespace {
 
 double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
   return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-}
-
-/// Returns the gradient by the first column of a symmetric Toeplitz matrix, given b, the gradient by the matrix.
-Eigen::VectorXd diagonal_sums(const Eigen::Ref<const Eigen::MatrixXd>& b) {
-  const Eigen::Index n = b.rows();
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index j = 0; j < n; ++j) sums.head(n - j) += b.col(j).tail(n - j);
-  sums.tail(n - 1) *= 2.0;
-  return sums;
 }
 
 constexpr double kLeastFascicleError = 0.1;  // of its standard deviation, behind L
@@ -187,14 +179,15 @@ void Likelihood::add_torque_error(const TrialRun& run, double variance, double l
   const Eigen::Index m = run.reduction.outputs();
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
     const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
-    a.block(row, row, m, m) += toeplitz(variance * std::pow(recorded_.size_share(run.joints[j]), 2) * correlation);
+    a.block(row, row, m, m) +=
+        math::toeplitz(variance * std::pow(recorded_.size_share(run.joints[j]), 2) * correlation);
   }
 }
 
 void Likelihood::add_fascicle_error(const TrialRun& run, double variance, Eigen::MatrixXd& a) const {
   const Eigen::Index m = run.reduction.outputs();
   for (Eigen::Index row = run.measured_nm.size(); row < run.measured_count(); row += m)
-    a.block(row, row, m, m) += toeplitz(variance * fascicle_correlation(run));
+    a.block(row, row, m, m) += math::toeplitz(variance * fascicle_correlation(run));
 }
 
 double Likelihood::fascicle_variance(const NoiseValues& noise) const {
@@ -332,7 +325,7 @@ void Likelihood::pull_back(std::size_t r,
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(m);
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
     const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
-    sums += std::pow(recorded_.size_share(run.joints[j]), 2) * diagonal_sums(by_a.block(row, row, m, m));
+    sums += std::pow(recorded_.size_share(run.joints[j]), 2) * math::by_first_column(by_a.block(row, row, m, m));
   }
   gradient.by_noise.setZero(noise.size());
   gradient.by_noise[kTorqueSd] = 2.0 * variance * sums.dot(torque.correlation);
@@ -344,7 +337,7 @@ void Likelihood::pull_back(std::size_t r,
     const Eigen::VectorXd correlation = fascicle_correlation(run);
     for (Eigen::Index row = run.measured_nm.size(); row < rows; row += m)
       gradient.by_noise[*place] +=
-          2.0 * fascicle_variance(noise) * diagonal_sums(by_a.block(row, row, m, m)).dot(correlation);
+          2.0 * fascicle_variance(noise) * math::by_first_column(by_a.block(row, row, m, m)).dot(correlation);
   }
 
   const Eigen::VectorXd scale = envelope_scale(runs_[r], noise);
@@ -393,20 +386,26 @@ void Likelihood::add_gradient_of_columns(std::size_t r,
   }
 }
 
+std::vector<Likelihood::Block> Likelihood::filled(const ModelValues& values,
+                                                  const ChainsByOwner* chains,
+                                                  const AllRuns& all,
+                                                  const NoiseValues& noise) const {
+  std::vector<Block> blocks(runs_.size());
+  parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
+    for (std::size_t r = range.begin(); r < range.end(); ++r) {
+      blocks[r].evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, values, chains);
+      blocks[r].positive = fill(r, all, noise, blocks[r]);
+    }
+  });
+  return blocks;
+}
+
 double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gradient* gradient) const {
   std::vector<ParameterMap::Chain> chains;
   const ModelValues values = map_.values(z, gradient != nullptr ? &chains : nullptr);
   const ChainsByOwner by_owner(map_, chains);
   AllRuns all = all_runs(z, noise);
-  std::vector<Block> blocks(runs_.size());
-  parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
-    for (std::size_t r = range.begin(); r < range.end(); ++r) {
-      Block& block = blocks[r];
-      block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, values,
-                                                         gradient != nullptr ? &by_owner : nullptr);
-      block.positive = fill(r, all, noise, block);
-    }
-  });
+  const std::vector<Block> blocks = filled(values, gradient != nullptr ? &by_owner : nullptr, all, noise);
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   double result = 0.0;
   std::vector<Eigen::MatrixXd> white;

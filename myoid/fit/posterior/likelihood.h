@@ -176,6 +176,11 @@ class Likelihood {
   [[nodiscard]] double fascicle_variance(const NoiseValues& noise) const;
   /// Returns L S of the run at the unknowns of `all`.
   [[nodiscard]] Eigen::MatrixXd turned_columns(std::size_t run, const AllRuns& all) const;
+  /// Returns the blocks of all runs, in parallel.
+  [[nodiscard]] std::vector<Block> filled(const ModelValues& values,
+                                          const ChainsByOwner* chains,
+                                          const AllRuns& all,
+                                          const NoiseValues& noise) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
   [[nodiscard]] bool fill(std::size_t run, const AllRuns& all, const NoiseValues& noise, Block& block) const;
   /// `half_left` is C^-1 L S W G^-1.

@@ -1,7 +1,4 @@
 #include <cmath>
-#include <memory>
-
-#include <Eigen/Cholesky>
 
 #include "myoid/fit/posterior/likelihood.h"
 #include "myoid/fit/posterior/likelihood_block.h"
@@ -12,15 +9,13 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z, const 
   const Point point(map_, z);
   const AllRuns all = all_runs(z, noise);
   const Eigen::Index p = map_.size();
-  std::vector<Block> blocks(runs_.size());
-  std::vector<Eigen::MatrixXd> white(runs_.size());  // C^-1 L J
   Information result{Eigen::MatrixXd::Zero(p, p),
                      std::vector<Eigen::MatrixXd>(kSourceCount, Eigen::MatrixXd::Zero(p, p))};
+  const std::vector<Block> blocks = filled(point.values, &point.by_owner, all, noise);
+  std::vector<Eigen::MatrixXd> white(runs_.size());  // C^-1 L J
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    Block& block = blocks[r];
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, point.values, &point.by_owner);
-    if (!fill(r, all, noise, block)) return result;
-    white[r] = block.whitening * runs_[r].reduction.apply(block.evaluation->jacobian(p));
+    if (!blocks[r].positive) return result;
+    white[r] = blocks[r].whitening * runs_[r].reduction.apply(blocks[r].evaluation->jacobian(p));
   }
   const Eigen::MatrixXd shared = all.joined(blocks).solve(white);  // = (S W)' Sigma^-1 J
   const auto of = [&](Source source) -> Eigen::MatrixXd& { return result.by_source[static_cast<std::size_t>(source)]; };
@@ -48,16 +43,15 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
   const AllRuns all = all_runs(z, noise);
   const Eigen::VectorXd& w = all.weights;
   const Eigen::Index p = map_.size();
+  const std::vector<Block> blocks = filled(point.values, &point.by_owner, all, noise);
   std::vector<Eigen::MatrixXd> found;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     if (r == 0 || runs_[r].trial != runs_[r - 1].trial)
       found.emplace_back(Eigen::MatrixXd::Zero(p + w.size(), p + w.size()));
-    Block block;
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, point.values, &point.by_owner);
-    if (!fill(r, all, noise, block)) continue;
-    Eigen::MatrixXd both(block.unseen.rows(), p + w.size());
-    both << runs_[r].reduction.apply(block.evaluation->jacobian(p)), block.unseen;
-    found.back() += both.transpose() * block.factor.solve(both);
+    if (!blocks[r].positive) continue;
+    Eigen::MatrixXd both(blocks[r].unseen.rows(), p + w.size());
+    both << runs_[r].reduction.apply(blocks[r].evaluation->jacobian(p)), blocks[r].unseen;
+    found.back() += both.transpose() * blocks[r].factor.solve(both);
   }
   return found;
 }
@@ -65,17 +59,15 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
 Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   const Point point(map_, z);
   const AllRuns all = all_runs(z, noise);
-  std::vector<Block> blocks(runs_.size());
+  std::vector<Block> blocks = filled(point.values, &point.by_owner, all, noise);
   std::vector<Eigen::MatrixXd> white(runs_.size());  // C^-1 [r, L J]
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    Block& block = blocks[r];
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, point.values, &point.by_owner);
     white[r].setZero(runs_[r].measured_count(), 1 + map_.size());
-    if (!fill(r, all, noise, block)) {
-      block.unseen_half.setZero(white[r].rows(), all.weights.size());
-      continue;
-    }
-    white[r] << block.white, block.whitening * runs_[r].reduction.apply(block.evaluation->jacobian(map_.size()));
+    if (blocks[r].positive)
+      white[r] << blocks[r].white,
+          blocks[r].whitening * runs_[r].reduction.apply(blocks[r].evaluation->jacobian(map_.size()));
+    else
+      blocks[r].unseen_half.setZero(white[r].rows(), all.weights.size());
   }
   const math::Woodbury joined = all.joined(blocks);
   const Eigen::MatrixXd solved = joined.solve(white);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "myoid/ground/core/parallel.h"
@@ -18,14 +17,6 @@ constexpr double kOfFresh = 10.0;          // a promise by Gauss and Newton's cu
 constexpr double kLonger = 2.6;            // the first share of a step over the share of the step before
 constexpr double kDifference = 1.0 / 3.0;  // standard deviations
 constexpr double kLeastCurvature = 0.1;    // over Gauss and Newton's curvature
-
-Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& positive) {
-  const Eigen::VectorXd scale = positive.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * positive * scale.asDiagonal();
-  const Eigen::MatrixXd eased = scaled + 1e-10 * Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
-  return scale.asDiagonal() * eased.llt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols())) *
-         scale.asDiagonal();
-}
 
 }  // namespace
 
@@ -46,7 +37,7 @@ Mode find_mode(const Density& density,
   bool fresh = false;
   double last_share = 1.0;
   const auto refresh = [&] {
-    inverse = inverse_of(density.gauss_newton(mode.x));
+    inverse = math::inverse_of_positive(density.gauss_newton(mode.x));
     fresh = true;
     last_share = 1.0;
   };

@@ -122,16 +122,6 @@ Eigen::VectorXd EmgNoise::pull_back(const Eigen::MatrixXd& by) const {
   return by_variance;
 }
 
-Eigen::MatrixXd toeplitz(const Eigen::VectorXd& first_column) {
-  const Eigen::Index n = first_column.size();
-  Eigen::MatrixXd m(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    m.col(j).tail(n - j) = first_column.head(n - j);
-    m.col(j).head(j) = first_column.segment(1, j).reverse();
-  }
-  return m;
-}
-
 TorqueError torque_error(const Reduction& reduction, double interval_s, double log_time) {
   const Eigen::VectorXd& weights = reduction.weights();
   const Eigen::Index width = weights.size(), rows = reduction.outputs(), stride = reduction.stride();

@@ -73,9 +73,6 @@ class EmgNoise {
   Eigen::VectorXd kernel_;
 };
 
-/// Returns the symmetric Toeplitz matrix with this first column.
-[[nodiscard]] Eigen::MatrixXd toeplitz(const Eigen::VectorXd& first_column);
-
 /// First columns of the Toeplitz matrices of the torque's error behind L: its covariance at sigma_T
 /// = 1, and the covariance's derivative by ln tau_T.
 struct TorqueError {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "myoid/fit/intervals/estimate_rows.h"
@@ -20,6 +19,7 @@
 #include "myoid/fit/posterior/learned_sizes.h"
 #include "myoid/fit/posterior/voluntary_torque.h"
 #include "myoid/ground/math/bounded.h"
+#include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/draws.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
@@ -39,9 +39,7 @@ std::vector<SourceShares> source_shares(const Candidate& best) {
   const Likelihood::Information of =
       best.density->likelihood().information(best.density->z_of(best.mode.x), best.density->noise_of(best.mode.x));
   const auto p = static_cast<Eigen::Index>(free.size());
-  Eigen::MatrixXd all = of.information + best.density->precision();
-  all.diagonal() *= 1.0 + 1e-10;
-  const Eigen::MatrixXd covariance = all.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd covariance = math::inverse_of_positive(of.information + best.density->precision());
   Eigen::MatrixXd part(p, kSourceCount);
   for (int s = 0; s < kSourceCount; ++s)
     part.col(s) = (covariance * of.by_source[static_cast<std::size_t>(s)] * covariance).diagonal();
@@ -59,12 +57,6 @@ std::vector<SourceShares> source_shares(const Candidate& best) {
           part(j, s) / std::max(part.row(j).sum(), 1e-300);
   }
   return shares;
-}
-
-/// Returns the covariance of x by Gauss and Newton's curvature.
-Eigen::MatrixXd gauss_newton_covariance(const Density& density, const Eigen::VectorXd& x) {
-  const Eigen::MatrixXd precision = density.gauss_newton(x);
-  return precision.ldlt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
 /// Returns x with tendons as long as their priors say and fibers longer by what the tendons lose: the same torque.
@@ -96,10 +88,11 @@ struct Given {
 Given given_geometry(const Candidate& best, const Sample& sample, const Progress& progress) {
   const auto of_given = std::make_shared<Density>(*best.density);
   Density& density = *of_given;
-  const Eigen::VectorXd of_person = gauss_newton_covariance(density, best.mode.x).diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::VectorXd of_person =
+      math::inverse_of_positive(density.gauss_newton(best.mode.x)).diagonal().cwiseMax(0.0).cwiseSqrt();
   density.believe(Believed::geometry_and_sensors_exact);
   const Mode mode = find_mode(density, {.x = with_tendons_of_the_model(density, best.mode.x)}, progress, kRoughPromise);
-  const Eigen::MatrixXd covariance = gauss_newton_covariance(density, mode.x);
+  const Eigen::MatrixXd covariance = math::inverse_of_positive(density.gauss_newton(mode.x));
   const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const std::vector<Unknown>& free = density.parameters().free();
   const auto p = static_cast<Eigen::Index>(free.size());

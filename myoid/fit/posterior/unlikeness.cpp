@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Cholesky>
-
 #include "myoid/fit/beliefs/beliefs.h"
 #include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/statistics.h"
@@ -45,8 +43,7 @@ Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double unliken
   for (const auto& [field, members] : sharing) {
     Eigen::MatrixXd covariance = common(members) * common(members).transpose();
     covariance += precision(members, members).diagonal().cwiseInverse().asDiagonal();
-    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(covariance.rows(), covariance.rows());
-    precision(members, members) = covariance.llt().solve(all).eval();
+    precision(members, members) = math::pseudo_inverse(covariance);
   }
   return precision;
 }
@@ -88,8 +85,7 @@ Unlikeness::Unlikeness(const std::vector<Unknown>& free) : free_(free) {
 double Unlikeness::expected(const Eigen::MatrixXd& information, const Eigen::VectorXd& b) const {
   // With A the matrix at lambda = 1, R^2 the judged numbers' precision there, R A^-1 R = V diag(e) V' and c =
   // 1/lambda^2 - 1, the inverse at lambda is A^-1 - W diag(c / (1 + c e)) W', W = A^-1 R V.
-  const Eigen::LLT<Eigen::MatrixXd> at_one(information + prior_precision(free_, 1.0));
-  const Eigen::MatrixXd inverse = at_one.solve(Eigen::MatrixXd::Identity(b.size(), b.size()));
+  const Eigen::MatrixXd inverse = math::inverse_of_positive(information + prior_precision(free_, 1.0));
   const Eigen::VectorXd root = judged_.cwiseSqrt();
   const math::SymmetricEigen eigen = math::symmetric_eigen(root.asDiagonal() * inverse * root.asDiagonal());
   const Eigen::MatrixXd w = inverse * root.asDiagonal() * eigen.vectors;

@@ -21,6 +21,9 @@ struct SymmetricEigen {
 /// Computes the eigenvalues alone, rising.
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
+/// Returns the inverse of a positive definite matrix, whose diagonal is first made larger by 1e-10 of itself.
+[[nodiscard]] Eigen::MatrixXd inverse_of_positive(const Eigen::MatrixXd& matrix);
+
 /// Returns an x that minimizes |a x - b|, by QR with column pivoting. Of dependent columns some have coefficient 0.
 [[nodiscard]] Eigen::VectorXd nearest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 

@@ -21,6 +21,16 @@ TEST(Decompositions, OfATwoByTwoMatrixAreThoseOfThePaperAndPencil) {
   EXPECT_NEAR((symmetric_eigenvalues(matrix) - eigen.values).norm(), 0.0, kFewOperations);
 }
 
+TEST(Decompositions, TheInverseOfAPositiveMatrixIsEasedByItsDiagonal) {
+  // [[2, 1], [1, 2]] with sides scaled by 1 and 1e-6: 1/3 [[2, -1], [-1, 2]].
+  const Eigen::MatrixXd inverse = inverse_of_positive(Eigen::MatrixXd{{2.0, 1e-6}, {1e-6, 2e-12}});
+  EXPECT_NEAR(inverse(0, 0), 2.0 / 3.0, 1e-9);
+  EXPECT_NEAR(inverse(0, 1) * 1e-6, -1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(inverse(1, 1) * 1e-12, 2.0 / 3.0, 1e-9);
+  // A singular matrix has an inverse, as large as the ease lets it be.
+  EXPECT_NEAR(inverse_of_positive(Eigen::MatrixXd::Ones(2, 2)).sum(), 1.0, 1e-5);
+}
+
 TEST(Decompositions, TheNearestSolutionOfALineIsTheRegression) {
   // Through (0, 1), (1, 3), (2, 2): mean 2 at 1, slope 1/2.
   const Eigen::MatrixXd a{{1.0, 0.0}, {1.0, 1.0}, {1.0, 2.0}};
