@@ -62,7 +62,7 @@ set(MYOID_LAYER_run core math files tables signals model kinematics dynamics for
     measurement intervals posterior methods page phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim page)
 set(MYOID_LAYER_exports core files muscle osim measurement intervals study run projects)
-set(MYOID_LAYER_results core math files muscle tables recording model kinematics forces simulation
+set(MYOID_LAYER_results core math files muscle tables model kinematics forces simulation
     measurement intervals methods page phases study design run scene exports)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model projects)

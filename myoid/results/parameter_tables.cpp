@@ -66,15 +66,14 @@ Cell truth_cell(const run::StudyResult& result, const ParameterEstimate& e) {
 
 /// Describes the resting torques from passive trials, for the table of nuisances.
 std::string measured_at_rest(const run::StudyResult& result) {
-  constexpr double kDegrees = 180.0 / kPi;
   std::string text;
   for (const run::RestingJoint& joint : result.resting) {
     const run::RestingTorque& torque = joint.torque;
     text += fmt::format(
         " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. It is part of every "
         "torque predicted, and the joint's numbers here come on top of it.",
-        joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad), torque.lowest_rad * kDegrees,
-        torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
+        joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad), torque.lowest_rad / kDegree,
+        torque.at(torque.highest_rad), torque.highest_rad / kDegree);
   }
   return text;
 }
@@ -98,6 +97,24 @@ bool is_at_largest_emg(const run::StudyResult& result, const ParameterEstimate& 
   const IdentificationResult* const fit = run::torque_of(result.fit);
   const bool of_effort = e.parameter == "max_isometric_force" || fit::is_voluntary(e.parameter);
   return of_effort && fit != nullptr && !fit->voluntary.empty() && !fit->voluntary.front().from_mvc;
+}
+
+/// Returns the numbers by the other choice for muscles without EMG.
+Table choice_table(const run::OtherChoice& choice, const IdentificationResult& method) {
+  Table table{"other_choice",
+              "The numbers by another choice for muscles without EMG",
+              fmt::format("With {}. Moved: in widths of the 95 % interval to that side.", choice.other),
+              {"muscle", "parameter", "unit", "estimate", "95 % interval", "by the other choice", "moved"}};
+  for (const ParameterEstimate& e : method.estimates) {
+    const run::OtherChoice::Number* number = choice.of(e);
+    if (number == nullptr) continue;
+    table.rows.push_back(
+        page::text_row({e.muscle, page::spelled(e.parameter), unit(e), value_of(e, e.estimate), interval(e)}));
+    table.rows.back().insert(table.rows.back().end(),
+                             {{value_of(e, number->other)},
+                              {fmt::format("{:.2f}", number->moved), number->outside() ? Badge::weak : Badge::none}});
+  }
+  return table;
 }
 
 }  // namespace
@@ -195,6 +212,8 @@ std::vector<Table> estimate_tables(const run::StudyResult& result, const Identif
   }
   std::vector<Table> tables{std::move(muscles)};
   if (!others.rows.empty()) tables.push_back(std::move(others));
+  if (result.fit.other_choice && method.method == fit::Method::torque)
+    tables.push_back(choice_table(*result.fit.other_choice, method));
   tables.push_back(meanings_table(method));
   return tables;
 }

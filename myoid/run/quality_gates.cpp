@@ -364,6 +364,12 @@ Gate scales_gate(const TorqueScales& scales) {
       "Forces and torques lie between the two."};
 }
 
+Gate choice_gate(const OtherChoice& choice) {
+  return {"Numbers do not depend on what is believed of muscles without EMG",
+          choice.outside() > 0 ? GateStatus::warn : GateStatus::pass, choice.sentence(),
+          "every number in its interval by either choice", "Record the EMG of these muscles, or of their synergists."};
+}
+
 }  // namespace
 
 std::vector<page::Gate> quality_gates(const StudyResult& result) {
@@ -384,6 +390,7 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
   if (result.fit.exchanged && !units) list.push_back(electrode_gate(*result.fit.exchanged));
   if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   if (result.fit.scales && result.fit.scales->differ()) list.push_back(scales_gate(*result.fit.scales));
+  if (result.fit.other_choice) list.push_back(choice_gate(*result.fit.other_choice));
   const auto add = [&list](std::vector<Gate> gates) { std::ranges::move(gates, std::back_inserter(list)); };
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));

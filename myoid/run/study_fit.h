@@ -11,6 +11,7 @@
 #include "myoid/ground/core/progress.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/informed_forces.h"
+#include "myoid/run/other_choice.h"
 #include "myoid/run/solver_contest.h"
 #include "myoid/run/torque_scales.h"
 
@@ -21,9 +22,10 @@ struct StudyFit {
   std::vector<fit::IdentificationResult> methods;
   /// Two channels that fit better with exchanged names.
   std::optional<fit::ExchangedElectrodes> exchanged;
-  std::optional<fit::ShiftedEmg> shifted;  ///< EMG on another clock than the torque.
-  std::optional<TorqueScales> scales;      ///< Of trials with a dynamometer and without.
-  std::vector<SolverContest> contests;     ///< Solvers of method `paper`, if the study compares them.
+  std::optional<fit::ShiftedEmg> shifted;   ///< EMG on another clock than the torque.
+  std::optional<TorqueScales> scales;       ///< Of trials with a dynamometer and without.
+  std::optional<OtherChoice> other_choice;  ///< Of muscles without EMG.
+  std::vector<SolverContest> contests;      ///< Solvers of method `paper`, if the study compares them.
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
   std::vector<InformedForces> informed;

@@ -108,6 +108,14 @@ std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vecto
   if (result.fit.scales && result.fit.scales->differ())
     caps.push_back({.reason = "Dynamometer and masses disagree about the torque's scale: mend that first.",
                     .parameters = strengths()});
+  if (result.fit.other_choice) {
+    for (const OtherChoice::Number& number : result.fit.other_choice->numbers)
+      if (number.outside())
+        caps.push_back(
+            {.reason = fmt::format("It depends on the choice: see it with {}.", result.fit.other_choice->other),
+             .owners = {number.muscle},
+             .parameters = {number.parameter}});
+  }
   add_contacts(result, caps);
   add_emg(result, caps);
   add_gates(gates, caps);

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "myoid/page/write_report.h"
+#include "myoid/program/commands/study_days.h"
 #include "myoid/results/exports/export_files.h"
-#include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_workbench.h"
 #include "myoid/run/run_study.h"
@@ -62,7 +62,7 @@ ReportResult report(const ReportOptions& o) {
                                        remarks.note(computed_again(run, store.has_value()));
                                      },
                                  .store = store});
-  results::add_days(result.study);
+  add_days(result.study);
   result.provenance.command = run.command.empty() ? o.call.command : run.command;
   result.provenance.inputs = result.study.source.files;
   result.provenance.options_json = study::study_json(result.study.source.study);

@@ -7,9 +7,9 @@
 
 #include "myoid/ground/files/result_record.h"
 #include "myoid/page/write_report.h"
+#include "myoid/program/commands/study_days.h"
 #include "myoid/results/exports/export_files.h"
 #include "myoid/results/result_files.h"
-#include "myoid/results/study_days.h"
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_workbench.h"
 #include "myoid/run/quality_gates.h"
@@ -105,7 +105,7 @@ RunResult run(const study::Study& study, const RunOptions& o) {
                                         .progress = o.call.progress,
                                         .stage_ended = o.call.stage_ended,
                                         .store = o.store});
-  results::add_days(result.study);
+  add_days(result.study);
   result.gates = run::quality_gates(result.study);
   result.provenance.command = o.call.command;
   result.provenance.inputs = result.study.source.files;

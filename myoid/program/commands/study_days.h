@@ -2,9 +2,9 @@
 
 #include "myoid/run/study_result.h"
 
-namespace myoid::results {
+namespace myoid::program {
 
 /// Writes into the result the day of today, and the days that the files of its trials state.
 void add_days(run::StudyResult& result);
 
-}  // namespace myoid::results
+}  // namespace myoid::program

@@ -1,4 +1,4 @@
-#include "myoid/results/study_days.h"
+#include "myoid/program/commands/study_days.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace myoid::results {
+namespace myoid::program {
 namespace {
 
 TEST(StudyDays, AreThoseThatTheFilesStateEachOnceInOrder) {
@@ -27,4 +27,4 @@ TEST(StudyDays, AreThoseThatTheFilesStateEachOnceInOrder) {
 }
 
 }  // namespace
-}  // namespace myoid::results
+}  // namespace myoid::program

@@ -1,4 +1,4 @@
-#include "myoid/results/study_days.h"
+#include "myoid/program/commands/study_days.h"
 
 #include <chrono>
 #include <set>
@@ -7,7 +7,7 @@
 #include "myoid/ground/core/day_text.h"
 #include "myoid/recording/recorded_day.h"
 
-namespace myoid::results {
+namespace myoid::program {
 
 void add_days(run::StudyResult& result) {
   using namespace std::chrono;
@@ -21,4 +21,4 @@ void add_days(run::StudyResult& result) {
   result.recorded.assign(recorded.begin(), recorded.end());
 }
 
-}  // namespace myoid::results
+}  // namespace myoid::program
