@@ -76,6 +76,7 @@ Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, C
       map_(data, options),
       runs_(trial_runs(data, options, map_)),
       given_(runs_.size()),
+      without_emg_(runs_.size()),
       columns_(runs_.size()),
       by_slope_(runs_.size()),
       recorded_(session != nullptr ? *session : fit::recorded(runs_, map_.held().muscles)) {
@@ -83,13 +84,9 @@ Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, C
     rows_ += run.measured_nm.size();
     if (trial_of_run_.empty() || run.trial != runs_[trial_of_run_.size() - 1].trial) ++trials_;
     trial_of_run_.push_back(trials_ - 1);
-    auto& noises = envelope_noise_.emplace_back();
-    for (std::size_t c = 0; c < run.errors.size(); ++c) {
-      const Eigen::VectorXd from_white = run.errors[c].from_white(run.interval_s);
-      auto of = std::ranges::find(noises, from_white, &NoiseOfChannels::from_white);
-      if (of == noises.end()) of = noises.insert(of, {from_white, EmgNoise(run.reduction, from_white)});
-      of->channels.push_back(static_cast<Eigen::Index>(c));
-    }
+    auto& of_channels = envelope_noise_.emplace_back();
+    for (const EnvelopeError& error : run.errors)
+      of_channels.emplace_back(run.reduction, error.from_white(run.interval_s));
   }
   if (session == nullptr) recorded_.told_by_motion = told_by_motion_alone(data).value_or(0.0);
   weigh_rows();
@@ -133,6 +130,7 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
     columns_[r] = reduction.apply(unseen_.columns[r]);
     by_slope_[r] = reduction.apply(unseen_.by_slope[r]);
     const Eigen::Index rows = runs_[r].measured_count(), m = reduction.outputs();
+    without_emg_[r] = envelope_covariance(r, at[r].signals(), NoiseValues::Zero(kNoiseFieldCount), true);
     given_[r].setZero(rows, rows);
     for (Eigen::Index i = 0; i < runs_[r].measured_m.size(); ++i)
       given_[r].diagonal()[runs_[r].measured_nm.size() + i] =
@@ -236,19 +234,19 @@ double Likelihood::torque_variance(std::size_t r, const NoiseValues& noise) cons
 
 Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
                                                 const TorqueSignals& signals,
-                                                const NoiseValues& noise) const {
+                                                const NoiseValues& noise,
+                                                bool without_emg) const {
   const Eigen::VectorXd scale = envelope_scale(runs_[r], noise);
   const Eigen::Index rows = runs_[r].measured_count(), n = runs_[r].time_s.size();
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, rows);
-  const Eigen::MatrixXd& d = signals.by_noise;
-  for (const NoiseOfChannels& of : envelope_noise_[r]) {
+  for (Eigen::Index c = 0; c < scale.size(); ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    if (runs_[r].parts[channel].empty() == without_emg) continue;
+    const auto d = signals.by_noise.col(c);
     add_noise(
-        runs_[r], of.noise,
+        runs_[r], envelope_noise_[r][channel],
         [&](const JointPair& pair) {
-          Eigen::VectorXd variance = Eigen::VectorXd::Zero(n);
-          for (const Eigen::Index c : of.channels)
-            variance += scale[c] * d.col(c).segment(pair.i, n).cwiseProduct(d.col(c).segment(pair.j, n));
-          return variance;
+          return Eigen::VectorXd(scale[c] * d.segment(pair.i, n).cwiseProduct(d.segment(pair.j, n)));
         },
         a);
   }
@@ -282,10 +280,10 @@ Eigen::MatrixXd Likelihood::turned_columns(std::size_t r, const AllRuns& all) co
 bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& noise, Block& block) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
-  Eigen::MatrixXd a = envelope_covariance(r, signals, noise);
+  Eigen::MatrixXd a = envelope_covariance(r, signals, noise, false);
   add_torque_error(run, torque_variance(r, noise), noise[kTorqueTime], a);
   add_fascicle_error(run, fascicle_variance(noise), a);
-  a += given_[r];
+  a += given_[r] + without_emg_[r];
   block.factor.compute(a);
   if (block.factor.info() != Eigen::Success) return false;
   const double weight = row_weight_[r], log_of_a = log_determinant(block.factor);
@@ -345,23 +343,21 @@ void Likelihood::pull_back(std::size_t r,
   TorqueSignals by{of_rows.head(run.row_count()),
                    Eigen::MatrixXd::Zero(signals.by_noise.rows(), signals.by_noise.cols()),
                    of_rows.tail(run.all_rows() - run.row_count())};
-  for (const NoiseOfChannels& of : envelope_noise_[r]) {
+  for (Eigen::Index c = 0; c < scale.size(); ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    if (!run.parts[channel].empty()) continue;
+    const auto d = signals.by_noise.col(c);
+    auto by_d = by.by_noise.col(c);
     for (const JointPair& pair : joint_pairs(run)) {
       // A_ij and its transpose A_ji share the factor D_i D_j; A_ii occurs once.
       const auto of_pair = by_a.block(pair.row_i, pair.row_j, m, m);
-      const Eigen::VectorXd by_product = of.noise.pull_back(
+      const Eigen::VectorXd by_product = envelope_noise_[r][channel].pull_back(
           pair.i == pair.j ? Eigen::MatrixXd(of_pair) : Eigen::MatrixXd(0.5 * (of_pair + of_pair.transpose())));
-      for (const Eigen::Index c : of.channels) {
-        const auto d = signals.by_noise.col(c);
-        auto by_d = by.by_noise.col(c);
-        by_d.segment(pair.i, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.j, n));
-        if (pair.i != pair.j) by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
-      }
+      by_d.segment(pair.i, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.j, n));
+      if (pair.i != pair.j) by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
     }
+    gradient.by_noise[kEmgFactor] += by_d.dot(d);
   }
-  for (Eigen::Index c = 0; c < scale.size(); ++c)
-    if (run.parts[static_cast<std::size_t>(c)].empty())
-      gradient.by_noise[kEmgFactor] += by.by_noise.col(c).dot(signals.by_noise.col(c));
 
   gradient.by_z.setZero(map_.size());
   block.evaluation->pull_back(by, gradient.by_z);

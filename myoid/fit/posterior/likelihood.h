@@ -39,7 +39,8 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// one block per run. S W^2 S', of the unseen quantities, couples all runs; Woodbury's identity includes it. K_c is L
 /// behind the filters of the envelope and the drive (EmgNoise). An activation without EMG is a channel with an error of
 /// its own, without kappa (UnseenActivation). Q and the size of S belong to reference values of the
-/// unknowns; in the quadratic form alone the columns that multiply F_max grow with it (Unseen::growth), because a
+/// unknowns, and so do the errors of activations without EMG: a determinant that followed would take their muscles
+/// out of action. In the quadratic form alone the columns that multiply F_max grow with it (Unseen::growth), because a
 /// determinant that followed would prefer muscles whose errors are small. The errors of angle and rate in Q are
 /// independent from sample to sample. The constant -n/2 ln(2 pi) is left out.
 ///
@@ -167,9 +168,11 @@ class Likelihood {
   [[nodiscard]] double torque_variance(std::size_t run, const NoiseValues& noise) const;
   /// Returns kappa^2 sd_c^2 of each channel, sd_c^2 of an activation without EMG.
   [[nodiscard]] static Eigen::VectorXd envelope_scale(const TrialRun& run, const NoiseValues& noise);
+  /// Returns the covariance by the channels with EMG, or by those without.
   [[nodiscard]] Eigen::MatrixXd envelope_covariance(std::size_t run,
                                                     const TorqueSignals& signals,
-                                                    const NoiseValues& noise) const;
+                                                    const NoiseValues& noise,
+                                                    bool without_emg) const;
   /// Returns the measured rows of the run without the model's; 0 where a fiber length is absent.
   [[nodiscard]] Eigen::VectorXd residual(std::size_t run, const TorqueSignals& signals) const;
   /// Returns lambda^2 sd^2 of measured fiber lengths.
@@ -213,15 +216,10 @@ class Likelihood {
   Columns columns_are_;
   ParameterMap map_;
   std::vector<TrialRun> runs_;
-  /// Channels of a run whose envelopes err behind one filter, as activations without EMG do.
-  struct NoiseOfChannels {
-    Eigen::VectorXd from_white;
-    EmgNoise noise;
-    std::vector<Eigen::Index> channels = {};
-  };
-  std::vector<std::vector<NoiseOfChannels>> envelope_noise_;  ///< Per run.
-  /// Per run: L Q L' and the least errors of torque and fiber lengths, which no unknown changes.
-  std::vector<Eigen::MatrixXd> given_;
+  std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.
+  /// Per run: L Q L' and the least errors of torque and fiber lengths, which no unknown changes, and the errors of
+  /// activations without EMG.
+  std::vector<Eigen::MatrixXd> given_, without_emg_;
   std::vector<Eigen::Index> trial_of_run_;  ///< Per run: its trial among the fitted trials.
   Eigen::Index trials_ = 0;
   std::vector<double> row_weight_;  ///< Per run.

@@ -136,9 +136,10 @@ WrittenRun written_run(const Likelihood& likelihood,
       const Eigen::ArrayXd arm = run.arm_m.col(k).segment(j * n, n);
       written.torque.segment(j * n, n).array() += arm * force.array();
       // The torque is proportional to the activation, and so to the envelope; of an activation without EMG the error
-      // does not grow with it, and shares its gain.
+      // does not grow with it, shares its gain, and belongs to the reference.
+      const Eigen::ArrayXd expected = written_force(run, muscle, reference.muscles[muscle], a(reference)).array();
       const Eigen::ArrayXd by_noise =
-          map.unseen_activation(c) ? Eigen::ArrayXd(arm * force.array() / u(values).array()) : arm * force.array();
+          map.unseen_activation(c) ? Eigen::ArrayXd(arm * expected / u(reference).array()) : arm * force.array();
       written.by_channel.col(static_cast<Eigen::Index>(c)).segment(j * n, n).array() += by_noise;
       for (Eigen::Index turned = 0; turned < joints; ++turned) {
         // dq moves a length by -r dq and a rate by -r dq'.

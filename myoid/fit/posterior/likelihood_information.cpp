@@ -21,7 +21,8 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z, const 
   const auto of = [&](Source source) -> Eigen::MatrixXd& { return result.by_source[static_cast<std::size_t>(source)]; };
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Eigen::MatrixXd k = blocks[r].whitening.transpose() * (white[r] - blocks[r].unseen_half * shared);
-    const Eigen::MatrixXd envelopes = envelope_covariance(r, blocks[r].evaluation->signals(), noise) / row_weight_[r];
+    const Eigen::MatrixXd envelopes =
+        (envelope_covariance(r, blocks[r].evaluation->signals(), noise, false) + without_emg_[r]) / row_weight_[r];
     const Eigen::MatrixXd a = blocks[r].factor.reconstructedMatrix();
     of(Source::electrodes) += k.transpose() * envelopes * k;
     of(Source::noise) += k.transpose() * (a - envelopes) * k;
