@@ -1,7 +1,9 @@
 #include "myoid/recording/tables/channel_labels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -183,34 +185,85 @@ std::optional<double> number_of_rate(std::string_view text, bool kilo) {
   return parse_number(std::string(text.substr(0, comma)) + std::string(text.substr(comma + 1)));
 }
 
+/// A word that speaks of a rate. One that need not be that of the samples counts only behind a word of `kRateOf`.
+struct RateWord {
+  std::string_view text;
+  bool of_samples = true;
+};
+
+constexpr std::array kRateWords{
+    RateWord{"sampling frequency"}, RateWord{"sampling rate"},  RateWord{"sample rate"},      RateWord{"samplerate"},
+    RateWord{"sample frequency"},   RateWord{"samplingrate"},   RateWord{"samplefrequentie"}, RateWord{"abtastrate"},
+    RateWord{"abtastfrequenz"},     RateWord{"chantillonnage"}, RateWord{"muestreo"},         RateWord{"campionamento"},
+    RateWord{"frequency", false},   RateWord{"rate", false},    RateWord{"fs", false}};
+
+/// Words before "rate" and "frequency" with which these may be the samples'. A heart rate, a baud rate and the
+/// frequency of a filter or of the mains are none.
+const std::set<std::string, std::less<>> kRateOf{
+    "",       "acquisition", "analog", "analogue", "base",   "camera",  "capture",   "channel", "collection",
+    "data",   "device",      "emg",    "export",   "file",   "force",   "frame",     "imu",     "input",
+    "logger", "logging",     "mean",   "mess",     "motion", "nominal", "output",    "plate",   "point",
+    "record", "recording",   "sample", "sampling", "scan",   "sensor",  "signal",    "the",     "time",
+    "trial",  "update",      "video",  "marker",   "frames", "average", "measuring", "signals", "measurement"};
+
+/// Returns the letters that end at `end`, or, where none stand there, the word before the blank.
+std::string_view word_before(std::string_view text, std::size_t end) {
+  const auto letters = [&] {
+    std::size_t begin = end;
+    while (begin > 0 && text[begin - 1] >= 'a' && text[begin - 1] <= 'z') --begin;
+    return text.substr(begin, end - begin);
+  };
+  if (const std::string_view attached = letters(); !attached.empty()) return attached;
+  while (end > 0 && (text[end - 1] == ' ' || text[end - 1] == '_' || text[end - 1] == '-')) --end;
+  return letters();
+}
+
+/// Reads the rate behind `begin`, where a word for a rate ends.
+std::optional<StatedRate> rate_behind(std::string_view text, std::size_t begin, bool of_samples) {
+  std::size_t i = begin;
+  std::string unit;
+  while (i < text.size() && (text[i] < '0' || text[i] > '9')) {
+    const std::string before = word_at(text, i);
+    if (!before.empty() && before != "hz" && before != "khz") break;
+    if (!before.empty()) unit = before;
+    i += std::max<std::size_t>(1, before.size());
+  }
+  std::size_t end = end_of_number(text, i);
+  const std::string_view digits = text.substr(i, end - i);
+  while (end < text.size() && std::string_view(" \t;[(").find(text[end]) != std::string_view::npos) ++end;
+  if (const std::string behind = word_at(text, end); !behind.empty()) unit = behind;
+  const auto number = number_of_rate(digits, unit == "khz");
+  if (!number) return std::nullopt;
+  for (const char* other : {"mhz", "ghz", "ms", "us", "ns", "bpm", "rpm"})
+    if (unit == other) return StatedRate{.hz = 0.0, .other_unit = unit, .of_samples = of_samples};
+  const double rate = unit == "khz" ? 1000.0 * *number : *number;
+  if (!(rate >= 1.0 && rate <= 1e6)) return std::nullopt;
+  return StatedRate{.hz = rate, .other_unit = {}, .of_samples = of_samples};
+}
+
 }  // namespace
 
 std::optional<StatedRate> rate_in_line(std::string_view line) {
   const std::string text = lower(line);
-  for (const char* word : {"sampling frequency", "sampling rate", "sample rate", "samplerate", "sample frequency",
-                           "samplingrate", "frequency", "rate", "fs"}) {
-    const std::size_t at = text.find(word);
-    if (at == std::string::npos) continue;
-    std::size_t i = at + std::string_view(word).size();
-    std::string unit;
-    while (i < text.size() && (text[i] < '0' || text[i] > '9')) {
-      const std::string before = word_at(text, i);
-      if (!before.empty() && before != "hz" && before != "khz") break;
-      if (!before.empty()) unit = before;
-      i += std::max<std::size_t>(1, before.size());
+  for (const RateWord& word : kRateWords) {
+    for (std::size_t at = text.find(word.text); at != std::string::npos; at = text.find(word.text, at + 1)) {
+      if (!word.of_samples && !kRateOf.contains(word_before(text, at))) continue;
+      if (const auto rate = rate_behind(text, at + word.text.size(), word.of_samples)) return rate;
     }
-    std::size_t end = end_of_number(text, i);
-    const std::string_view digits = std::string_view(text).substr(i, end - i);
-    while (end < text.size() && std::string_view(" \t;[(").find(text[end]) != std::string_view::npos) ++end;
-    if (const std::string behind = word_at(text, end); !behind.empty()) unit = behind;
-    const auto number = number_of_rate(digits, unit == "khz");
-    if (!number) continue;
-    if (unit == "mhz" || unit == "ghz" || unit == "ms" || unit == "us" || unit == "ns")
-      return StatedRate{.hz = 0.0, .other_unit = unit};
-    const double rate = unit == "khz" ? 1000.0 * *number : *number;
-    if (rate >= 1.0 && rate <= 1e6) return StatedRate{.hz = rate, .other_unit = {}};
   }
   return std::nullopt;
+}
+
+std::vector<StatedRate> rates_in_lines(std::span<const std::string_view> lines) {
+  std::vector<StatedRate> rates;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    auto rate = rate_in_line(lines[n]);
+    if (!rate) continue;
+    rate->line = n + 1;
+    if (rate->of_samples && !rates.empty() && !rates[0].of_samples) rates.clear();
+    if (rates.empty() || rate->of_samples == rates[0].of_samples) rates.push_back(*std::move(rate));
+  }
+  return rates;
 }
 
 std::vector<TableColumn> take_labels_apart(const std::vector<std::string>& texts) {

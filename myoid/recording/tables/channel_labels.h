@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,11 +32,17 @@ namespace myoid::recording {
 /// A rate that a line states.
 struct StatedRate {
   double hz = 0.0;
-  std::string other_unit;  ///< MHz, GHz or a time (ms, us, ns) in place of Hz and kHz; `hz` is 0 then.
+  std::string other_unit;   ///< MHz, GHz, bpm or a time (ms, us, ns) in place of Hz and kHz; `hz` is 0 then.
+  bool of_samples = false;  ///< The line speaks of samples ("sampling rate"), not only of a rate or frequency.
+  std::size_t line = 0;     ///< Counted from 1.
 };
 
-/// Finds the number behind a word that means a sampling rate, anywhere in a line. A number alone is in Hz.
+/// Finds the number behind a word that means a sampling rate, anywhere in a line. A number alone is in Hz. "Heart rate"
+/// and "cut-off frequency" are none.
 [[nodiscard]] std::optional<StatedRate> rate_in_line(std::string_view line);
+
+/// Returns the rates that the lines state: those of samples, else all.
+[[nodiscard]] std::vector<StatedRate> rates_in_lines(std::span<const std::string_view> lines);
 
 /// Returns the column of the clock by its name ("time", "Zeit", "timestamp", "t") and its unit, a time or none. A
 /// column called just "t" or "T" may be a trigger or a torque: it is the clock where no other column is.

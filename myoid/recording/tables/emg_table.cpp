@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,6 +63,11 @@ std::optional<TableColumn> label_line(std::string_view line) {
   const auto words = split_words(line.substr(unit + 5));
   if (!words.empty()) column.unit = parse_file_unit(words[0]);
   return column;
+}
+
+/// Returns true where all lines state one rate.
+bool are_one(const std::vector<StatedRate>& rates) {
+  return std::ranges::all_of(rates, [&](const StatedRate& rate) { return rate.hz == rates[0].hz; });
 }
 
 /// Returns cell `c` of a line.
@@ -261,16 +267,13 @@ class TableFinder {
   /// Reads the statements about channels and table in the lines above the names.
   void read_head() {
     std::map<std::string, std::optional<ScaledUnit>> known;
-    std::optional<double> rate;
-    bool in_hz = true;
+    std::vector<std::string_view> others;
     for (std::size_t n = 0; n < layout_.names_line; ++n) {
-      if (const auto label = label_line(text_.lines[n])) {
-        known[label->name] = label->unit;
-      } else if (const auto stated = rate ? std::nullopt : rate_in_line(text_.lines[n])) {
-        in_hz = stated->other_unit.empty();
-        if (in_hz) rate = stated->hz;
-      }
+      const auto label = label_line(text_.lines[n]);
+      if (label) known[label->name] = label->unit;
+      if (!label) others.push_back(text_.lines[n]);
     }
+    const std::vector<StatedRate> rates = rates_in_lines(others);
     const std::size_t end = layout_.names_line;
     const char separator = layout_.separator;
     const auto unit = unit_in_cell(stated_text(text_, end, separator, "measure unit"));
@@ -279,8 +282,12 @@ class TableFinder {
       const auto it = known.find(column.name);
       column.unit = it != known.end() ? it->second : unit;
     }
-    if (!rate && in_hz) rate = stated_number(text_, end, separator, {"frequency", "sampling rate"});
-    layout_.rate_hz = rate && *rate > 0.0 && *rate <= 1e6 ? *rate : 0.0;
+    if (rates.empty()) {
+      const double rate = stated_number(text_, end, separator, {"frequency", "sampling rate"}).value_or(0.0);
+      layout_.rate_hz = rate > 0.0 && rate <= 1e6 ? rate : 0.0;
+    } else if (are_one(rates)) {
+      layout_.rate_hz = rates[0].hz;
+    }
     layout_.rows_said = stated_number(text_, end, separator, {"count", "number of samples"});
     layout_.length_s = stated_number(text_, end, separator, {"collection length (seconds)"});
     if (layout_.count(Kind::time) == 0 && layout_.rate_hz > 0.0)
@@ -329,15 +336,19 @@ void refuse_two_commas(const TableText& text, const TableLayout& layout, const s
                               2 * names, names));
 }
 
-/// Throws ReadError where the table has no clock and the only stated rate is not in Hz or kHz.
+/// Throws ReadError where the table has no clock and the header states no rate in Hz or kHz, or several.
 void refuse_other_rates(const TableText& text, const TableLayout& layout, const std::filesystem::path& path) {
   if (layout.count(Kind::time) > 0 || layout.rate_hz > 0.0) return;
-  for (std::size_t n = 0; n < layout.names_line; ++n) {
-    const auto stated = rate_in_line(text.lines[n]);
-    if (stated && !stated->other_unit.empty())
-      throw ReadError(path, n + 1, "found a sampling rate in '{}', expected Hz or kHz; write it so",
-                      stated->other_unit);
-  }
+  const auto rates = rates_in_lines(std::span(text.lines).first(layout.names_line));
+  if (rates.empty()) return;
+  if (!rates[0].other_unit.empty())
+    throw ReadError(path, rates[0].line, "found a sampling rate in '{}', expected Hz or kHz; write it so",
+                    rates[0].other_unit);
+  for (const StatedRate& other : rates)
+    if (other.hz != rates[0].hz)
+      throw ReadError(path, other.line,
+                      "this line states {} Hz and line {} {} Hz: which is the rate of the rows? Delete the other line",
+                      other.hz, rates[0].line, rates[0].hz);
 }
 
 }  // namespace

@@ -145,6 +145,27 @@ TEST(EmgTable, ARateInAnotherUnitIsRefusedWhereItIsTheOnlyClock) {
   EXPECT_EQ(timed.data.time_s()[1], 0.005);
 }
 
+TEST(EmgTable, OnlyTheRateOfTheSamplesIsTheClock) {
+  const std::string body = "VL [uV],BF [uV]\n1,2\n3,4\n5,6\n";
+  for (const std::string other :
+       {"Heart rate: 72", "High pass frequency: 20 Hz", "Cut-off frequency (Hz): 450", "Mains frequency,50,Hz",
+        "Frame rate: 100 Hz", "Baud rate: 9600", "Rate of perceived exertion: 13"}) {
+    const CsvSeries s = parse_emg_table(other + "\nSampling rate: 1000 Hz\n" + body, "a.csv");
+    EXPECT_DOUBLE_EQ(s.data.time_s()[2], 0.002) << other;
+    if (other.starts_with("Frame")) continue;
+    EXPECT_THROW((void)parse_emg_table(other + "\n" + body, "a.csv"), ReadError) << other;
+  }
+  EXPECT_DOUBLE_EQ(parse_emg_table("OutputRate:,60Hz\n" + body, "a.csv").data.time_s()[2], 2.0 / 60.0);
+  EXPECT_DOUBLE_EQ(parse_emg_table("Frequence d'echantillonnage : 500 Hz\n" + body, "a.csv").data.time_s()[2], 0.004);
+  // Two rates of which either may be that of the rows.
+  try {
+    (void)parse_emg_table("Frame rate: 100 Hz\nEMG rate: 2000 Hz\n" + body, "a.csv");
+    ADD_FAILURE();
+  } catch (const ReadError& error) {
+    EXPECT_EQ(error.line(), 2U);
+  }
+}
+
 // Shimmer writes a line for spreadsheets, a row of units, and milliseconds since 1970 under a name of many words.
 TEST(EmgTable, AWordTimestampWithinANameIsTheClock) {
   for (const std::string sep : {"\"sep=,\"\n", ""}) {
