@@ -17,53 +17,7 @@ struct Word {
 constexpr std::array kWords = {
     Word{"nt", {Unit::newton, 1.0}},
     Word{"newton", {Unit::newton, 1.0}},
-    Word{"ntm", {Unit::newton_meter, 1.0}},
-    Word{"ntmm", {Unit::newton_meter, 1e-3}},
-    Word{"nm", {Unit::newton_meter, 1.0}},
-    Word{"nmm", {Unit::newton_meter, 1e-3}},
-    Word{"n-m", {Unit::newton_meter, 1.0}},
-    Word{"n-mm", {Unit::newton_meter, 1e-3}},
-    Word{"n*m", {Unit::newton_meter, 1.0}},
-    Word{"n*mm", {Unit::newton_meter, 1e-3}},
-    Word{"n.m", {Unit::newton_meter, 1.0}},
-    Word{"newton-meters", {Unit::newton_meter, 1.0}},
-    Word{"ft-lb", {Unit::newton_meter, kFootPound}},
-    Word{"ft-lbs", {Unit::newton_meter, kFootPound}},
-    Word{"ft.lbs", {Unit::newton_meter, kFootPound}},
-    Word{"ftlbs", {Unit::newton_meter, kFootPound}},
-    Word{"ft*lbf", {Unit::newton_meter, kFootPound}},
-    Word{"in-lb", {Unit::newton_meter, kFootPound / 12.0}},
-    Word{"in-lbs", {Unit::newton_meter, kFootPound / 12.0}},
     Word{"n/m", {Unit::newton_per_meter, 1.0}},
-    Word{"ncm", {Unit::newton_meter, 1e-2}},
-    Word{"n-cm", {Unit::newton_meter, 1e-2}},
-    Word{"n*cm", {Unit::newton_meter, 1e-2}},
-    Word{"n.cm", {Unit::newton_meter, 1e-2}},
-    Word{"n·cm", {Unit::newton_meter, 1e-2}},
-    Word{"n·mm", {Unit::newton_meter, 1e-3}},
-    Word{"n·m", {Unit::newton_meter, 1.0}},
-    Word{"n\u22c5m", {Unit::newton_meter, 1.0}},    // dot operator
-    Word{"n\u22c5mm", {Unit::newton_meter, 1e-3}},  // dot operator
-    Word{"n.mm", {Unit::newton_meter, 1e-3}},
-    Word{"n_m", {Unit::newton_meter, 1.0}},
-    Word{"newtonmeter", {Unit::newton_meter, 1.0}},
-    Word{"newtonmeters", {Unit::newton_meter, 1.0}},
-    Word{"newtonmetres", {Unit::newton_meter, 1.0}},
-    Word{"mnm", {Unit::newton_meter, 1e-3}},
-    Word{"knm", {Unit::newton_meter, 1e3}},
-    Word{"kn-m", {Unit::newton_meter, 1e3}},
-    Word{"kn*m", {Unit::newton_meter, 1e3}},
-    Word{"kn.m", {Unit::newton_meter, 1e3}},
-    Word{"lb-ft", {Unit::newton_meter, kFootPound}},
-    Word{"lbft", {Unit::newton_meter, kFootPound}},
-    Word{"lbf-ft", {Unit::newton_meter, kFootPound}},
-    Word{"lbf*ft", {Unit::newton_meter, kFootPound}},
-    Word{"ftlb", {Unit::newton_meter, kFootPound}},
-    Word{"lb-in", {Unit::newton_meter, kFootPound / 12.0}},
-    Word{"inlb", {Unit::newton_meter, kFootPound / 12.0}},
-    Word{"kgfm", {Unit::newton_meter, kStandardGravity}},
-    Word{"kgf*m", {Unit::newton_meter, kStandardGravity}},
-    Word{"kpm", {Unit::newton_meter, kStandardGravity}},
     Word{"mrad", {Unit::radian, 1e-3}},
     Word{"degs", {Unit::radian, kDegree}},
     Word{"g", {Unit::meter_per_second2, kStandardGravity}},
@@ -91,6 +45,61 @@ constexpr std::array kWords = {
     Word{"secs", {Unit::second, 1.0}},
     Word{"inches", {Unit::meter, 0.0254}},
     Word{"inch", {Unit::meter, 0.0254}},
+    Word{"deg.", {Unit::radian, kDegree}},
+    Word{"º", {Unit::radian, kDegree}},  // the ordinal of Spanish and Portuguese keyboards
+    Word{"º/s", {Unit::radian_per_second, kDegree}},
+    Word{"°/sec", {Unit::radian_per_second, kDegree}},
+    Word{"degs-1", {Unit::radian_per_second, kDegree}},
+    Word{"°s-1", {Unit::radian_per_second, kDegree}},
+    Word{"degree/s", {Unit::radian_per_second, kDegree}},
+    Word{"degree/second", {Unit::radian_per_second, kDegree}},
+    Word{"degrees/second", {Unit::radian_per_second, kDegree}},
+    Word{"rpm", {Unit::radian_per_second, 6.0 * kDegree}},
+    Word{"mvolt", {Unit::volt, 1e-3}},
+    Word{"mvolts", {Unit::volt, 1e-3}},
+    Word{"uvolt", {Unit::volt, 1e-6}},
+    Word{"uvolts", {Unit::volt, 1e-6}},
+    Word{"us", {Unit::second, 1e-6}},
+    Word{"µs", {Unit::second, 1e-6}},  // micro sign
+    Word{"μs", {Unit::second, 1e-6}},  // Greek mu
+    Word{"usec", {Unit::second, 1e-6}},
+    Word{"microseconds", {Unit::second, 1e-6}},
+    Word{"milliseconds", {Unit::second, 1e-3}},
+    Word{"um", {Unit::meter, 1e-6}},
+    Word{"µm", {Unit::meter, 1e-6}},
+};
+
+/// Words of a torque without the marks between their parts: "N-m", "N.m" and "N·m" are "nm".
+constexpr std::array kTorqueWords = {
+    Word{"nm", {Unit::newton_meter, 1.0}},
+    Word{"ntm", {Unit::newton_meter, 1.0}},
+    Word{"newtonmeter", {Unit::newton_meter, 1.0}},
+    Word{"newtonmeters", {Unit::newton_meter, 1.0}},
+    Word{"newtonmetres", {Unit::newton_meter, 1.0}},
+    Word{"nmm", {Unit::newton_meter, 1e-3}},
+    Word{"ntmm", {Unit::newton_meter, 1e-3}},
+    Word{"mnm", {Unit::newton_meter, 1e-3}},
+    Word{"ncm", {Unit::newton_meter, 1e-2}},
+    Word{"knm", {Unit::newton_meter, 1e3}},
+    Word{"ftlb", {Unit::newton_meter, kFootPound}},
+    Word{"ftlbs", {Unit::newton_meter, kFootPound}},
+    Word{"ftlbf", {Unit::newton_meter, kFootPound}},
+    Word{"lbft", {Unit::newton_meter, kFootPound}},
+    Word{"lbsft", {Unit::newton_meter, kFootPound}},
+    Word{"lbfft", {Unit::newton_meter, kFootPound}},
+    Word{"footlbs", {Unit::newton_meter, kFootPound}},
+    Word{"footpound", {Unit::newton_meter, kFootPound}},
+    Word{"footpounds", {Unit::newton_meter, kFootPound}},
+    Word{"inlb", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"inlbs", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"inlbf", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"lbin", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"lbfin", {Unit::newton_meter, kFootPound / 12.0}},
+    Word{"kgm", {Unit::newton_meter, kStandardGravity}},
+    Word{"kgfm", {Unit::newton_meter, kStandardGravity}},
+    Word{"kpm", {Unit::newton_meter, kStandardGravity}},
+    Word{"kgcm", {Unit::newton_meter, 1e-2 * kStandardGravity}},
+    Word{"kgfcm", {Unit::newton_meter, 1e-2 * kStandardGravity}},
 };
 
 }  // namespace
@@ -126,6 +135,13 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
     if (entry.text == word) return entry.unit;
   }
   const std::string clean = to_utf8(text.substr(0, text.find('\0')));
+  std::string parts = to_utf8(word);
+  for (const std::string_view mark : {"-", "*", ".", "_", "·", "\u22c5"})  // the last one is the dot operator
+    for (std::size_t at = parts.find(mark); at != std::string::npos; at = parts.find(mark))
+      parts.erase(at, mark.size());
+  for (const Word& entry : kTorqueWords) {
+    if (entry.text == parts) return entry.unit;
+  }
   if (const auto unit = parse_unit(clean)) return unit;
   return parse_unit(word == "n" ? "N" : word);
 }

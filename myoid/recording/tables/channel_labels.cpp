@@ -30,6 +30,34 @@ bool is_time_of_channel(const TableColumn& column) {
   return in_seconds(column) && (name == "x" || name.ends_with("time series"));
 }
 
+bool names_clock(std::string_view text);
+
+/// Returns the unit behind the last underscore of a name: "time_ms", "EMG_BIC_mV". Words that end the names of muscles
+/// ("flexor_carpi_rad", "vas_m") are none.
+std::optional<ScaledUnit> unit_behind_bar(std::string_view name) {
+  static const std::set<std::string, std::less<>> kWords{"mv", "uv",  "µv",   "nm", "deg", "mm",
+                                                         "s",  "sec", "msec", "ms", "us",  "usec"};
+  const std::size_t bar = name.rfind('_');
+  if (bar == std::string_view::npos || bar == 0 || !kWords.contains(lower(name.substr(bar + 1)))) return std::nullopt;
+  const auto unit = parse_file_unit(name.substr(bar + 1));
+  return unit && (unit->unit != Unit::second || names_clock(name.substr(0, bar))) ? unit : std::nullopt;
+}
+
+/// Returns the column of a label whose unit stands behind a comma, a slash, or the word "in": "EMG, mV", "EMG/mV",
+/// "EMG in mV". "Moment Nm/kg" and "m/s" are none.
+std::optional<TableColumn> unit_behind_mark(std::string_view text) {
+  for (const std::string_view mark : {",", "/", " in "}) {
+    const std::size_t at = mark == "," ? text.rfind(mark) : text.find(mark);
+    if (at == std::string_view::npos || at == 0) continue;
+    const auto unit = parse_file_unit(text.substr(at + mark.size()));
+    const std::string_view name = trim(text.substr(0, at));
+    const auto words = split_words(name);
+    if (unit && !words.empty() && !(mark == "/" && parse_file_unit(words.back())))
+      return TableColumn{Kind::channel, std::string(name), unit};
+  }
+  return std::nullopt;
+}
+
 /// Returns true if a word of the name is "timestamp": "Shimmer_68B7_Timestamp_Unix_CAL".
 bool speaks_of_timestamp(const std::string& name) {
   const std::string_view word = "timestamp";
@@ -41,12 +69,14 @@ bool speaks_of_timestamp(const std::string& name) {
   return false;
 }
 
-/// Returns true for the name of a clock.
+/// Returns true for the name of a clock; a unit of time may stand behind it ("time_ms").
 bool names_clock(std::string_view text) {
-  static const std::set<std::string> kWords{"time", "t",     "times",  "time_s",      "time_ms", "time stamp",
-                                            "zeit", "temps", "tiempo", "time series", "abs time"};
+  static const std::set<std::string> kWords{"time",  "t",      "times",       "time stamp", "zeit",
+                                            "temps", "tiempo", "time series", "abs time"};
   const std::string name = lower(trim(text));
-  return kWords.contains(name) || speaks_of_timestamp(name);
+  if (kWords.contains(name) || speaks_of_timestamp(name)) return true;
+  const std::size_t bar = name.rfind('_');
+  return bar != std::string::npos && unit_behind_bar(name) && kWords.contains(name.substr(0, bar));
 }
 
 /// Returns true for the name of a clock in seconds or in a stated unit of time.
@@ -142,17 +172,14 @@ TableColumn take_label_apart(const std::string& text) {
     if (!rate && equal_ignoring_case(inside, "min") && names_clock(column.name.substr(0, begin)))
       unit = ScaledUnit{Unit::second, 60.0};
     if (!rate && !unit) continue;
+    if (column.unit && unit && unit->unit == Unit::dimensionless) continue;  // "IN 1(2)[mV]": an index
     if (rate) column.rate_hz = packet_rate(*rate);
     if (unit) column.unit = unit;
     column.name = std::string(trim(column.name.substr(0, begin)));
   }
   if (column.unit || column.rate_hz > 0.0) return column;
-  if (const std::size_t comma = text.rfind(','); comma != std::string::npos && comma > 0) {
-    if (const auto unit = parse_file_unit(std::string_view(text).substr(comma + 1))) {
-      column.name = std::string(trim(text.substr(0, comma)));
-      column.unit = unit;
-    }
-  }
+  if (auto marked = unit_behind_mark(text)) return *std::move(marked);
+  column.unit = unit_behind_bar(text);
   return column;
 }
 
@@ -304,13 +331,9 @@ void set_kinds(TableLayout& layout) {
       if (is_time(column)) others.push_back(column.name);
     }
   }
-  if (!plain && !of_channels && !columns.empty() && time_unit_as_name(columns[0])) {
-    columns[0].unit = time_unit_as_name(columns[0]);
-    columns[0].kind = Kind::time;
-  }
-  for (TableColumn& column : columns) {
-    const std::string name = lower(column.name);
-    if (!column.unit && (name == "time_ms" || name == "timestamp_ms")) column.unit = parse_unit("ms");
+  if (!plain && !of_channels && !columns.empty()) {
+    if (const auto unit = time_unit_as_name(columns[0])) columns[0].unit = unit;
+    if (in_seconds(columns[0])) columns[0].kind = Kind::time;  // "Elapsed Time (s)"
   }
   if (!others.empty())
     layout.repairs.push_back(

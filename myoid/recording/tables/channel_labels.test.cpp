@@ -1,6 +1,8 @@
 #include "myoid/recording/tables/channel_labels.h"
 
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -85,6 +87,55 @@ TEST(ChannelLabels, AUnitMeansTheSameInEveryTable) {
     EXPECT_EQ(s.data.channels()[0].unit, Unit::meter_per_second2);
     EXPECT_DOUBLE_EQ(s.data.values()(0, 0), 9.80665);
     EXPECT_DOUBLE_EQ(s.data.values()(0, 1), 2 * 9.80665);
+  }
+}
+
+TEST(ChannelLabels, UnitsOfOtherCountriesAndMachinesAreRead) {
+  constexpr double kFootPound_nm = 1.3558179483314004;  // foot (0.3048 m) times pound-force (4.4482216152605 N)
+  for (const auto& [symbol, unit, to_si] :
+       {std::tuple("us", Unit::second, 1e-6), std::tuple("µs", Unit::second, 1e-6),
+        std::tuple("milliseconds", Unit::second, 1e-3), std::tuple("º", Unit::radian, kDegree),
+        std::tuple("Deg.", Unit::radian, kDegree), std::tuple("°/sec", Unit::radian_per_second, kDegree),
+        std::tuple("deg s-1", Unit::radian_per_second, kDegree),
+        std::tuple("rpm", Unit::radian_per_second, 6 * kDegree), std::tuple("KG-M", Unit::newton_meter, 9.80665),
+        std::tuple("kg·cm", Unit::newton_meter, 0.0980665), std::tuple("lb·ft", Unit::newton_meter, kFootPound_nm),
+        std::tuple("ft-lbf", Unit::newton_meter, kFootPound_nm),
+        std::tuple("foot-pounds", Unit::newton_meter, kFootPound_nm), std::tuple("kp·m", Unit::newton_meter, 9.80665),
+        std::tuple("mVolt", Unit::volt, 1e-3), std::tuple("uVolts", Unit::volt, 1e-6),
+        std::tuple("um", Unit::meter, 1e-6)}) {
+    const auto read = unit_in_cell(symbol);
+    ASSERT_TRUE(read) << symbol;
+    EXPECT_EQ(read->unit, unit) << symbol;
+    EXPECT_NEAR(read->to_si, to_si, 1e-12 * to_si) << symbol;
+  }
+}
+
+TEST(ChannelLabels, AUnitStandsBehindASlashAWordOrAnUnderscoreToo) {
+  const CsvSeries s = table({"Zeit in ms", "EMG/mV", "Torque/Nm", "Angle in deg", "Fz_uV", "Moment Nm/kg", "V/s"});
+  EXPECT_THAT(names_of(s), ElementsAre("EMG", "Torque", "Angle", "Fz_uV", "Moment Nm/kg", "V/s"));
+  EXPECT_DOUBLE_EQ(s.data.time_s()[2], 0.25e-3);
+  EXPECT_EQ(s.data.channels()[1].unit, Unit::newton_meter);
+  EXPECT_DOUBLE_EQ(s.data.values()(0, 2), 3 * kDegree);
+  EXPECT_DOUBLE_EQ(s.data.values()(0, 3), 4e-6);
+  EXPECT_EQ(s.has_unit, (std::vector<bool>{true, true, true, true, false, false}));
+  // Names of muscles that end as a unit does.
+  const CsvSeries muscles = table({"time", "flexor_carpi_rad", "vas_m", "GAS_l", "L/R"});
+  EXPECT_EQ(muscles.has_unit, std::vector<bool>(4, false));
+}
+
+TEST(ChannelLabels, AnIndexBesideAUnitLeavesTheUnit) {
+  const CsvSeries s = table({"Time", "MULTI-IN 1(1)[mV]", "MULTI-IN 1(2)[mV]"});
+  EXPECT_THAT(names_of(s), ElementsAre("MULTI-IN 1(1)", "MULTI-IN 1(2)"));
+  EXPECT_DOUBLE_EQ(s.data.values()(0, 0), 1e-3);
+}
+
+TEST(ChannelLabels, AFirstColumnInAUnitOfTimeIsTheClock) {
+  for (const auto& [name, to_s] :
+       {std::pair("Elapsed Time (s)", 1.0), std::pair("Time (milliseconds)", 1e-3), std::pair("Timestamp [us]", 1e-6),
+        std::pair("Time/s", 1.0), std::pair("t_ms", 1e-3), std::pair("time_sec", 1.0), std::pair("Time [min]", 60.0)}) {
+    const CsvSeries s = table({name, "EMG [mV]"});
+    EXPECT_THAT(names_of(s), ElementsAre("EMG")) << name;
+    EXPECT_DOUBLE_EQ(s.data.time_s()[2], 0.25 * to_s) << name;
   }
 }
 

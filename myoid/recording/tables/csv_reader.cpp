@@ -107,7 +107,6 @@ TableLayout plain_layout(const TableText& text, const std::filesystem::path& pat
   if (time->unit && time->unit->unit != Unit::second)
     throw ReadError(path, head.line + 1,
                     fmt::format("column '{}': time is in s or ms", head.names[at(time - layout.columns.begin())]));
-  if (!time->unit && equal_ignoring_case(time->name, "time_ms")) time->unit = parse_unit("ms");
   time->kind = Kind::time;
   leave_out_texts_and_counts(text, layout);
   return layout;
