@@ -12,6 +12,7 @@
 #include "myoid/ground/core/index.h"
 #include "myoid/recording/tables/blank_columns.h"
 #include "myoid/recording/tables/channel_labels.h"
+#include "myoid/recording/tables/written_time.h"
 
 namespace myoid::recording {
 namespace {

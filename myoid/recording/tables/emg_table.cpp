@@ -20,6 +20,7 @@
 #include "myoid/recording/tables/channel_labels.h"
 #include "myoid/recording/tables/channel_layouts.h"
 #include "myoid/recording/tables/discover_events.h"
+#include "myoid/recording/tables/written_time.h"
 
 namespace myoid::recording {
 namespace {

@@ -145,29 +145,83 @@ class RowClock {
                                                         name_of(first_hole - 1), name_of(first_hole))});
   }
 
+  /// A unit of time that a column does not state.
+  struct OtherUnit {
+    double to_s;
+    const char* symbol;
+  };
+
+  /// Finds the unit of a column without one: by its digits, by the stated rate, or because it would tick too fast.
+  [[nodiscard]] std::optional<OtherUnit> unit_of(const Eigen::VectorXd& time) const {
+    // Seconds since 1970 have ten digits; a clock with three, six or nine more counts ms, us or ns.
+    if (time[0] >= 1e17) return OtherUnit{1e-9, "ns since 1970"};
+    if (time[0] >= 1e14) return OtherUnit{1e-6, "us since 1970"};
+    if (time[0] >= 1e11) return OtherUnit{1e-3, "ms since 1970"};
+    const double rate = mean_rate(time);
+    if (numbers_.day_times || !(rate > 0.0)) return std::nullopt;
+    constexpr double kSame = 0.02;
+    const double times = layout_.rate_hz / rate;
+    if (std::abs(times - 1e3) < kSame * 1e3) return OtherUnit{1e-3, "ms, which the stated rate says"};
+    if (std::abs(times - 1e6) < kSame * 1e6) return OtherUnit{1e-6, "us, which the stated rate says"};
+    constexpr double kFastest_hz = 1e6;
+    constexpr double kMostDays = 1e5;  // since 1900
+    if (rate > kFastest_hz && time[0] < kMostDays) return OtherUnit{86400.0, "days, as a spreadsheet writes times"};
+    return std::nullopt;
+  }
+
+  [[nodiscard]] static double mean_rate(const Eigen::VectorXd& time) {
+    const Eigen::Index last = time.size() - 1;
+    return last < 1 ? 0.0 : static_cast<double>(last) / (time[last] - time[0]);
+  }
+
+  /// Notes that a column without a unit may count ms.
+  void state_slow_rows(const Eigen::VectorXd& time, const std::string& name) {
+    constexpr double kSlowest_hz = 2.0;
+    constexpr Eigen::Index kFewest = 10;
+    const double rate = mean_rate(time);
+    if (numbers_.day_times || layout_.rate_hz > 0.0 || time.size() < kFewest || rate > kSlowest_hz) return;
+    const double length = time[time.size() - 1] - time[0];
+    repairs_.push_back({.line = line(0),
+                        .message = fmt::format("'{}' is read in s: {:.4g} s lie between rows; if it counts ms, name it "
+                                               "'time_ms'",
+                                               name, 1.0 / rate),
+                        .apart_s = length - 1e-3 * length});
+  }
+
+  void require_increase(const Eigen::VectorXd& time) const {
+    for (Eigen::Index i = 0; i < time.size(); ++i) {
+      if (!std::isfinite(time[i])) throw ReadError(path_, line(i), "the time is missing");
+      if (i == 0 || time[i] > time[i - 1]) continue;
+      throw ReadError(path_, line(i),
+                      fmt::format("time does not increase: {} s after {} s{}", time[i], time[i - 1],
+                                  time[i] == time[i - 1] ? "; export it with more decimals, or write a line 'Sampling "
+                                                           "rate: 2000 Hz' above the names"
+                                                         : "; split the file where the times begin anew"));
+    }
+  }
+
   [[nodiscard]] Eigen::VectorXd of_time_column() {
     const TableColumn& column = first_of(layout_, Kind::time);
     Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * numbers_.clock.col(*time_);
-    // Seconds since 1970 have ten digits; a clock with three, six or nine more counts ms, us or ns.
-    struct Fraction {
-      double least, to_s;
-      const char* symbol;
-    };
-    for (const Fraction& of : {Fraction{1e17, 1e-9, "ns"}, {1e14, 1e-6, "us"}, {1e11, 1e-3, "ms"}}) {
-      if (column.unit || !(time[0] >= of.least)) continue;
-      time *= of.to_s;
-      repairs_.push_back({line(0), fmt::format("'{}' is read as {} since 1970", column.name, of.symbol)});
-      break;
+    const auto other = column.unit ? std::nullopt : unit_of(time);
+    if (other) {
+      time *= other->to_s;
+      repairs_.push_back({line(0), fmt::format("'{}' is read as {}", column.name, other->symbol)});
     }
     if (!layout_.blocks.empty())
       for (Eigen::Index i = 0; i < time.size(); ++i) time[i] += layout_.blocks[block_of(i)].begin_s;
-    for (Eigen::Index i = 0; i < time.size(); ++i) {
-      if (!std::isfinite(time[i])) throw ReadError(path_, line(i), "the time is missing");
-      if (i > 0 && time[i] <= time[i - 1])
-        throw ReadError(path_, line(i), fmt::format("time does not increase: {} s after {} s", time[i], time[i - 1]));
+    if (auto even = frame_ ? std::nullopt : even_times(time, layout_.rate_hz)) {
+      Eigen::Index twice = 1;
+      while (time[twice] > time[twice - 1]) ++twice;
+      repairs_.push_back({line(twice), fmt::format("'{}' is rounded, so that rows share times: the rows are taken as "
+                                                   "even, {:.6g} Hz",
+                                                   column.name, mean_rate(*even))});
+      return *std::move(even);
     }
+    require_increase(time);
     const Eigen::Index last = time.size() - 1;
     if (last < 1 || layout_.blocks.size() > 1) return time;
+    if (!column.unit) state_slow_rows(time, column.name);
     if (!frame_) state_uneven_step(time, numbers_.lines, column.name, repairs_);
     const double steps = frame_ ? place(last, per_frame()) - place(0, per_frame()) : static_cast<double>(last);
     const double rate = steps / (time[last] - time[0]);
@@ -233,6 +287,28 @@ class RowClock {
 };
 
 }  // namespace
+
+std::optional<Eigen::VectorXd> even_times(const Eigen::VectorXd& rounded_s, double stated_rate_hz) {
+  const Eigen::Index steps = rounded_s.size() - 1;
+  if (steps < 2 || !rounded_s.allFinite()) return std::nullopt;
+  const Eigen::ArrayXd step = rounded_s.tail(steps) - rounded_s.head(steps);
+  const double equal = static_cast<double>((step == 0.0).count());
+  const double length = rounded_s[steps] - rounded_s[0];
+  if (equal == 0.0 || !(length > 0.0) || !(step >= 0.0).all()) return std::nullopt;
+  const double tick = (step > 0.0).select(step, length).minCoeff();
+  constexpr double kShareOfLength = 0.002;
+  constexpr double kShareOfRows = 0.02;
+  const bool told = tick <= kShareOfLength * length && equal >= kShareOfRows * static_cast<double>(steps);
+  if (!(stated_rate_hz > 0.0) && !told) return std::nullopt;
+  const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(steps + 1, 0.0, static_cast<double>(steps));
+  const Eigen::ArrayXd from_middle = place - place.mean();
+  const double interval = stated_rate_hz > 0.0 ? 1.0 / stated_rate_hz
+                                               : (from_middle * rounded_s.array()).sum() / from_middle.square().sum();
+  const Eigen::ArrayXd off = rounded_s.array() - interval * place;
+  constexpr double kRoundOff = 1.01;
+  if (interval >= tick || off.maxCoeff() - off.minCoeff() > kRoundOff * tick) return std::nullopt;
+  return (interval * place + 0.5 * (off.maxCoeff() + off.minCoeff())).matrix();
+}
 
 double last_decimal(const Eigen::VectorXd& time_s) {
   constexpr double kFinest = 1e-9;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -21,10 +22,19 @@ namespace myoid::recording {
 /// rows missing between two frames or sub-frames, and a stated rate that the times contradict. Throws ReadError with
 /// the line where a row is repeated or goes back, where a frame is no whole number, where the rates contradict the
 /// sub-frames, and where there is no clock.
+///
+/// A time column without a unit counts s. It counts ms or us where the stated rate says so, ms, us or ns since 1970 by
+/// its digits, and days, as in a spreadsheet, where it would tick faster than 1 MHz. Each is noted, and that rows which
+/// lie half a second or more apart may be ms. Times that rounding made equal are replaced (`even_times`).
 [[nodiscard]] Eigen::VectorXd row_times(const TableLayout& layout,
                                         const TableNumbers& numbers,
                                         const std::filesystem::path& path,
                                         std::vector<Repair>& repairs);
+
+/// Returns even times [s] in place of times that rounding made equal, at the stated rate, else at the rate of the times
+/// themselves. Empty: no two are equal; the times are not even within their last decimal; without a stated rate that
+/// decimal is above 0.2 % of the duration, or below 2 % of them are equal, so that a row may stand twice.
+[[nodiscard]] std::optional<Eigen::VectorXd> even_times(const Eigen::VectorXd& rounded_s, double stated_rate_hz);
 
 /// Returns the last decimal with which times are written [s]: the power of ten of which all are multiples, 1e-9 or
 /// more.

@@ -1,12 +1,15 @@
 #include "myoid/recording/tables/table_clock.h"
 
 #include <string>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
 #include "myoid/recording/tables/channel_labels.h"
+#include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/tables/nexus_section.h"
 #include "myoid/recording/tables/table_layout.h"
 #include "myoid/recording/tables/table_series.h"
@@ -105,6 +108,62 @@ TEST(RowTimes, AStepThatIsNotAsTheOthersIsStatedAndRoundingIsNot) {
   Eigen::VectorXd wrong = even;
   wrong[100] += 0.0001;
   EXPECT_THAT(stated(wrong), HasSubstr("101: 't' steps by 0.0006 s"));
+}
+
+/// A table of `rows` rows with a value each, whose times `write` writes.
+template <typename Write>
+CsvSeries clocked(const std::string& head, int rows, const Write& write) {
+  std::string text = head;
+  for (int i = 0; i < rows; ++i) text += fmt::format("{},{}\n", write(i), i % 7);
+  return parse_emg_table(text, "a.csv");
+}
+
+TEST(TableClock, TimesOfTheDayGoOnBehindMidnight) {
+  const CsvSeries s = clocked("Time,EMG [mV]\n", 4, [](int i) {
+    return i < 2 ? fmt::format("23:59:59.{}", 8 + i) : fmt::format("00:00:00.{}", i - 2);
+  });
+  EXPECT_NEAR(s.data.time_s()[3] - s.data.time_s()[0], 0.3, 1e-9);
+  // A step back within a day is none.
+  EXPECT_THROW((void)clocked("Time,EMG [mV]\n", 4, [](int i) { return fmt::format("10:00:0{}.0", 4 - i); }), ReadError);
+}
+
+TEST(TableClock, TimesThatRoundingMadeEqualAreEven) {
+  // 2 kHz with three decimals: each time stands twice.
+  for (const std::string head : {"time,EMG [mV]\n", "Sampling rate: 2000 Hz\ntime,EMG [mV]\n"}) {
+    const CsvSeries s = clocked(head, 2000, [](int i) { return fmt::format("{:.3f}", 5.0 + i / 2000.0); });
+    ASSERT_EQ(s.data.sample_count(), 2000);
+    for (const int i : {0, 1, 1999}) EXPECT_NEAR(s.data.time_s()[i], 5.0 + i / 2000.0, 5e-4) << i;
+    EXPECT_NEAR(s.data.mean_rate_hz(), 2000.0, 0.1);
+    ASSERT_EQ(s.repairs.size(), 1U);
+    EXPECT_EQ(s.repairs[0].line, head.starts_with("time") ? 3U : 4U);
+  }
+  // Whole seconds of a short recording do not tell the rate; the header does.
+  const auto whole = [](int i) { return fmt::format("10:00:0{}", i / 50); };
+  EXPECT_THROW((void)clocked("time,EMG [mV]\n", 200, whole), ReadError);
+  const CsvSeries stated = clocked("Sampling rate: 50 Hz\ntime,EMG [mV]\n", 200, whole);
+  EXPECT_NEAR(stated.data.time_s()[199] - stated.data.time_s()[0], 199 / 50.0, 1e-9);
+  // Times that repeat and are not even, and a row that stands twice.
+  EXPECT_THROW((void)clocked("time,EMG [mV]\n", 200, [](int i) { return i < 100 ? i / 10 : i; }), ReadError);
+  EXPECT_THROW((void)clocked("time,EMG [mV]\n", 200, [](int i) { return 0.01 * (i < 100 ? i : i - 1); }), ReadError);
+}
+
+TEST(TableClock, AClockWithoutAUnitMayCountMillisecondsOrDays) {
+  // The stated rate says that 0, 1, 2, ... are milliseconds.
+  const CsvSeries ms = clocked("Sampling rate: 1000 Hz\ntime,EMG [mV]\n", 100, [](int i) { return i; });
+  EXPECT_DOUBLE_EQ(ms.data.time_s()[99], 0.099);
+  const CsvSeries us = clocked("Sampling rate: 500 Hz\ntime,EMG [mV]\n", 100, [](int i) { return 7000 + 2000 * i; });
+  EXPECT_DOUBLE_EQ(us.data.time_s()[99], 0.205);
+  // A spreadsheet counts days since 1900.
+  const CsvSeries days =
+      clocked("Time,EMG [mV]\n", 100, [](int i) { return fmt::format("{:.10f}", 46143.41873842 + i * 0.01 / 86400); });
+  EXPECT_NEAR(days.data.mean_rate_hz(), 100.0, 0.01);
+  EXPECT_EQ(days.repairs.size(), 1U);
+  // Otherwise the column counts seconds, which is in doubt where a second or more lies between rows.
+  const CsvSeries slow = clocked("time,EMG [mV]\n", 100, [](int i) { return i; });
+  EXPECT_DOUBLE_EQ(slow.data.time_s()[99], 99.0);
+  ASSERT_EQ(slow.repairs.size(), 1U);
+  EXPECT_DOUBLE_EQ(slow.repairs[0].apart_s, 98.901);  // 99 s or 99 ms
+  EXPECT_TRUE(clocked("time [s],EMG [mV]\n", 100, [](int i) { return i; }).repairs.empty());
 }
 
 TEST(ChannelLabels, UnitsAndRatesAreTakenOffTheName) {

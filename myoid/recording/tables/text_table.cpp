@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 
@@ -14,6 +13,7 @@
 #include "myoid/ground/core/parallel.h"
 #include "myoid/ground/files/file_words.h"
 #include "myoid/ground/files/missing_value.h"
+#include "myoid/recording/tables/written_time.h"
 
 namespace myoid::recording {
 namespace {
@@ -299,12 +299,29 @@ class RowReader {
     }
   }
 
+  /// Adds a day where a time of the day falls by more than half a day.
+  void pass_midnight() {
+    constexpr double kDay_s = 86400.0;
+    for (auto time : numbers_.clock.colwise()) {
+      double added = 0.0, before = kNan;
+      for (Eigen::Index i = 0; i < time.size(); ++i) {
+        if (time[i] < before - 0.5 * kDay_s) added += kDay_s;
+        before = time[i];
+        time[i] += added;
+      }
+    }
+  }
+
   void state_what_was_mended() {
     if (comma_line_ > 0) {
       refuse_points();
       note(comma_line_, "comma decimals read as decimal points");
     }
-    if (day_line_ > 0) note(day_line_, "times of the day are read in seconds");
+    if (day_line_ > 0) {
+      note(day_line_, "times of the day are read in seconds");
+      numbers_.day_times = true;
+      pass_midnight();
+    }
     if (blank_line_ > 0)
       note(first_blank_, fmt::format("{} between rows of numbers passed over",
                                      blank_line_ == 1 ? "a blank line" : fmt::format("{} blank lines", blank_line_)));
@@ -331,37 +348,6 @@ class RowReader {
 
 bool is_gap_word(std::string_view cell) {
   return cell == "-" || equal_ignoring_case(cell, "n/a") || equal_ignoring_case(cell, "nan");
-}
-
-std::optional<double> written_time_s(std::string_view cell) {
-  cell = trim(cell);
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
-  const auto take = [&](std::size_t most, std::string_view marks) -> std::optional<int> {
-    const std::size_t end = cell.find_first_not_of("0123456789");
-    if (end == 0 || end == std::string_view::npos || end > most || marks.find(cell[end]) == std::string_view::npos)
-      return std::nullopt;
-    int value = 0;
-    std::from_chars(cell.data(), cell.data() + end, value);
-    cell.remove_prefix(end + 1);
-    return value;
-  };
-  double days = 0.0;
-  if (cell.size() > 10 && (cell[4] == '-' || cell[4] == '/')) {
-    const auto year = take(4, "-/"), month = take(2, "-/"), day = take(2, " T");
-    if (!year || !month || !day) return std::nullopt;
-    const std::chrono::year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
-                                           std::chrono::day(static_cast<unsigned>(*day))};
-    if (!date.ok()) return std::nullopt;
-    days = static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
-  }
-  const auto hours = take(2, ":"), minutes = take(2, ":");
-  if (!hours || !minutes || *hours > 24 || *minutes > 59) return std::nullopt;
-  const std::size_t end = std::min(cell.find_first_not_of("0123456789.,"), cell.size());
-  const bool zoned = cell.substr(end).find_first_not_of("Z+-:0123456789") == std::string_view::npos;
-  auto seconds = parse_number(cell.substr(0, end));
-  if (!seconds) seconds = parse_comma_number(cell.substr(0, end));
-  if (!zoned || !seconds || !(*seconds >= 0.0 && *seconds < 61.0)) return std::nullopt;
-  return 86400.0 * days + 3600.0 * *hours + 60.0 * *minutes + *seconds;
 }
 
 std::vector<std::string> cells_of(std::string_view line, char separator) {

@@ -31,10 +31,6 @@ struct TableText {
 /// Returns true for a cell that says "not a number": "-", "n/a", "nan".
 [[nodiscard]] bool is_gap_word(std::string_view cell);
 
-/// Reads a time of the day, "10:02:03.250", with or without a date before it ("2026-05-01T10:02:03.250Z") [s]: the
-/// seconds since midnight, or since the begin of 1970. A zone behind the time is passed over.
-[[nodiscard]] std::optional<double> written_time_s(std::string_view cell);
-
 /// Returns true for a line that holds only separators and blanks.
 [[nodiscard]] bool has_no_cell(std::string_view line, char separator);
 
@@ -98,13 +94,15 @@ struct TableNumbers {
   std::vector<std::size_t> lines;  ///< Line number of each row, counted from 1.
   std::vector<TableRemark> remarks;
   std::vector<Repair> repairs;
+  bool day_times = false;  ///< The clock has times of the day.
 };
 
 /// Reads all rows. Decimal commas hold for the whole table: they are read where a semicolon or tab separates, and then
 /// no number may have a point. Noted as repairs: decimal commas, blank lines between rows, gaps, rows that end early
 /// where `short_row` allows it, a last row that is cut off (left out), a number of rows other than `rows_said`, times
-/// of the day in a clock (`written_time_s`). Throws ReadError with the line, found and expected: a row wider or
-/// narrower than the header, a cell that is no number, points and decimal commas in one table, no rows at all.
+/// of the day in a clock (`written_time_s`), which go on behind midnight. Throws ReadError with the line, found and
+/// expected: a row wider or narrower than the header, a cell that is no number, points and decimal commas in one table,
+/// no rows at all.
 [[nodiscard]] TableNumbers read_rows(const TableText& text, const TableRows& rows, const std::filesystem::path& path);
 
 }  // namespace myoid::recording
