@@ -11,6 +11,7 @@
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/files/missing_value.h"
 #include "myoid/recording/tables/storage_header.h"
+#include "myoid/recording/tables/table_clock.h"
 #include "myoid/recording/tables/table_layout.h"
 #include "myoid/recording/tables/text_table.h"
 
@@ -108,6 +109,8 @@ std::vector<std::string> labels_of(std::string_view line, bool comma_cells, std:
   };
   if (line.find('\t') == std::string_view::npos)
     return trimmed(comma_cells ? split(trim(line), ',') : split_words(line));
+  // An empty label above numbers that all have a label is that of a data frame's index; it stays.
+  if (line.starts_with('\t') && trimmed(split(line, '\t')).size() == numbers) return trimmed(split(line, '\t'));
   const std::vector<std::string> cells = trimmed(split(trim(line), '\t'));
   std::vector<std::string> filled = cells, wide;
   std::erase(filled, "");
@@ -135,6 +138,12 @@ Columns read_columns(const std::vector<std::string_view>& lines,
   const std::size_t numbers = columns.first_row < lines.size() ? split_words(lines[columns.first_row]).size() : 0;
   std::vector<std::string> names = labels_of(lines[at], columns.comma_cells, numbers);
   columns.labels = names.size();
+  if (names.size() > 1 && names[0].empty())
+    throw ReadError(
+        path, columns.line,
+        fmt::format("numbers stand in the first column, which has no label: the index of a data frame; write "
+                    "the file without it, '{}' first",
+                    names[1]));
   if (names.empty() || !equal_ignoring_case(names[0], "time")) {
     throw ReadError(path, columns.line,
                     fmt::format("expected the first column to be 'time', found '{}'", names.empty() ? "" : names[0]));
@@ -181,6 +190,7 @@ class StorageRows {
       keep_row(line + 1);
     }
     if (time_.empty()) throw ReadError(path_, 0, "there are no rows of numbers after the column labels");
+    if (repeated_line_ > 0) repeated_ = settle_repeats(time_, values_, 0.0);
     state_what_was_mended();
   }
 
@@ -258,17 +268,16 @@ class StorageRows {
     mark(extra_line_, line);
   }
 
-  /// Appends `row_` unless its time equals that of the row before.
+  /// Appends `row_`. Times that differ by less than 1e-10 s differ only by rounding.
   void keep_row(std::size_t line) {
-    constexpr double kSameTime_s = 1e-10;  // Times that differ by less differ only by rounding.
+    constexpr double kSameTime_s = 1e-10;
     if (!time_.empty() && row_[0] <= time_.back() + kSameTime_s) {
       if (row_[0] < time_.back() - kSameTime_s)
         throw ReadError(path_, line,
                         fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file", row_[0],
                                     time_.back()));
-      if (++repeated_ == 1)
-        repairs_.push_back({line, fmt::format("the time {} s stands twice; the first row is kept", row_[0])});
-      return;
+      mark(repeated_line_, line);
+      row_[0] = time_.back();
     }
     const auto index = static_cast<Eigen::Index>(time_.size());
     time_.push_back(row_[0]);
@@ -276,6 +285,8 @@ class StorageRows {
   }
 
   void state_what_was_mended() {
+    note(repeated_line_, repeated_ > 0 ? "a time stands twice; the first row is kept"
+                                       : "the times are rounded, so that rows share them: the rows are taken as even");
     if (repeated_ > 1) repairs_.push_back({0, fmt::format("{} rows in all repeat a time and were dropped", repeated_)});
     note(comma_line_, "comma decimals read as decimal points");
     note(doubled_line_, "two tabs in a row taken as one, since the numbers are as many as the columns");
@@ -300,7 +311,7 @@ class StorageRows {
   std::string mended_;
   std::vector<Repair> repairs_;
   std::size_t repeated_ = 0;
-  std::size_t extra_line_ = 0, nan_line_ = 0, comma_line_ = 0, doubled_line_ = 0;
+  std::size_t extra_line_ = 0, nan_line_ = 0, comma_line_ = 0, doubled_line_ = 0, repeated_line_ = 0;
 };
 
 }  // namespace

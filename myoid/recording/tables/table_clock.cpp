@@ -305,9 +305,26 @@ std::optional<Eigen::VectorXd> even_times(const Eigen::VectorXd& rounded_s, doub
   const double interval = stated_rate_hz > 0.0 ? 1.0 / stated_rate_hz
                                                : (from_middle * rounded_s.array()).sum() / from_middle.square().sum();
   const Eigen::ArrayXd off = rounded_s.array() - interval * place;
-  constexpr double kRoundOff = 1.01;
+  constexpr double kRoundOff = 1.1;  // halves are rounded to either side
   if (interval >= tick || off.maxCoeff() - off.minCoeff() > kRoundOff * tick) return std::nullopt;
-  return (interval * place + 0.5 * (off.maxCoeff() + off.minCoeff())).matrix();
+  return (rounded_s[0] + interval * place).matrix();
+}
+
+std::size_t settle_repeats(std::vector<double>& time_s, Eigen::MatrixXd& values, double stated_rate_hz) {
+  const auto count = static_cast<Eigen::Index>(time_s.size());
+  const Eigen::Map<Eigen::VectorXd> time(time_s.data(), count);
+  if (const auto even = even_times(time, stated_rate_hz)) {
+    time_s.assign(even->begin(), even->end());
+    return 0;
+  }
+  Eigen::Index kept = 1;
+  for (Eigen::Index row = 1; row < count; ++row) {
+    if (time[row] == time[kept - 1]) continue;
+    time_s[at(kept)] = time[row];
+    values.row(kept++) = values.row(row).eval();
+  }
+  time_s.resize(at(kept));
+  return at(count - kept);
 }
 
 double last_decimal(const Eigen::VectorXd& time_s) {

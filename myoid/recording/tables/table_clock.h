@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -35,6 +36,11 @@ namespace myoid::recording {
 /// themselves. Empty: no two are equal; the times are not even within their last decimal; without a stated rate that
 /// decimal is above 0.2 % of the duration, or below 2 % of them are equal, so that a row may stand twice.
 [[nodiscard]] std::optional<Eigen::VectorXd> even_times(const Eigen::VectorXd& rounded_s, double stated_rate_hz);
+
+/// Settles rows that share the time of the row above, within 1e-10 s: makes the times even where rounding made them
+/// equal, else leaves out the later rows of a time. Returns the number of rows that are left out. `values` may have
+/// further rows.
+std::size_t settle_repeats(std::vector<double>& time_s, Eigen::MatrixXd& values, double stated_rate_hz);
 
 /// Returns the last decimal with which times are written [s]: the power of ten of which all are multiples, 1e-9 or
 /// more.

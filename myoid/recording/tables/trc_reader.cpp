@@ -325,29 +325,12 @@ class TrcFrames {
   /// Gives the frames the times of the stated rate where the file's times are these, rounded: 240 frames a second with
   /// two decimals. Leaves out the later rows of a time otherwise: a row is doubled where a decimal tells frames apart.
   void settle_repeats() {
-    const auto count = static_cast<Eigen::Index>(time_.size());
-    const Eigen::Map<Eigen::VectorXd> time(time_.data(), count);
     const double rate = parse_number(header_.field("DataRate")).value_or(0.0);
-    const double decimal = last_decimal(time);
-    if (decimal * rate > 1.0 + 1e-6 && time[count - 1] > time[0]) {
-      const Eigen::VectorXd even =
-          time[0] + Eigen::ArrayXd::LinSpaced(count, 0.0, static_cast<double>(count - 1)) / rate;
-      if ((time - even).cwiseAbs().maxCoeff() <= 1.01 * decimal) {
-        repairs_.push_back(
-            {repeated_line_, fmt::format("rounded times stand twice; the frames have those of {} Hz", rate)});
-        repeated_line_ = 0;
-        time_.assign(even.begin(), even.end());
-        return;
-      }
-    }
-    Eigen::Index kept = 1;
-    for (Eigen::Index row = 1; row < count; ++row) {
-      if (time[row] == time[kept - 1]) continue;
-      time_[at(kept)] = time[row];
-      values_.row(kept++) = values_.row(row).eval();
-    }
-    repeated_ = at(count - kept);
-    time_.resize(at(kept));
+    repeated_ = recording::settle_repeats(time_, values_, rate);
+    if (repeated_ > 0) return;
+    repairs_.push_back(
+        {repeated_line_, fmt::format("rounded times stand twice; the frames have those of {} Hz", rate)});
+    repeated_line_ = 0;
   }
 
   /// Fills the next row; an empty or missing cell is a gap.
