@@ -312,6 +312,14 @@ TEST(ReadTextFile, TellsTextFromWhatIsNone) {
     write_file(folder / "a.trc", bytes);
     EXPECT_NE(refusal([&] { (void)read_trc(folder / "a.trc"); }).find("UTF-16"), std::string::npos);
   }
+  // UTF-16 in both orders without its mark, as some loggers write it.
+  const std::string table = "time,BIC [mV]\n0,1\n1,2\n";
+  for (const bool low_first : {true, false}) {
+    std::string bytes;
+    for (const char c : table) bytes += low_first ? std::string{c, '\0'} : std::string{'\0', c};
+    write_file(folder / "u.csv", bytes);
+    EXPECT_DOUBLE_EQ(read_emg(folder / "u.csv", "", false).data.column("BIC")[1], 2e-3) << low_first;
+  }
   write_file(folder / "b.sto", std::string("\x02\x50\0\0", 4));
   EXPECT_NE(refusal([&] { (void)read_storage(folder / "b.sto"); }).find("binary"), std::string::npos);
 }

@@ -38,6 +38,15 @@ inline void put_eight(char* at, std::uint32_t number) {
   std::memcpy(at, &v, 8);
 }
 
+/// Returns the byte-order mark that a UTF-16 text lacks, by its first two characters; empty for other texts.
+std::string_view absent_mark(std::string_view bytes) {
+  const auto are = [&](bool a, bool b) {
+    return (bytes[0] != '\0') == a && (bytes[1] != '\0') == b && (bytes[2] != '\0') == a && (bytes[3] != '\0') == b;
+  };
+  if (bytes.size() < 4 || bytes.size() % 2 != 0) return {};
+  return are(true, false) ? "\xFF\xFE" : are(false, true) ? "\xFE\xFF" : "";
+}
+
 /// Converts a UTF-16 text with a byte-order mark to UTF-8; empty if the bytes are invalid.
 std::optional<std::string> from_utf16(std::string_view bytes) {
   if (bytes.size() % 2 != 0) return std::nullopt;
@@ -99,6 +108,7 @@ std::string read_text_file(const std::filesystem::path& path) {
   }
   if (std::ferror(file.get()) != 0) throw ReadError(path, 0, "reading failed: {}", std::strerror(errno));
   if (text.empty()) throw_empty(path);
+  text.insert(0, absent_mark(text));
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     auto decoded = from_utf16(text);
     if (!decoded) throw ReadError(path, 0, "the text is in UTF-16 ('Unicode text') and damaged; save it as UTF-8");

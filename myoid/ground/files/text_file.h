@@ -26,7 +26,7 @@ void note(std::vector<Repair>& repairs, fmt::format_string<Args...> message, Arg
   repairs.push_back({0, fmt::format(message, std::forward<Args>(args)...)});
 }
 
-/// Reads the whole file. UTF-16 with a byte-order mark becomes UTF-8. Throws ReadError with the
+/// Reads the whole file. UTF-16 becomes UTF-8, also where the byte-order mark is absent. Throws ReadError with the
 /// remedy if the file is missing, a folder, unreadable, empty or no text.
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& path);
 

@@ -44,8 +44,6 @@ Head head_of(const TableText& text, const std::filesystem::path& path) {
   return {line, separator, filled_cells(text.lines[line], separator)};
 }
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
 /// Reads a row of units ("s", "mV", ...) for the columns that have none; false if the row holds numbers.
 bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColumn>& columns) {
   bool any = false;

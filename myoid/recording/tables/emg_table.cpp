@@ -28,18 +28,19 @@ namespace {
 using Kind = TableColumn::Kind;
 using Cells = std::vector<std::string>;
 
-std::optional<double> cell_number(const std::string& cell, char separator) {
+/// Reads a cell; one with a comma between commas stood in quotes.
+std::optional<double> cell_number(const std::string& cell) {
   if (const auto value = parse_number(cell)) return value;
   if (const auto time = written_time_s(cell)) return time;
-  return separator == ',' ? std::nullopt : parse_comma_number(cell);
+  return parse_comma_number(cell);
 }
 
-/// Returns true for a row that holds at least one number and otherwise only numbers and empty cells.
-bool is_numbers(const Cells& cells, char separator) {
+/// Returns true for a row that holds at least one number and otherwise only numbers and gaps.
+bool is_numbers(const Cells& cells) {
   std::size_t numbers = 0;
   for (const std::string& cell : cells) {
-    if (cell.empty()) continue;
-    if (!cell_number(cell, separator)) return false;
+    if (cell.empty() || is_gap_word(cell)) continue;
+    if (!cell_number(cell)) return false;
     ++numbers;
   }
   return numbers > 0;
@@ -86,7 +87,7 @@ class TableFinder {
     if (!find_first_row()) return std::nullopt;
     above_ = layout_.first_row;
     if (!previous()) return std::nullopt;
-    Cells names = row(above_);
+    Cells names = names_at(above_);
     // Names between blanks stand above rows between tabs.
     if (const auto words = split_words(text_.lines[above_]); filled(names) == 1 && words.size() == width_)
       names.assign(words.begin(), words.end());
@@ -112,8 +113,15 @@ class TableFinder {
 
  private:
   [[nodiscard]] Cells row(std::size_t n) const { return cells_of(text_.lines[n], layout_.separator); }
+  /// The cells of a row of names, without a mark of comments before the first: "# time".
+  [[nodiscard]] Cells names_at(std::size_t n) const {
+    Cells cells = row(n);
+    if (cells.size() > 1)
+      cells[0] = trim(std::string_view(cells[0]).substr(std::min(cells[0].find_first_not_of("#%/ "), cells[0].size())));
+    return cells;
+  }
   [[nodiscard]] bool blank(std::size_t n) const { return is_rule(text_.lines[n]); }
-  [[nodiscard]] bool numbers(const Cells& cells) const { return is_numbers(cells, layout_.separator); }
+  [[nodiscard]] bool numbers(const Cells& cells) const { return is_numbers(cells); }
 
   bool find_first_row() {
     constexpr std::size_t kMost = 1000;
@@ -140,9 +148,9 @@ class TableFinder {
 
   /// Returns true for a row that begins with a number and has text in one cell.
   [[nodiscard]] bool has_remark(const Cells& cells) const {
-    const auto texts = std::ranges::count_if(
-        cells, [&](const std::string& cell) { return !cell.empty() && !cell_number(cell, layout_.separator); });
-    return texts == 1 && cell_number(cells[0], layout_.separator);
+    const auto texts =
+        std::ranges::count_if(cells, [&](const std::string& cell) { return !cell.empty() && !cell_number(cell); });
+    return texts == 1 && cell_number(cells[0]);
   }
 
   /// Takes in rows with a remark in one cell that stand above the first row without one.
@@ -179,7 +187,7 @@ class TableFinder {
       above_ = here;
       return false;
     }
-    taken = std::exchange(names, row(above_));
+    taken = std::exchange(names, names_at(above_));
     return true;
   }
 
@@ -224,7 +232,7 @@ class TableFinder {
       if (column.kind != Kind::remark) continue;
       const auto number = [&](std::string_view line) {
         return has_no_cell(line, layout_.separator) || line.starts_with('#') ||
-               cell_number(cell_at(line, layout_.separator, c), layout_.separator).has_value();
+               cell_number(cell_at(line, layout_.separator, c)).has_value();
       };
       const auto first = text_.lines.begin() + static_cast<std::ptrdiff_t>(layout_.first_row);
       if (std::all_of(first, text_.lines.end(), number)) column.kind = Kind::channel;
@@ -305,8 +313,8 @@ class TableFinder {
 /// Returns true if the first line that is no remark is a header with one time column, and no other
 /// line of text follows.
 bool is_plain(const TableText& text, const TableLayout& layout) {
-  return next_line(text, 0) == layout.names_line && layout.count(Kind::time) == 1 &&
-         std::ranges::all_of(layout.columns, [](const TableColumn& column) {
+  return next_line(text, 0) == layout.names_line && !trim(text.lines[layout.names_line]).starts_with('%') &&
+         layout.count(Kind::time) == 1 && std::ranges::all_of(layout.columns, [](const TableColumn& column) {
            return column.name.find(',') == std::string::npos &&
                   (column.kind == Kind::channel || (column.kind == Kind::time && names_plain_time(column.name)));
          });
@@ -372,7 +380,7 @@ CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& pa
     refuse_two_commas(table, *layout, path);
     refuse_other_rates(table, *layout, path);
   }
-  if (layout && is_numbers(cells_of(table.lines[layout->names_line], layout->separator), layout->separator)) {
+  if (layout && is_numbers(cells_of(table.lines[layout->names_line], layout->separator))) {
     throw ReadError(path, layout->names_line + 1,
                     "the table begins with numbers; expected a row of names above them, and a column 'time' or a line "
                     "'Sampling rate: 2000 Hz'");

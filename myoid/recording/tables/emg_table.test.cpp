@@ -1,6 +1,7 @@
 #include "myoid/recording/tables/emg_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -214,6 +215,60 @@ TEST(EmgTable, AColumnOfTextsAndACountWithoutANameAreLeftOutWithANote) {
   EXPECT_EQ(std::ranges::count_if(s.repairs, [](const Repair& r) { return r.message.ends_with("rows), phase"); }), 1);
   // A text in one row alone is a damaged number.
   EXPECT_THROW((void)parse_emg_table("time,EMG\n0,1\n0.1,x\n0.2,3\n", "a.csv"), ReadError);
+}
+
+TEST(EmgTable, WordsOfEveryProgramForNoNumberAreGaps) {
+  for (const char* word : {"", "NaN", "-", "--", "NA", "#N/A", "null", "None", "-1.#IND", "1.#QNAN", "-nan(ind)",
+                           "#NUM!", "#DIV/0!", "#WERT!", "****", ".", "?", "OVR", "missing"}) {
+    const CsvSeries s = parse_emg_table(fmt::format("time,EMG [mV],b\n0,1,2\n1,{},3\n2,4,5\n", word), "a.csv");
+    EXPECT_TRUE(std::isnan(s.data.values()(1, 0))) << word;
+    EXPECT_DOUBLE_EQ(s.data.values()(1, 1), 3.0) << word;
+    EXPECT_EQ(s.repairs.size(), 1U) << word;
+  }
+  EXPECT_THROW((void)parse_emg_table("time,EMG\n0,1\n1,4*\n2,4\n", "a.csv"), ReadError);
+}
+
+TEST(EmgTable, WordsBehindTheSamplesAndARepeatedHeaderAreNoRows) {
+  const std::string head = "time,EMG [mV]\n", rows = "0,1\n1,2\n2,3\n";
+  for (const std::string foot : {"Sum,6\n", "\nMean,2\nSD,1\n", "End of file\n", "Max,,\n"}) {
+    const CsvSeries s = parse_emg_table(head + rows + foot, "a.csv");
+    EXPECT_EQ(s.data.sample_count(), 3) << foot;
+    EXPECT_EQ(s.repairs.size(), 1U) << foot;
+  }
+  const CsvSeries twice = parse_emg_table(head + rows + head + "3,4\n4,5\n", "a.csv");
+  EXPECT_EQ(twice.data.sample_count(), 5);
+  ASSERT_EQ(twice.repairs.size(), 1U);
+  EXPECT_EQ(twice.repairs[0].line, 5U);
+  // A word in the middle of the samples is a damaged row.
+  EXPECT_THROW((void)parse_emg_table(head + rows + "Sum,6\n3,4\n", "a.csv"), ReadError);
+}
+
+TEST(EmgTable, QuotedCellsMayHoldDecimalCommas) {
+  const CsvSeries s = parse_emg_table("time,EMG [mV]\n\"0,000\",\"1,5\"\n\"0,001\",\"-2,25\"\n", "a.csv");
+  EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.001);
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 0), -2.25e-3);
+  // "1,234" may be 1234 here.
+  for (const char* rows : {"0,\"1,234\"\n1,\"12,345\"\n", "0,\"1,234.5\"\n1,\"12,345.5\"\n"})
+    EXPECT_THROW((void)parse_emg_table("time,EMG [uV]\n" + std::string(rows), "a.csv"), ReadError) << rows;
+}
+
+TEST(EmgTable, NamesMayGoOverTwoLinesOrStandBehindAMarkOfComments) {
+  const std::string names = "\"Time\n[s]\",\"EMG BIC\n[mV]\"\n";
+  const CsvSeries lines = parse_emg_table(names + "0,1\n0.5,2\n", "a.csv");
+  EXPECT_EQ(lines.data.channels()[0].name, "EMG BIC");
+  EXPECT_DOUBLE_EQ(lines.data.values()(1, 0), 2e-3);
+  try {
+    (void)parse_emg_table(names + "0,1\n0.5,x\n1,3\n", "a.csv");
+    ADD_FAILURE();
+  } catch (const ReadError& error) {
+    EXPECT_EQ(error.line(), 5U);
+  }
+  // A quote that nothing closes belongs to a name.
+  EXPECT_EQ(parse_emg_table("Cuff 5\"\nSampling rate: 10 Hz\nA,B\n1,2\n3,4\n", "a.csv").data.channel_count(), 2);
+  for (const std::string head : {"# time,EMG [mV]\n", "# a remark\n# time,EMG [mV]\n", "%time,EMG [mV]\n"}) {
+    const CsvSeries marked = parse_emg_table(head + "0,1\n0.5,2\n", "a.csv");
+    EXPECT_EQ(marked.data.channels()[0], (Channel{"EMG", Unit::volt})) << head;
+  }
 }
 
 TEST(EmgTable, NamesBetweenBlanksStandAboveRowsBetweenTabs) {

@@ -1,6 +1,7 @@
 #include "myoid/recording/tables/text_table.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -47,27 +48,52 @@ std::string unquoted(std::string_view cell) {
   return to_utf8(trim(text));
 }
 
-enum class CellKind : std::uint8_t { number, comma_number, gap, wrong };
+enum class CellKind : std::uint8_t {
+  number,
+  comma_number,
+  thousands,  ///< A number whose comma may stand before decimals or before the last three digits of a thousand.
+  gap,
+  wrong
+};
+
+/// Returns true for "1,234", which "0,234" and "1,23" are not.
+bool may_be_thousands(std::string_view cell) {
+  if (cell.starts_with('-') || cell.starts_with('+')) cell.remove_prefix(1);
+  constexpr std::size_t kGroup = 3;
+  const std::size_t comma = cell.find(',');
+  return comma > 0 && comma <= kGroup && cell.size() == comma + 1 + kGroup && cell.front() != '0';
+}
+
+/// Returns true for digits with signs of decimals and thousands of any country: "2'436.5", "2.436,518".
+bool has_thousands(std::string_view cell) {
+  std::string rest(cell);
+  for (const std::string_view mark : {"\u00a0", "\u202f", "\u2019"})  // blanks that do not break, an apostrophe
+    for (std::size_t at = rest.find(mark); at != std::string::npos; at = rest.find(mark))
+      rest.replace(at, mark.size(), "'");
+  return rest.find_first_not_of("+-0123456789,.' ") == std::string::npos &&
+         rest.find_first_of("0123456789") != std::string::npos;
+}
 
 CellKind read_cell(std::string_view cell, char separator, double& value) {
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
+  const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  if (quoted) cell = trim(cell.substr(1, cell.size() - 2));
   value = kNan;
   if (cell.empty() || is_gap_word(cell)) return CellKind::gap;
   if (const auto number = parse_number(cell)) {
     value = *number;
     return CellKind::number;
   }
-  const auto number = separator == ',' ? std::nullopt : parse_comma_number(cell);
+  const auto number = separator == ',' && !quoted ? std::nullopt : parse_comma_number(cell);
   if (!number) return CellKind::wrong;
   value = *number;
-  return CellKind::comma_number;
+  return separator == ',' && may_be_thousands(cell) ? CellKind::thousands : CellKind::comma_number;
 }
 
 struct RowScan {
   std::uint32_t cells = 0;   ///< Number of cells.
   std::uint32_t filled = 0;  ///< Cells up to the last filled one.
   bool blank = true;         ///< All cells are empty.
-  bool comma = false, gap = false, wrong = false, remark = false, day = false;
+  bool comma = false, thousands = false, gap = false, wrong = false, remark = false, day = false;
 };
 
 struct ColumnUse {
@@ -92,6 +118,7 @@ class RowReader {
   TableNumbers read() {
     end_ = std::min(rows_.end, text_.lines.size());
     while (end_ > rows_.first && is_left_out(end_ - 1)) --end_;
+    leave_out_foot();
     const std::size_t count = end_ - std::min(end_, rows_.first);
     scans_.resize(count);
     numbers_.clock.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(rows_.clock.size()));
@@ -117,6 +144,35 @@ class RowReader {
     const std::string_view line = text_.lines[n];
     if (line.find(rows_.separator) == std::string_view::npos) return trim(line).empty();
     return !rows_.empty_row_is_gap && has_no_cell(line, rows_.separator);
+  }
+
+  /// Returns true for a line whose first cell of the clock begins as a word.
+  [[nodiscard]] bool is_foot(std::size_t n) const {
+    const auto cells = cells_of(text_.lines[n], rows_.separator);
+    const std::size_t c = rows_.clock.empty() || rows_.clock[0] >= cells.size() ? 0 : rows_.clock[0];
+    const bool number = c < uses_.size() && uses_[c].is_number();
+    return number && !cells[c].empty() && is_letter(cells[c][0]) && !is_gap_word(cells[c]) && !parse_number(cells[c]);
+  }
+
+  /// Leaves out lines behind the samples: sums, means, "End of file".
+  void leave_out_foot() {
+    constexpr std::size_t kMost = 20;
+    std::size_t foot = end_;
+    while (foot > rows_.first && end_ - foot <= kMost && (is_left_out(foot - 1) || is_foot(foot - 1))) --foot;
+    if (foot == end_ || foot == rows_.first || end_ - foot > kMost) return;
+    end_ = foot;
+    while (is_left_out(foot)) ++foot;
+    note(foot + 1, fmt::format("'{}' begins no row of samples; it and what follows is left out",
+                               trim(text_.lines[foot].substr(0, text_.lines[foot].find(rows_.separator)))));
+    while (is_left_out(end_ - 1)) --end_;
+  }
+
+  /// Returns true for a line of the header that stands between rows again.
+  [[nodiscard]] bool repeats_header(std::size_t i) const {
+    constexpr std::size_t kLines = 3;  // names, units, rates
+    const std::size_t from = rows_.first - std::min(rows_.first, kLines);
+    const auto end = text_.lines.begin() + static_cast<std::ptrdiff_t>(rows_.first);
+    return std::find(text_.lines.begin() + static_cast<std::ptrdiff_t>(from), end, line_of(i)) != end;
   }
 
   void put(const ColumnUse& use, Eigen::Index row, double value) {
@@ -160,6 +216,7 @@ class RowReader {
             }
           }
           row.comma = row.comma || kind == CellKind::comma_number;
+          row.thousands = row.thousands || kind == CellKind::thousands;
           row.wrong = row.wrong || kind == CellKind::wrong;
         } else if (use.kind == ColumnUse::Kind::remark) {
           row.remark = row.remark || !empty;
@@ -190,8 +247,13 @@ class RowReader {
         if (kept > 0 && blank_line_++ == 0) first_blank_ = rows_.first + i + 1;
         continue;
       }
+      if (row.wrong && repeats_header(i)) {
+        if (header_line_ == 0) header_line_ = rows_.first + i + 1;
+        continue;
+      }
       if (!keeps(i, kept)) break;
       if (row.wrong) refuse_cell(i);
+      if (row.thousands && thousands_line_ == 0) thousands_line_ = rows_.first + i + 1;
       if (row.comma && comma_line_ == 0) comma_line_ = rows_.first + i + 1;
       if (row.day && day_line_ == 0) day_line_ = rows_.first + i + 1;
       if (row.gap && gap_line_ == 0) gap_line_ = rows_.first + i + 1;
@@ -271,7 +333,8 @@ class RowReader {
       if (uses_[c].is_number() && read_cell(cells[c], rows_.separator, ignored) == CellKind::wrong)
         throw ReadError(
             path_, rows_.first + i + 1,
-            fmt::format("column {} ('{}'): expected a number, found '{}'", c + 1, rows_.names[c], cells[c]));
+            fmt::format("column {} ('{}'): expected a number, found '{}'{}", c + 1, rows_.names[c], cells[c],
+                        has_thousands(cells[c]) ? "; export without a separator of thousands" : ""));
     }
     throw ReadError(path_, rows_.first + i + 1, "expected a number in each cell");
   }
@@ -313,6 +376,11 @@ class RowReader {
   }
 
   void state_what_was_mended() {
+    if (thousands_line_ > 0 && comma_line_ == 0)
+      throw ReadError(path_, thousands_line_,
+                      "a comma inside the quotes may stand before decimals or part thousands; export with decimal "
+                      "points and without a separator of thousands");
+    if (header_line_ > 0) note(header_line_, "the header stands again between the rows; passed over");
     if (comma_line_ > 0) {
       refuse_points();
       note(comma_line_, "comma decimals read as decimal points");
@@ -341,13 +409,44 @@ class RowReader {
   TableNumbers numbers_;
   std::size_t end_ = 0, checked_end_ = 0;
   std::size_t comma_line_ = 0, day_line_ = 0, gap_line_ = 0, short_line_ = 0, first_blank_ = 0;
-  std::size_t blank_line_ = 0;
+  std::size_t blank_line_ = 0, header_line_ = 0, thousands_line_ = 0;
 };
 
 }  // namespace
 
+namespace {
+
+/// Joins the lines of the header that a cell in quotes spans. Its first quote stands at the begin of a cell.
+void join_quoted_lines(std::vector<std::string_view>& lines) {
+  constexpr std::size_t kHeader = 50, kMost = 5;
+  const auto odd = [](std::string_view line) { return std::ranges::count(line, '"') % 2 == 1; };
+  for (std::size_t n = 0; n < std::min(lines.size(), kHeader); ++n) {
+    if (!odd(lines[n])) continue;
+    const std::size_t quote = lines[n].rfind('"');
+    if (quote > 0 && std::string_view(",;\t ").find(lines[n][quote - 1]) == std::string_view::npos) continue;
+    std::size_t last = n + 1;
+    while (last < lines.size() && last <= n + kMost && !odd(lines[last])) ++last;
+    if (last >= lines.size() || last > n + kMost) continue;
+    const char* const end = lines[last].data() + lines[last].size();
+    lines[n] = {lines[n].data(), static_cast<std::size_t>(end - lines[n].data())};
+    for (; last > n; --last) lines[last] = {};
+  }
+}
+
+}  // namespace
+
+TableText::TableText(std::string_view text) : lines(split_lines(text)), ends_with_line(ground::ends_with_line(text)) {
+  join_quoted_lines(lines);
+}
+
 bool is_gap_word(std::string_view cell) {
-  return cell == "-" || equal_ignoring_case(cell, "n/a") || equal_ignoring_case(cell, "nan");
+  static constexpr std::array<std::string_view, 18> kWords{
+      "n/a",       "nan",  "na",    "#n/a",    "null",    "none",   "missing", "-1.#ind", "1.#qnan",
+      "-nan(ind)", "-nan", "#num!", "#div/0!", "#value!", "#wert!", "#nv",     "ovr",     "?"};
+  const bool marks = !cell.empty() && (cell.find_first_not_of('-') == std::string_view::npos ||
+                                       cell.find_first_not_of('*') == std::string_view::npos);
+  return marks || cell == "." ||
+         std::ranges::any_of(kWords, [&](std::string_view word) { return equal_ignoring_case(cell, word); });
 }
 
 std::vector<std::string> cells_of(std::string_view line, char separator) {

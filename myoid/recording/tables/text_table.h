@@ -13,9 +13,10 @@
 
 namespace myoid::recording {
 
-/// The lines of a text that holds a table.
+/// The lines of a text that holds a table. Lines of the header that a cell in quotes spans are one; empty lines follow
+/// it in their place.
 struct TableText {
-  explicit TableText(std::string_view text) : lines(split_lines(text)), ends_with_line(ground::ends_with_line(text)) {}
+  explicit TableText(std::string_view text);
 
   std::vector<std::string_view> lines;
   bool ends_with_line;  ///< False: the text ends in the middle of its last line.
@@ -28,8 +29,10 @@ struct TableText {
 /// Returns the cells of a line without the empty ones at its end.
 [[nodiscard]] std::vector<std::string> filled_cells(std::string_view line, char separator);
 
-/// Returns true for a cell that says "not a number": "-", "n/a", "nan".
+/// Returns true for a cell that says "not a number": "-", "****", "n/a", "nan", "#DIV/0!".
 [[nodiscard]] bool is_gap_word(std::string_view cell);
+
+[[nodiscard]] constexpr bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// Returns true for a line that holds only separators and blanks.
 [[nodiscard]] bool has_no_cell(std::string_view line, char separator);
@@ -100,7 +103,9 @@ struct TableNumbers {
 /// Reads all rows. Decimal commas hold for the whole table: they are read where a semicolon or tab separates, and then
 /// no number may have a point. Noted as repairs: decimal commas, blank lines between rows, gaps, rows that end early
 /// where `short_row` allows it, a last row that is cut off (left out), a number of rows other than `rows_said`, times
-/// of the day in a clock (`written_time_s`), which go on behind midnight. Throws ReadError with the line, found and
+/// of the day in a clock (`written_time_s`), which go on behind midnight, lines behind the samples whose clock is a
+/// word
+/// ("Mean"), a header that is repeated between rows. Throws ReadError with the line, found and
 /// expected: a row wider or narrower than the header, a cell that is no number, points and decimal commas in one table,
 /// no rows at all.
 [[nodiscard]] TableNumbers read_rows(const TableText& text, const TableRows& rows, const std::filesystem::path& path);
