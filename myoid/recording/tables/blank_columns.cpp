@@ -1,7 +1,9 @@
 #include "myoid/recording/tables/blank_columns.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "myoid/recording/tables/channel_labels.h"
@@ -21,11 +23,28 @@ std::size_t numbers_between_blanks(std::string_view line) {
   return all && words.size() > 1 ? words.size() : 0;
 }
 
-/// Returns the cells of a header line if they are as many as the columns.
+/// Returns the words of a line; a unit in brackets belongs to the word before it ("Torque (Nm)").
+Words words_with_units(std::string_view line) {
+  Words cells;
+  for (const std::string_view word : split_words(line)) {
+    if (cells.empty() || !(word.starts_with('(') || word.starts_with('['))) {
+      cells.push_back(word);
+    } else {
+      const char* const begin = cells.back().data();
+      cells.back() = {begin, static_cast<std::size_t>(word.data() + word.size() - begin)};
+    }
+  }
+  return cells;
+}
+
+/// Returns the cells of a header line if they are as many as the columns. A mark of comments may stand before them.
 Words header_cells(std::string_view line, std::size_t columns) {
-  Words cells = wide_cells(line);
-  if (cells.size() != columns) cells = split_words(line);
-  return cells.size() == columns ? cells : Words();
+  const std::size_t begin = line.find_first_not_of("#%/ \t");
+  for (const std::string_view text : {line, line.substr(std::min(begin, line.size()))}) {
+    for (Words& cells : std::array{wide_cells(text), split_words(text), words_with_units(text)})
+      if (cells.size() == columns) return std::move(cells);
+  }
+  return {};
 }
 
 /// Puts each cell of a row into the column whose name stands nearest above it; empty if two are in one column.

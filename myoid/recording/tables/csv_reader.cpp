@@ -58,30 +58,6 @@ bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColu
   return any;
 }
 
-/// Leaves out the columns that hold a text in each of the first rows, and a column without a name that counts the rows.
-void leave_out_texts_and_counts(const TableText& text, TableLayout& layout) {
-  constexpr std::size_t kRows = 50;
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t n = layout.first_row; rows.size() < kRows && n < text.lines.size(); n = next_line(text, n + 1))
-    rows.push_back(cells_of(text.lines[n], layout.separator));
-  if (rows.size() < 2) return;
-  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-    TableColumn& column = layout.columns[c];
-    const auto number = [&](const std::vector<std::string>& row) {
-      return c < row.size() ? parse_number(row[c]) : std::nullopt;
-    };
-    const bool texts = std::ranges::all_of(rows, [&](const auto& row) {
-      return c < row.size() && std::ranges::any_of(row[c], is_letter) && !number(row) && !is_gap_word(row[c]) &&
-             !written_time_s(row[c]);
-    });
-    const auto first = number(rows[0]), second = number(rows[1]);
-    const bool counts = column.name.empty() && first && second && *second == *first + 1.0;
-    if (!texts && !counts) continue;
-    column.kind = Kind::left_out;
-    if (counts) column.name = "(the count of the rows)";
-  }
-}
-
 /// Returns the layout of a header row with a time column and rows of numbers below.
 TableLayout plain_layout(const TableText& text, const std::filesystem::path& path) {
   const Head head = head_of(text, path);
@@ -112,6 +88,30 @@ TableLayout plain_layout(const TableText& text, const std::filesystem::path& pat
 }
 
 }  // namespace
+
+void leave_out_texts_and_counts(const TableText& text, TableLayout& layout) {
+  constexpr std::size_t kRows = 50;
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t n = layout.first_row; rows.size() < kRows && n < text.lines.size(); n = next_line(text, n + 1))
+    rows.push_back(cells_of(text.lines[n], layout.separator));
+  if (rows.size() < 2) return;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    TableColumn& column = layout.columns[c];
+    const auto number = [&](const std::vector<std::string>& row) {
+      return c < row.size() ? parse_number(row[c]) : std::nullopt;
+    };
+    if (column.kind != Kind::channel) continue;
+    const bool texts = std::ranges::all_of(rows, [&](const auto& row) {
+      if (c >= row.size() || number(row) || is_gap_word(row[c])) return false;
+      return std::ranges::any_of(row[c], is_letter) || written_time_s(row[c]).has_value();
+    });
+    const auto first = number(rows[0]), second = number(rows[1]);
+    const bool counts = column.name.empty() && first && second && *second == *first + 1.0;
+    if (!texts && !counts) continue;
+    column.kind = Kind::left_out;
+    if (counts) column.name = "(the count of the rows)";
+  }
+}
 
 std::size_t next_line(const TableText& text, std::size_t n) {
   while (n < text.lines.size() && (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#'))) ++n;

@@ -37,4 +37,8 @@ struct CsvTable {
 [[nodiscard]] CsvSeries read_csv_series(const std::filesystem::path& path);
 [[nodiscard]] CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& path);
 
+/// Leaves out, with their names, the channels that hold a text or a written time in each of the first rows, and a
+/// column without a name that counts the rows.
+void leave_out_texts_and_counts(const TableText& text, TableLayout& layout);
+
 }  // namespace myoid::recording

@@ -123,20 +123,25 @@ class TableFinder {
   [[nodiscard]] bool blank(std::size_t n) const { return is_rule(text_.lines[n]); }
   [[nodiscard]] bool numbers(const Cells& cells) const { return is_numbers(cells); }
 
-  bool find_first_row() {
+  /// Finds the first row of numbers, and where there is none, of numbers beside texts that stand in every row.
+  bool find_first_row() { return find_first_row(false) || find_first_row(true); }
+
+  bool find_first_row(bool with_texts) {
     constexpr std::size_t kMost = 1000;
     const std::size_t most = std::min(text_.lines.size(), kMost);
     for (std::size_t n = 1; n < most; ++n) {
       if (text_.lines[n].find(layout_.separator) == std::string_view::npos) continue;
       const Cells cells = row(n);
-      if (!numbers(cells)) continue;
+      if (with_texts ? !begins_with_numbers(cells) : !numbers(cells)) continue;
       // A table begins where the next row that is not empty has the same width and holds numbers too.
       std::size_t next = n + 1;
       while (next < text_.lines.size() && blank(next)) ++next;
       width_ = filled(cells);
       if (next < text_.lines.size()) {
         const Cells below = row(next);
-        if (below.size() + 1 < cells.size() || !(numbers(below) || has_remark(below))) continue;
+        const bool fits = with_texts ? below.size() == cells.size() && begins_with_numbers(below)
+                                     : below.size() + 1 >= cells.size() && (numbers(below) || has_remark(below));
+        if (!fits) continue;
         width_ = filled(below);
       }
       layout_.first_row = n;
@@ -144,6 +149,11 @@ class TableFinder {
       return true;
     }
     return false;
+  }
+
+  /// Returns true for a row whose first two cells are numbers.
+  [[nodiscard]] static bool begins_with_numbers(const Cells& cells) {
+    return cells.size() > 2 && cell_number(cells[0]) && cell_number(cells[1]);
   }
 
   /// Returns true for a row that begins with a number and has text in one cell.
@@ -222,6 +232,7 @@ class TableFinder {
     const bool several_clocks = layout_.clocks() != Clocks::of_rows;
     if (several_clocks) layout_.short_row = ShortRow::ended;
     leave_out_counters(several_clocks);
+    leave_out_texts_and_counts(text_, layout_);
     if (const auto devices = device_row()) put_devices_before_names(layout_, *devices);
   }
 

@@ -209,7 +209,7 @@ TEST(EmgTable, TimesOfTheDayAreSeconds) {
 TEST(EmgTable, AColumnOfTextsAndACountWithoutANameAreLeftOutWithANote) {
   const CsvSeries s =
       parse_emg_table(",time,phase,EMG [mV],note\n0,0.0,rest,1,\n1,0.1,rest,2,\n2,0.2,effort,3,\n", "a.csv");
-  ASSERT_EQ(s.data.channel_count(), 2);
+  ASSERT_EQ(s.data.channel_count(), 1);  // a note that no row has is no channel
   EXPECT_EQ(s.data.channels()[0].name, "EMG");
   EXPECT_DOUBLE_EQ(s.data.values()(2, 0), 3e-3);
   EXPECT_EQ(std::ranges::count_if(s.repairs, [](const Repair& r) { return r.message.ends_with("rows), phase"); }), 1);
@@ -269,6 +269,36 @@ TEST(EmgTable, NamesMayGoOverTwoLinesOrStandBehindAMarkOfComments) {
     const CsvSeries marked = parse_emg_table(head + "0,1\n0.5,2\n", "a.csv");
     EXPECT_EQ(marked.data.channels()[0], (Channel{"EMG", Unit::volt})) << head;
   }
+}
+
+TEST(EmgTable, ATextInEveryRowHidesNoTableBelowALinesOfAHeader) {
+  const CsvSeries s = parse_emg_table(
+      "Date;01.05.2026\nRep;1\nTime [s];Torque [Nm];Side;Clock\n0,00;1,5;left;2026-05-01 10:02:03.5\n"
+      "0,01;2,5;left;2026-05-01 10:02:03.6\n0,02;3;right;2026-05-01 10:02:03.7\n",
+      "a.csv");
+  EXPECT_EQ(s.data.channels(), (std::vector<Channel>{{"Torque", Unit::newton_meter}}));
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 0), 2.5);
+  EXPECT_DOUBLE_EQ(s.data.time_s()[2], 0.02);
+  EXPECT_EQ(std::ranges::count_if(s.repairs, [](const Repair& r) { return r.message.ends_with("Side, Clock"); }), 1);
+}
+
+TEST(EmgTable, AUnitBehindABlankBelongsToTheNameBeforeIt) {
+  const CsvSeries s = parse_emg_table("Time (sec) Torque (Nm) Angle (deg)\n0 1 45\n0.01 2 46\n", "a.txt");
+  EXPECT_EQ(s.data.channels()[0], (Channel{"Torque", Unit::newton_meter}));
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 1), 46 * kDegree);
+  EXPECT_EQ(parse_emg_table("# time emg\n0 1\n1 2\n", "a.txt").data.channels()[0].name, "emg");
+}
+
+TEST(EmgTable, ZerosBehindTheEndOfAChannelAreNoSamples) {
+  // Programs fill the columns of a slower sensor with zeros, its times too.
+  const CsvSeries s = parse_emg_table(
+      "X[s],\"EMG 1 [V]\",X[s],\"ACC.X 1 [g]\"\n0,1,0,7\n0.001,2,0.002,8\n0.002,3,0,0\n0.003,4,0,0\n", "a.csv");
+  EXPECT_EQ(s.data.sample_count(), 4);
+  ASSERT_EQ(s.other_clocks.size(), 1U);
+  EXPECT_EQ(s.other_clocks[0].data.sample_count(), 2);
+  EXPECT_THROW(
+      (void)parse_emg_table("X[s],A [V],X[s],B [V]\n0,1,0,7\n0.001,2,0.002,8\n0.002,3,0,9\n0.003,4,0,0\n", "a.csv"),
+      ReadError);
 }
 
 TEST(EmgTable, NamesBetweenBlanksStandAboveRowsBetweenTabs) {

@@ -112,6 +112,7 @@ class TableSeries {
     const auto cells = numbers_.clock.col(k);
     Eigen::Index count = cells.size();
     while (count > 0 && !std::isfinite(cells[count - 1])) --count;
+    while (count > 1 && cells[count - 1] == 0.0) --count;  // filled up with zeros
     const Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * cells.head(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       if (!std::isfinite(time[i]))
@@ -130,6 +131,15 @@ class TableSeries {
     if (n < 2) return a.size() == b.size();
     const double interval = (a[n - 1] - a[0]) / static_cast<double>(n - 1);
     return (a.head(n) - b.head(n)).cwiseAbs().maxCoeff() < 0.1 * interval;
+  }
+
+  /// Cuts zeros behind the last time off a channel.
+  void cut_zeros(TableChannel& channel, Eigen::Index end) {
+    if (channel.samples <= end) return;
+    const auto behind = numbers_.values.col(channel.column).segment(end, channel.samples - end).array();
+    if (!(behind == 0.0).all()) return;
+    note(numbers_.lines[at(end)], fmt::format("zeros behind the end of '{}' are left out", channel.name));
+    channel.samples = end;
   }
 
   std::size_t clock_for(Eigen::VectorXd time) {
@@ -169,6 +179,7 @@ class TableSeries {
       if (is_clock(column.kind)) ++k;
       if (column.kind != Kind::channel) continue;
       TableChannel& c = channels_[channel];
+      cut_zeros(c, end);
       if (c.samples > end)
         throw ReadError(path_, numbers_.lines[at(c.samples - 1)],
                         fmt::format("'{}' has a value where its time column has none", c.name));
