@@ -47,6 +47,16 @@ TEST(MarkerTable, TrajectoriesOfNexusAreRead) {
   EXPECT_TRUE(m.missing(1, 1));
 }
 
+TEST(MarkerTable, SpeedsBesideTrajectoriesOfNexusAreLeftOut) {
+  const MarkerFile file = parse_marker_table(
+      "Trajectories\n100\n,,P:A,,,,,,P:B,,\nFrame,Sub Frame,X,Y,Z,X',Y',Z',X,Y,Z\n"
+      ",,mm,mm,mm,mm/s,mm/s,mm/s,mm,mm,mm\n1,0,1,2,3,7,7,7,4,5,6\n2,0,1,2,3,7,7,7,4,50,6\n",
+      "a.csv");
+  EXPECT_THAT(file.markers.names, ElementsAre("P:A", "P:B"));
+  EXPECT_DOUBLE_EQ(file.markers.position(1, 1).y(), 0.05);
+  EXPECT_EQ(file.repairs.size(), 1U);
+}
+
 TEST(MarkerTable, APositionBeyondTheEarthIsMissingAndNamed) {
   std::string text = kViconMarkers;
   text.replace(text.find("4,5,6"), 5, "4,1e300,6");

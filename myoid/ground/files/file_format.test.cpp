@@ -79,7 +79,7 @@ TEST(FileFormat, TheListsOfEndingsComeFromTheTable) {
 }
 
 TEST(FileFormat, OtherProgramsFormatsAreRefusedWithTheNextStep) {
-  for (const char* name : {"a.acq", "a.mat", "b.XLSX", "a.mvnx", "a.xdf", "a.qtm", "a.hpf"}) {
+  for (const char* name : {"a.acq", "a.mat", "b.XLSX", "a.mvnx", "a.xdf", "a.qtm", "a.hpf", "a.slk", "a.forces"}) {
     try {
       refuse_foreign_format(name);
       ADD_FAILURE() << name;

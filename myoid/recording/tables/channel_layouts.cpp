@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,13 +40,16 @@ std::optional<TableLayout> nexus_devices(const TableText& text, const std::files
   return layout;
 }
 
-/// Finds angles, moments and powers of a model in Nexus' export: "PERSON:LKneeAngles" above X, Y and Z.
+/// Finds angles, moments and powers of a model in Nexus' export: "PERSON:LKneeAngles" above X, Y and Z, or, where there
+/// are none, the angles of its skeleton.
 std::optional<TableLayout> nexus_outputs(const TableText& text, const std::filesystem::path& path) {
-  const auto section = nexus_section(text, "Model Outputs", path);
+  const char* title = "Model Outputs";
+  auto section = nexus_section(text, title, path);
+  if (!section) section = nexus_section(text, title = "Joints", path);
   if (!section) return std::nullopt;
   TableLayout layout = section->layout;
   layout.repairs.push_back(
-      {layout.names_line + 1, "the section 'Model Outputs' is read: results of Nexus, no markers"});
+      {layout.names_line + 1, fmt::format("the section '{}' is read: results of Nexus, no markers", title)});
   std::string output;
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     TableColumn& column = layout.columns[c];
@@ -213,11 +217,42 @@ std::optional<TableLayout> bts_tracks(const TableText& text, const std::filesyst
   throw ReadError(path, 1, "there is no row of names that begins with 'Frame'");
 }
 
+/// Finds Visual3D's layout: rows of files, signals, types and folders above "ITEM X Y Z". The signal TIME is the clock,
+/// where it was exported.
+std::optional<TableLayout> visual3d_signals(const TableText& text, const std::filesystem::path& path) {
+  constexpr std::size_t kHeader = 12, kAbove = 4;
+  const auto row = [&](std::size_t n) { return cells_of(text.lines[n], '\t'); };
+  std::size_t item = kAbove;
+  while (item < std::min(text.lines.size(), kHeader) && row(item)[0] != "ITEM") ++item;
+  if (item >= std::min(text.lines.size(), kHeader)) return std::nullopt;
+  const auto files = row(item - 4), signals = row(item - 3), types = row(item - 2), axes = row(item);
+  if (!files[0].empty() || files.size() < axes.size() || signals.size() < axes.size() || types.size() < axes.size())
+    return std::nullopt;
+  TableLayout layout;
+  layout.set_rows_below(text, item, '\t');
+  layout.columns.push_back({Kind::frame, "ITEM"});
+  for (std::size_t c = 1; c < axes.size(); ++c) {
+    if (files[c] != files[1])
+      throw ReadError(path, item - 3, "'{}' and '{}' stand side by side: export each trial into a file of its own",
+                      files[1], files[c]);
+    const bool clock = types[c] == "FRAME_NUMBERS" && signals[c] == "TIME";
+    layout.columns.push_back({clock ? Kind::time : Kind::channel, clock ? "TIME" : signals[c] + " " + axes[c]});
+    if (clock) layout.columns.back().unit = ScaledUnit{Unit::second, 1.0};
+  }
+  const auto rates = rates_in_lines(std::span(text.lines).first(item - kAbove));
+  if (!rates.empty()) layout.rate_hz = rates[0].hz;
+  if (layout.count(Kind::time) == 0 && !(layout.rate_hz > 0.0))
+    throw ReadError(path, item + 1,
+                    "the rows have no time; export the signal TIME (FRAME_NUMBERS) too, or write a first line "
+                    "'Sampling rate: 200 Hz'");
+  return layout;
+}
+
 }  // namespace
 
 std::optional<TableLayout> makers_layout(TableText& text, const std::filesystem::path& path) {
-  for (const auto& known :
-       {nexus_devices, qualisys_channels, biopac_channels, bts_tracks, opensignals_layout, nexus_outputs}) {
+  for (const auto& known : {nexus_devices, qualisys_channels, biopac_channels, bts_tracks, opensignals_layout,
+                            nexus_outputs, visual3d_signals}) {
     if (auto layout = known(text, path)) return layout;
   }
   return labchart_layout(text, path);

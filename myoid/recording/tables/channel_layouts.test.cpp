@@ -5,6 +5,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/tables/marker_layouts.h"
 
 namespace myoid::recording {
 namespace {
@@ -85,6 +86,51 @@ TEST(ChannelLayouts, ChannelsOfOneNameAreToldApartByTheirDevice) {
       "a.csv");
   EXPECT_EQ(file.data.channels()[2].name, "Plate 2 Fx");
   EXPECT_EQ(file.data.values()(1, 3), 8.0);
+}
+
+TEST(ChannelLayouts, ForcesOfBtsAreChannels) {
+  const std::string text =
+      "BTS ASCII format\n\nType:\tForce track\nMeasure unit:\tN\n\nTracks:\t3\nFrequency:\t500 Hz\n\n"
+      "Frame\tTime\tFz1.X\tFz1.Y\tFz1.Z\n1\t0.000\t1\t2\t700\n2\t0.002\t3\t4\t701\n";
+  EXPECT_FALSE(marker_layout(TableText(text), "f.emt"));
+  const CsvSeries file = parse_emg_table(text, "f.emt");
+  EXPECT_EQ(file.data.channels()[2], (Channel{"Fz1.Z", Unit::newton}));
+  EXPECT_EQ(file.data.values()(1, 2), 701.0);
+}
+
+TEST(ChannelLayouts, JointsOfNexusAreRead) {
+  const CsvSeries file = parse_emg_table(
+      "Joints\n100\n,,S:LElbow,,\nFrame,Sub Frame,RX,RY,RZ\n,,deg,deg,deg\n1,0,90,1,2\n2,0,91,1,2\n", "j.csv");
+  EXPECT_EQ(file.data.channels()[0], (Channel{"S:LElbow RX", Unit::radian}));
+  EXPECT_NEAR(file.data.mean_rate_hz(), 100.0, 1e-9);
+}
+
+TEST(ChannelLayouts, SignalsOfVisual3dHaveTheirTimeOrAStatedRate) {
+  const CsvSeries timed = parse_emg_table(
+      "\ta.c3d\ta.c3d\ta.c3d\n\tTIME\tRElbow\tRElbow\n\tFRAME_NUMBERS\tLINK_MODEL_BASED\tLINK_MODEL_BASED\n"
+      "\tORIGINAL\tORIGINAL\tORIGINAL\nITEM\tX\tX\tY\n1\t0\t7\t8\n2\t0.005\t9\t10\n",
+      "v.txt");
+  ASSERT_EQ(timed.data.channel_count(), 2);
+  EXPECT_EQ(timed.data.channels()[1].name, "RElbow Y");
+  EXPECT_EQ(timed.data.values()(1, 1), 10.0);
+  EXPECT_EQ(timed.data.time_s()[1], 0.005);
+  const std::string rows =
+      "\tRElbow\tRElbow\n\tLINK_MODEL_BASED\tLINK_MODEL_BASED\n\tORIGINAL\tORIGINAL\nITEM\tX\tY\n"
+      "1\t7\t8\n2\t9\t10\n";
+  EXPECT_THROW((void)parse_emg_table("\ta.c3d\ta.c3d\n" + rows, "v.txt"), ReadError);
+  EXPECT_THROW((void)parse_emg_table("Sampling rate: 200 Hz\n\ta.c3d\tb.c3d\n" + rows, "v.txt"), ReadError);
+  const CsvSeries rated = parse_emg_table("Sampling rate: 200 Hz\n\ta.c3d\ta.c3d\n" + rows, "v.txt");
+  EXPECT_EQ(rated.data.time_s()[1], 0.005);
+  EXPECT_EQ(rated.data.values()(1, 0), 9.0);
+}
+
+TEST(ChannelLayouts, ATextOfSpike2IsRefusedInItsFirstLine) {
+  try {
+    (void)parse_emg_table("\"INFORMATION\"\n\"a.smr\"\n\n\"CHANNEL\"\t\"1\"\n\"START\"\t0\t0.001\n1\n2\n", "s.txt");
+    ADD_FAILURE();
+  } catch (const ReadError& error) {
+    EXPECT_EQ(error.line(), 1U);
+  }
 }
 
 TEST(EmgTable, ARowOfRatesBetweenNamesAndNumbersIsNoName) {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/files/file_words.h"
 #include "myoid/recording/tables/nexus_section.h"
 
 namespace myoid::recording {
@@ -62,32 +64,43 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text, const std:
   layout.table.columns.resize(2);
   if (section->groups.empty())
     throw ReadError(path, line, "the row of marker names above 'Frame, Sub Frame' is missing");
-  for (std::size_t c = 2; c < section->labels.size(); c += 3) {
+  std::set<std::size_t> places;  // of X of a marker
+  for (std::size_t c = 2; c < section->labels.size();) {
+    const auto label = [&](std::size_t a) { return c + a < section->labels.size() ? section->labels[c + a] : ""; };
+    if (label(0).ends_with('\'')) {  // speeds X' and accelerations X''
+      layout.table.columns.push_back({Kind::left_out, label(0)});
+      ++c;
+      continue;
+    }
     for (std::size_t a = 0; a < 3; ++a) {
-      const std::string label = c + a < section->labels.size() ? section->labels[c + a] : "";
-      if (lower(label) != std::string(1, "xyz"[a]))
+      if (lower(label(a)) != std::string(1, "xyz"[a]))
         throw ReadError(path, line,
                         fmt::format("expected {} in column {}, found '{}': each marker has X, Y and Z", "XYZ"[a],
-                                    c + a + 1, label));
+                                    c + a + 1, label(a)));
     }
+    places.insert(c);
     add_marker(c < section->groups.size() ? section->groups[c] : "", layout);
+    c += 3;
   }
   for (std::size_t c = 0; c < section->groups.size(); ++c) {
-    const bool place = c >= 2 && (c - 2) % 3 == 0 && c < section->labels.size();
-    if (!place && !section->groups[c].empty())
+    if (!places.contains(c) && !section->groups[c].empty())
       throw ReadError(
           path, line - 1,
           fmt::format("the name '{}' stands in column {}, where no X is: a cell of this row is lost or too many",
                       section->groups[c], c + 1));
   }
   if (layout.names.empty()) return std::nullopt;
-  for (std::size_t c = 2; c < section->units.size() && layout.unit.empty(); ++c) layout.unit = section->units[c];
-  for (std::size_t c = 2; c < section->units.size(); ++c) {
-    if (!section->units[c].empty() && section->units[c] != layout.unit)
-      throw ReadError(
-          path, line + 1,
-          fmt::format("the units '{}' and '{}' stand in one table of markers", layout.unit, section->units[c]));
+  for (std::size_t c = 2; c < std::min(section->units.size(), layout.table.columns.size()); ++c) {
+    const std::string& unit = section->units[c];
+    if (layout.table.columns[c].kind != Kind::channel || unit.empty()) continue;
+    if (layout.unit.empty()) layout.unit = unit;
+    if (unit != layout.unit)
+      throw ReadError(path, line + 1,
+                      fmt::format("the units '{}' and '{}' stand in one table of markers", layout.unit, unit));
   }
+  const auto others = layout.table.count(Kind::left_out);
+  if (others > 0)
+    layout.table.repairs.push_back({line, fmt::format("{} columns of speeds and accelerations are left out", others)});
   layout.table.short_row = ShortRow::gaps;
   return layout;
 }
@@ -150,8 +163,10 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text, const std::f
   return layout;
 }
 
+bool is_of_bts(const TableText& text) { return !text.lines.empty() && trim(text.lines[0]).starts_with("BTS ASCII"); }
+
 std::optional<MarkerLayout> bts_points(const TableText& text, const std::filesystem::path& path) {
-  if (text.lines.empty() || !trim(text.lines[0]).starts_with("BTS ASCII")) return std::nullopt;
+  if (!is_of_bts(text)) return std::nullopt;
   const std::size_t head = std::min(text.lines.size(), kHeaderLines);
   const bool points = lower(stated_text(text, head, '\t', "type")).find("point") != std::string::npos;
   for (std::size_t n = 0; n < head; ++n) {
@@ -162,6 +177,8 @@ std::optional<MarkerLayout> bts_points(const TableText& text, const std::filesys
     layout.table.set_rows_below(text, n, '\t');
     require_triples(layout, path);
     layout.unit = stated_text(text, n, '\t', "Measure unit");
+    const auto unit = parse_file_unit(layout.unit);
+    if (!points && unit && unit->unit != Unit::meter) return std::nullopt;  // tracks of forces
     layout.table.read_header(text, n, {{"frequency"}, {"frames"}, {"tracks"}});
     layout.table.short_row = ShortRow::gaps;
     return layout;
@@ -172,6 +189,7 @@ std::optional<MarkerLayout> bts_points(const TableText& text, const std::filesys
 
 std::optional<MarkerLayout> first_principles(const TableText& text, const std::filesystem::path& /*path*/) {
   constexpr std::size_t kLines = 20;
+  if (is_of_bts(text)) return std::nullopt;
   for (std::size_t n = 0; n < std::min(text.lines.size(), kLines); ++n) {
     for (const char separator : {',', '\t', ';'}) {
       MarkerLayout layout;

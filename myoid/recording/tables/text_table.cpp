@@ -478,12 +478,17 @@ void refuse_other_kinds(const TableText& text, const std::filesystem::path& path
     while (!line.empty() && std::string_view(",;\t \r\"").find(line.back()) != std::string_view::npos)
       line.remove_suffix(1);
     line = trim(line);
-    if (line.starts_with('"')) line.remove_prefix(1);
+    while (line.starts_with('"')) line.remove_prefix(1);
     if (equal_ignoring_case(line, "endheader"))
       throw ReadError(
           path, n + 1,
           "this is a storage file (.mot, .sto) under another name: its header, which says whether angles are "
           "in degrees, ends here; give it a name that ends in .mot or .sto");
+    if (n == 0 && equal_ignoring_case(line, "INFORMATION"))
+      throw ReadError(
+          path, 1,
+          "this is a text of Spike2, whose channels stand one below another; export it as spreadsheet text, "
+          "with a column of times");
     if (line == "TRAJECTORIES" || line == "ANALOG" || line == "MODEL OUTPUTS")
       throw ReadError(
           path, n + 1,

@@ -41,7 +41,7 @@ struct TableText {
 [[nodiscard]] bool is_rule(std::string_view line);
 
 /// Throws ReadError for a text that is no table but has the ending of one: a .mot or .sto file that a spreadsheet saved
-/// (a line `endheader`), an ASCII export of Vicon Workstation (sections TRAJECTORIES, ANALOG).
+/// (a line `endheader`), an ASCII export of Vicon Workstation (sections TRAJECTORIES, ANALOG), a text of Spike2.
 void refuse_other_kinds(const TableText& text, const std::filesystem::path& path);
 
 /// The last row of a text that ends without a line end.
