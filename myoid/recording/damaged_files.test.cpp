@@ -20,7 +20,7 @@
 #include "myoid/recording/edf_reader.h"
 #include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 #include "tests/support/repair_lines.h"
 #include "tests/support/whole_c3d.h"

@@ -14,7 +14,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/marker_table.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/repair_lines.h"

@@ -18,7 +18,7 @@
 #include "myoid/recording/tables/csv_reader.h"
 #include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/message_of.h"

@@ -15,7 +15,7 @@
 #include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/tables/nexus_section.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 namespace myoid::recording {
 

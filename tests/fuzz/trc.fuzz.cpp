@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 #include "fuzz.h"
 

@@ -10,7 +10,7 @@
 #include "myoid/body/osim/osim_reader.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 #include "tests/support/data_folder.h"
 

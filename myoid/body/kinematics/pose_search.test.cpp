@@ -10,7 +10,7 @@
 #include "myoid/body/kinematics/pose_fit.h"
 #include "myoid/body/model/path_survey.h"
 #include "myoid/body/osim/osim_reader.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/marker_pairs.h"

@@ -16,7 +16,7 @@
 #include "myoid/body/model/kinematic_tree.h"
 #include "myoid/body/osim/osim_reader.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/marker_pairs.h"

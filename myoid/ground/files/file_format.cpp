@@ -72,7 +72,7 @@ const std::vector<FormatEntry>& file_formats() {
        .written = {".trc"},
        .kind = "markers",
        .holds = "markers",
-       .reader = "recording/tables/trc_reader",
+       .reader = "recording/trc_reader",
        .writer = "recording/trc_writer",
        .markers = true},
       {.format = F::storage,

@@ -15,7 +15,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/run_identity.h"
 

@@ -27,7 +27,7 @@
 #include "myoid/recording/tables/csv_reader.h"
 #include "myoid/recording/tables/result_units.h"
 #include "myoid/recording/tables/storage_reader.h"
-#include "myoid/recording/tables/trc_reader.h"
+#include "myoid/recording/trc_reader.h"
 
 namespace myoid::program {
 

@@ -1,3 +1,5 @@
+#include "myoid/recording/trc_reader.h"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/recording/tables/trc_reader.h"
 #include "myoid/recording/trc_writer.h"
 
 #include "tests/support/data_folder.h"
@@ -235,7 +236,7 @@ TEST(Trc, FilesOfRealLaboratoriesRead) {
 
 TEST(RotationToYUp, TurnsTheVerticalUpAndKeepsHandedness) {
   for (const char up : {'x', 'y', 'z'}) {
-    const Mat3 R = rotation_to_y_up(up);
+    const Mat3 R = myoid::rotation_to_y_up(up);
     EXPECT_EQ(R.determinant(), 1.0);
     EXPECT_EQ(Vec3(R * Vec3::Unit(up - 'x')), Vec3::UnitY());
   }
