@@ -30,6 +30,7 @@
 #include "myoid/recording/signals/plate_quality.h"
 #include "myoid/recording/tables/result_units.h"
 #include "myoid/recording/tables/storage_reader.h"
+#include "myoid/study/intake/trial_input.h"
 
 namespace myoid::study {
 namespace {
@@ -216,7 +217,7 @@ std::vector<Remark> check_recording(const std::filesystem::path& path,
     standing = false;
   }
   for (const Repair& repair : file.repairs) {
-    findings.push_back(recording::remark_of(repair, recording::to_string(repair)));
+    findings.push_back(remark_of(repair, recording::to_string(repair)));
     findings.back().where = where;
   }
   if (format_of(path) == FileFormat::storage) findings = joined(std::move(findings), check_motion_file(path, model));

@@ -319,6 +319,20 @@ TEST(CheckRecording, OfOneThatPausesTheLongestPartIsChecked) {
   EXPECT_NE(found[0].says.find("5 to 8.999 s"), std::string::npos) << found[0].says;
 }
 
+TEST(CheckRecording, AClockThatMayCountMillisecondsIsAWarning) {
+  const test::TemporaryFolder folder;
+  std::string text = "time,BIC [mV]\n";
+  for (int i = 0; i < 400; ++i) text += fmt::format("{},{}\n", i, (i * 37) % 11 - 5);
+  write_file(folder / "a.csv", text);
+  const auto findings = check_recording(folder / "a.csv");
+  EXPECT_EQ(std::ranges::count_if(findings,
+                                  [](const Remark& remark) {
+                                    return remark.code == RemarkCode::clock_drift &&
+                                           remark.severity == Severity::warning;
+                                  }),
+            1);
+}
+
 TEST(CheckRecording, UnevenSamplesAreAnErrorOfTheFile) {
   const test::TemporaryFolder folder;
   write_file(folder / "emg.csv", emg_text(4000, [](int i) { return 0.001 * i + 0.0003 * (i % 2); }));

@@ -18,17 +18,20 @@ void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remar
     remarks.push_back({.code = RemarkCode::reading, .severity = Severity::note, .says = text});
 }
 
+Remark remark_of(const Repair& repair, std::string says) {
+  Remark remark = recording::remark_of(repair, std::move(says));
+  if (repair.apart_s < kLimits.clocks.apart_s) return remark;
+  remark.code = RemarkCode::clock_drift;
+  remark.severity = Severity::warning;
+  remark.value = repair.apart_s;
+  remark.says += fmt::format("; at the end the two are {:.2g} s apart", repair.apart_s);
+  remark.remedy = "correct the rate in the header or the times, whichever is wrong";
+  return remark;
+}
+
 void add_repairs(const std::filesystem::path& path, const std::vector<Repair>& repairs, std::vector<Remark>& remarks) {
-  for (const Repair& repair : repairs) {
-    remarks.push_back(recording::remark_of(repair, recording::to_string(path.filename(), repair)));
-    if (repair.apart_s < kLimits.clocks.apart_s) continue;
-    Remark& doubt = remarks.back();
-    doubt.code = RemarkCode::clock_drift;
-    doubt.severity = Severity::warning;
-    doubt.value = repair.apart_s;
-    doubt.says += fmt::format("; at the end the two are {:.2g} s apart", repair.apart_s);
-    doubt.remedy = "correct the rate in the header or the times, whichever is wrong";
-  }
+  for (const Repair& repair : repairs)
+    remarks.push_back(remark_of(repair, recording::to_string(path.filename(), repair)));
 }
 
 std::string few_samples(const TrialSpec& trial, const TimeSeries& series, int needed) {

@@ -51,8 +51,11 @@ void warn(TrialInput& input, RemarkCode code, std::string text);
 /// Adds notes on the reading of files.
 void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remarks);
 
-/// Adds the repairs of a reader: "file:line: message". A clock that may be wrong by ClockLimits::apart_s is a warning,
-/// and so is a file that holds less than its header states.
+/// Returns the remark on a repair of a reader. A clock that may be wrong by ClockLimits::apart_s is a warning, and so
+/// is a file that holds less than its header states.
+[[nodiscard]] Remark remark_of(const Repair& repair, std::string says);
+
+/// Adds the repairs of a reader: "file:line: message".
 void add_repairs(const std::filesystem::path& path, const std::vector<Repair>& repairs, std::vector<Remark>& remarks);
 
 /// Least number of samples of a recording.
