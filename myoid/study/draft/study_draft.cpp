@@ -198,10 +198,10 @@ class Draft {
     }
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
     if (torques) torques_.of_joints.push_back(path);
-    if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
-      note_unused(path, torques, f.loads.only_torques && !torques);
-      return;
-    }
+    const bool still = f.markers.frame_count() == 0 && f.angles.empty();
+    if (still && !f.channels.empty() && f.loads.only_torques && !torques && format_of(path) == FileFormat::text_table)
+      torques_.of_no_joint.push_back(path.filename().string());  // EMG, torque and angle in one table
+    if (still && f.channels.empty()) return note_unused(path, torques, f.loads.only_torques && !torques);
     if (f.markers.frame_count() > 0) {
       Eigen::Index known = 0;
       std::vector<std::string> wanted;

@@ -14,6 +14,7 @@
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/study/checks/check_study.h"
+#include "myoid/study/draft/draft_loads.h"
 #include "myoid/study/draft/draft_model.h"
 #include "myoid/study/read_study.h"
 
@@ -138,6 +139,21 @@ TEST(StudyDraft, ATorqueOfNoJointAsksForTheColumnsNames) {
   EXPECT_THAT(draft.todo,
               Contains(testing::AllOf(HasSubstr("hold_60_dynamometer.csv and 1 more"),
                                       HasSubstr("'elbow_flexion_moment [Nm]'"), HasSubstr("'elbow_flexion [deg]'"))));
+}
+
+TEST(StudyDraft, ATorqueBesideEmgInOneTableAsksForTheColumnsNamesToo) {
+  const auto todo = [](const std::string& columns) {
+    const test::TemporaryFolder folder;
+    std::string table = "Time (s)," + columns + ",EMG BIC (mV)\n";
+    for (int i = 0; i < 4000; ++i)
+      table += fmt::format("{:.3f},{:.3f},60.0,{:.4f}\n", 0.001 * i, -20.0 * (1.0 + std::sin(0.006 * i)),
+                           std::sin(0.7 * i * i) * (1.0 + std::sin(0.006 * i)));
+    write_file(folder / "k.csv", table);
+    return draft_study(folder.path(), {.from = {folder.path()}}).todo;
+  };
+  const std::string question = question_of_torques({"k.csv"}, "elbow_flexion");
+  EXPECT_THAT(todo("Torque (ft-lbf),Angle (deg)"), Contains(question));
+  EXPECT_THAT(todo("elbow_flexion_moment (Nm),elbow_flexion (deg)"), testing::Not(Contains(question)));
 }
 
 // A maximal contraction without EMG says nothing of the largest EMG, and study.toml refuses it.
