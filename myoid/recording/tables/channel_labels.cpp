@@ -227,11 +227,12 @@ constexpr std::array kRateWords{
 /// Words before "rate" and "frequency" with which these may be the samples'. A heart rate, a baud rate and the
 /// frequency of a filter or of the mains are none.
 const std::set<std::string, std::less<>> kRateOf{
-    "",       "acquisition", "analog", "analogue", "base",   "camera",  "capture",   "channel", "collection",
-    "data",   "device",      "emg",    "export",   "file",   "force",   "frame",     "imu",     "input",
-    "logger", "logging",     "mean",   "mess",     "motion", "nominal", "output",    "plate",   "point",
-    "record", "recording",   "sample", "sampling", "scan",   "sensor",  "signal",    "the",     "time",
-    "trial",  "update",      "video",  "marker",   "frames", "average", "measuring", "signals", "measurement"};
+    "",        "s",         "acq",     "adc",        "daq",    "acquisition", "analog", "analogue", "base",
+    "camera",  "capture",   "channel", "collection", "data",   "device",      "emg",    "export",   "file",
+    "force",   "frame",     "imu",     "input",      "logger", "logging",     "mean",   "mess",     "motion",
+    "nominal", "output",    "plate",   "point",      "record", "recording",   "sample", "sampling", "scan",
+    "sensor",  "signal",    "the",     "time",       "trial",  "update",      "video",  "marker",   "frames",
+    "average", "measuring", "signals", "measurement"};
 
 /// Returns the letters that end at `end`, or, where none stand there, the word before the blank.
 std::string_view word_before(std::string_view text, std::size_t end) {

@@ -301,6 +301,18 @@ TEST(EmgTable, ZerosBehindTheEndOfAChannelAreNoSamples) {
       ReadError);
 }
 
+TEST(EmgTable, AColumnWithoutANameIsLeftOutWhereItIsEmptyElseNamed) {
+  const CsvSeries empty = parse_emg_table("time,EMG [mV],,b\n0,1,,2\n1,3,,4\n", "a.csv");
+  EXPECT_EQ(empty.data.channel_count(), 2);
+  EXPECT_DOUBLE_EQ(empty.data.column("b")[1], 4.0);
+  const CsvSeries filled = parse_emg_table("time,EMG [mV],,b\n0,1,,2\n1,3,7,4\n", "a.csv");
+  ASSERT_EQ(filled.data.channel_count(), 3);
+  EXPECT_DOUBLE_EQ(filled.data.values()(1, 1), 7.0);
+  // A named column that is empty stays a gap.
+  EXPECT_EQ(parse_emg_table("time,a,b\n0,,2\n1,,4\n", "a.csv").data.channel_count(), 2);
+  EXPECT_THROW((void)parse_emg_table("time,a,a\n0,1,2\n1,3,4\n", "a.csv"), ReadError);
+}
+
 TEST(EmgTable, NamesBetweenBlanksStandAboveRowsBetweenTabs) {
   const CsvSeries s = parse_emg_table(
       "[Force Data]\nNumberOfForcePlates=1\nSampleRate=150.0\n#Sample FX1 FY1 FZ1\n1\t3\t-2\t400\n2\t4\t-2\t401\n",

@@ -182,7 +182,7 @@ class RowClock {
     if (numbers_.day_times || layout_.rate_hz > 0.0 || time.size() < kFewest || rate > kSlowest_hz) return;
     const double length = time[time.size() - 1] - time[0];
     repairs_.push_back({.line = line(0),
-                        .message = fmt::format("'{}' is read in s: {:.4g} s lie between rows; if it counts ms, name it "
+                        .message = fmt::format("'{}' counts s, {:.4g} s from row to row, or ms, and is named "
                                                "'time_ms'",
                                                name, 1.0 / rate),
                         .apart_s = length - 1e-3 * length});

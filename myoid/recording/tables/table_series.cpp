@@ -74,28 +74,24 @@ class TableSeries {
     if (!left_out.empty())
       note(layout_.names_line + 1, fmt::format("columns that are left out: {}", fmt::join(left_out, ", ")));
     compare_count(layout_.channels_said, names.size(), "channels", series_.repairs);
-    if (layout_.plain) {
-      require_names(names);
-    } else {
-      names = unique_names(names, "channel", layout_.names_line + 1, series_.repairs);
-    }
+    if (layout_.plain) require_own_names(names);
+    names = unique_names(names, "channel", layout_.names_line + 1, series_.repairs);
     std::size_t k = 0;
     for (const TableColumn& column : layout_.columns) {
       if (column.kind != Kind::channel) continue;
       const auto x = numbers_.values.col(static_cast<Eigen::Index>(k));
       Eigen::Index samples = x.size();
-      while (!layout_.plain && samples > 0 && !std::isfinite(x[samples - 1])) --samples;
+      const bool may_end = !layout_.plain || (column.name.empty() && !x.array().isFinite().any());
+      while (may_end && samples > 0 && !std::isfinite(x[samples - 1])) --samples;
       channels_.push_back({names[k], column.unit, static_cast<Eigen::Index>(k), samples, 0});
       ++k;
     }
   }
 
-  void require_names(const std::vector<std::string>& names) const {
+  void require_own_names(const std::vector<std::string>& names) const {
     for (std::size_t c = 0; c < names.size(); ++c) {
-      if (names[c].empty())
-        throw ReadError(path_, layout_.names_line + 1, fmt::format("channel {} of the table has no name", c + 1));
       const auto here = names.begin() + static_cast<std::ptrdiff_t>(c);
-      if (std::find(names.begin(), here, names[c]) != here)
+      if (!names[c].empty() && std::find(names.begin(), here, names[c]) != here)
         throw ReadError(path_, layout_.names_line + 1, fmt::format("two columns are named '{}'; rename one", names[c]));
     }
   }
@@ -226,7 +222,6 @@ class TableSeries {
   // --- channels and clocks together ---
 
   void drop_empty_channels() {
-    if (layout_.plain) return;
     std::vector<std::string> empty;
     for (TableClock& clock : clocks_) {
       std::erase_if(clock.channels, [&](std::size_t c) {
