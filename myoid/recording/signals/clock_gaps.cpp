@@ -1,5 +1,8 @@
 #include "myoid/recording/signals/clock_gaps.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "myoid/ground/math/statistics.h"
@@ -35,9 +38,11 @@ std::vector<Stretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& ti
 
 std::string ClockGaps::text() const {
   if (count == 0) return "no gap";
-  if (count == 1) return fmt::format("a gap from {:.6g} to {:.6g} s", longest_begin_s, longest_end_s);
-  return fmt::format("{} gaps, {:.3g} s in all, the longest from {:.6g} to {:.6g} s", count, total_s, longest_begin_s,
-                     longest_end_s);
+  // To the millisecond, also on a clock that counts from 1970.
+  const int digits = std::max(6, 4 + static_cast<int>(std::log10(std::max(std::abs(longest_end_s), 1.0))));
+  const std::string longest = fmt::format("from {:.{}g} to {:.{}g} s", longest_begin_s, digits, longest_end_s, digits);
+  if (count == 1) return "a gap " + longest;
+  return fmt::format("{} gaps, {:.3g} s in all, the longest {}", count, total_s, longest);
 }
 
 }  // namespace myoid::recording

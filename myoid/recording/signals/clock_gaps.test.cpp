@@ -30,6 +30,12 @@ TEST(ClockGaps, AHoleIsFoundWithItsEnds) {
   EXPECT_EQ(gaps.text(), "a gap from 3 to 6 s");
 }
 
+TEST(ClockGaps, OfATimeSince1970IsNamedToTheMillisecond) {
+  const Eigen::VectorXd t = clock_without(3.0, 6.0).array() + 1667324514.0;
+  EXPECT_EQ(find_clock_gaps(t).text(), "a gap from 1667324517 to 1667324520 s");
+  EXPECT_EQ(find_clock_gaps(t.array() + 0.25).text(), "a gap from 1667324517.25 to 1667324520.25 s");
+}
+
 TEST(ClockGaps, OneLostSampleIsNoGapAndTwoAre) {
   EXPECT_EQ(find_clock_gaps(clock_without(3.0, 3.02)).count, 0);
   EXPECT_EQ(find_clock_gaps(clock_without(3.0, 3.03)).count, 1);
