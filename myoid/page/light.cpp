@@ -45,11 +45,16 @@ Light light_of(const std::vector<Gate>& gates) {
     light.leads_to = ".";
     return light;
   }
+  const auto explains = [](const Gate& gate) {
+    return gate.explains && (gate.status == GateStatus::warn || gate.status == GateStatus::fail);
+  };
+  std::ranges::copy_if(gates, std::back_inserter(light.reasons), explains);
   std::ranges::copy_if(gates, std::back_inserter(light.reasons),
-                       [&](const Gate& gate) { return gate.status == light.status; });
+                       [&](const Gate& gate) { return gate.status == light.status && !explains(gate); });
   std::vector<std::string> cautions;
   for (const Gate& gate : gates)
-    if (gate.status == GateStatus::warn && light.status == GateStatus::fail) cautions.push_back(gate.name);
+    if (gate.status == GateStatus::warn && light.status == GateStatus::fail && !explains(gate))
+      cautions.push_back(gate.name);
   if (!cautions.empty()) light.besides = fmt::format("Besides, these ask for caution: {}.", fmt::join(cautions, "; "));
   return light;
 }

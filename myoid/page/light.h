@@ -13,7 +13,7 @@ struct Light {
   std::string head;                      ///< "Use the numbers with caution"
   std::string answered;                  ///< "11 of 13 questions about the recording and the fit are answered well"
   std::string leads_to;                  ///< "; these ask for caution:", or "." if nothing does.
-  std::vector<Gate> reasons;             ///< The gates of this status; none for pass.
+  std::vector<Gate> reasons;             ///< What explains others, then the gates of this status; none for pass.
   std::string besides;                   ///< Beside failures, the gates that ask for caution by name; or empty.
 };
 

@@ -21,5 +21,15 @@ TEST(Light, HasTheColorAndTheShapeOfTheWorstAnswer) {
   EXPECT_EQ(light_of({good, doubtful}).besides, "");
 }
 
+TEST(Light, NamesWhatExplainsTheOthersFirst) {
+  const Gate bad{.name = "Fit converged", .status = GateStatus::fail};
+  const Gate cause{.name = "Electrodes", .status = GateStatus::warn, .explains = true};
+  const Light light = light_of({bad, cause});
+  EXPECT_EQ(light.status, GateStatus::fail);
+  ASSERT_EQ(light.reasons.size(), 2U);
+  EXPECT_EQ(light.reasons[0].name, cause.name);
+  EXPECT_EQ(light.besides, "");
+}
+
 }  // namespace
 }  // namespace myoid::page

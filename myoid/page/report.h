@@ -87,6 +87,7 @@ struct Gate {
   std::string value;      ///< "4.1 mm rms"
   std::string threshold;  ///< "below 10 mm"
   std::string why;        ///< Consequence of the answer, one sentence.
+  bool explains = false;  ///< A mistake that explains other answers: it is named first and in full.
 };
 
 /// One estimated number beside the knowledge before the recording: a row of the forest plot.

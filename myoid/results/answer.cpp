@@ -18,6 +18,7 @@
 #include "myoid/run/design/design_study.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/prediction_gates.h"
+#include "myoid/run/quality_gates.h"
 
 namespace myoid::results {
 namespace {
@@ -162,9 +163,10 @@ std::string truth_sentence(const run::StudyResult& result, const IdentificationR
 
 std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
 
-/// Returns a reason in at most `most` lines, with the expected value where there is room.
+/// Returns a reason in at most `most` lines, with the expected value where there is room; what explains others in full.
 std::string reason_lines(const page::Gate& gate, std::size_t width, std::size_t most) {
   const std::string found = with_short_words(fmt::format("- {}: {}", gate.name, gate.value), width);
+  if (gate.explains) return wrapped(found, width);
   std::string text = wrapped(fmt::format("{} (expected: {})", found, gate.threshold), width);
   for (std::size_t room = most * width; line_count(text) > most; room -= width / 8)
     text = wrapped(elided(found, room), width);
@@ -226,9 +228,9 @@ struct TrialRemark {
 /// Returns the worst that is known against each trial, the worst first.
 std::vector<TrialRemark> trial_remarks(const run::StudyResult& result) {
   const std::vector<run::OutlyingFold> outlying = run::outlying_folds(result.folds);
+  const run::MistakenEmg* mistaken = run::named_mistake(result);
   const auto in_words = [](const Remark& remark) {
-    if (remark.code == RemarkCode::general || remark.code == RemarkCode::reading)
-      return std::string("see its warnings");
+    if (remark.code == RemarkCode::general || remark.code == RemarkCode::reading) return elided(remark.says, 100);
     return page::spelled(name(remark.code)) + (remark.about.empty() ? "" : ": " + remark.about) +
            (remark.likewise.empty() ? "" : fmt::format(", likewise in {} more", remark.likewise.size()));
   };
@@ -243,6 +245,7 @@ std::vector<TrialRemark> trial_remarks(const run::StudyResult& result) {
     for (const std::vector<Remark>* list : {&trial.faults, &trial.remarks})
       for (const Remark& one : *list)
         if (one.severity <= Severity::warning) worse(2, in_words(one));
+    if (mistaken != nullptr && mistaken->trial == trial.spec.name) worse(1, mistaken->about_trial());
     if (std::ranges::find(outlying, trial.spec.name, &run::OutlyingFold::trial) != outlying.end())
       worse(1, "predicted worse than the others");
     if (!trial.failure().empty()) worse(0, "could not be computed");

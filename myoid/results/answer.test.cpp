@@ -86,14 +86,14 @@ TEST(TrialsSentence, NamesTheWorstTrialsFirst) {
   result.trials[0].faults = {{.code = RemarkCode::emg_hum, .severity = Severity::note}};
   EXPECT_EQ(trials_sentence(result), "No trial has a warning.");
   result.trials[1].faults = {{.code = RemarkCode::emg_clipped, .about = "BIC"}};
-  result.trials[2].remarks = {{.code = RemarkCode::general}};
+  result.trials[2].remarks = {{.code = RemarkCode::general, .says = "cut"}};
   const std::string alone = trials_sentence(result);
   result.trials[1].faults[0].likewise = {"t2", "t3"};
   EXPECT_GT(trials_sentence(result).size(), alone.size());  // what all trials have speaks against none alone
   result.trials[1].faults[0].likewise.clear();
   result.trials[3].motion.failure = "no markers";
   EXPECT_EQ(trials_sentence(result),
-            "Trials with warnings: t3 (could not be computed), t1 (EMG clipped: BIC), t2 (see its warnings).");
+            "Trials with warnings: t3 (could not be computed), t1 (EMG clipped: BIC), t2 (cut).");
   EXPECT_EQ(trials_sentence(result, 1), "Trials with warnings: t3 (could not be computed) and 2 more.");
 }
 

@@ -150,7 +150,8 @@ fit::ActivationSource activation_source(const study::Study& study,
                                .gain_common_sd = effort.common_sd,
                                .gain_mean = effort.own.mean,
                                .bandwidth_hz = n.bandwidth_hz,
-                               .rest = n.resting_level_v / n.reference_v};
+                               .rest = n.resting_level_v / n.reference_v,
+                               .full_v = n.reference_v};
     if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, effort.own.sd);
     source.channels.push_back(std::move(channel));
   }

@@ -339,15 +339,19 @@ std::optional<Gate> unit_gate(const StudyResult& result) {
               "Every number of the fit rests on angles and torques: correct the unit first."};
 }
 
-Gate electrode_gate(const fit::ExchangedElectrodes& exchanged) {
-  // A person whose synergists differ more than usual could explain this, too.
+Gate emg_gate(const MistakenEmg& mistaken) {
+  // A person whose synergists differ more than usual could explain an exchange, too.
   return {
-      "Electrodes on the muscles that they are named for",
-      exchanged.r2 > study::kGateLimits.explains ? GateStatus::warn : GateStatus::fail, exchanged.sentence(),
-      fmt::format("no two channels by whose exchange the recording is {:.0f} times as probable; fails where the fit "
-                  "explains less than half of the torque (R2 0.5)",
-                  std::exp(fit::kExchangedOdds)),
-      "Every number of the two muscles is then the other's."};
+      .name = mistaken.is_exchange() ? "Electrodes on the muscles that they are named for" : "One gain in every trial",
+      .status = mistaken.r2 > study::kGateLimits.explains ? GateStatus::warn : GateStatus::fail,
+      .value = mistaken.sentence(),
+      .threshold = fmt::format("no exchange of two channels and no gain of a trial by which the recording is {:.0f} "
+                               "times as probable; fails where the fit explains less than half of the torque (R2 0.5)",
+                               std::exp(kMistakenOdds)),
+      .why = mistaken.is_exchange() ? "Every number of the two muscles is then the other's."
+                                    : "Or its torque is in another unit, or a held mass is wrong: every number rests "
+                                      "on both.",
+      .explains = true};
 }
 
 Gate clock_gate(const fit::ShiftedEmg& shifted) {
@@ -374,9 +378,9 @@ Gate choice_gate(const OtherChoice& choice) {
 
 std::vector<page::Gate> quality_gates(const StudyResult& result) {
   std::vector<Gate> list;
+  if (const MistakenEmg* mistaken = named_mistake(result)) list.push_back(emg_gate(*mistaken));
   if (auto gate = question_gate(result)) list.push_back(std::move(*gate));
-  const std::optional<Gate> units = unit_gate(result);
-  if (units) list.push_back(*units);
+  if (auto gate = unit_gate(result)) list.push_back(std::move(*gate));
   if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
   if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
   if (const int failed = failed_trials(result.trials); failed > 0) {
@@ -386,8 +390,6 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
   }
   list.push_back(recordings_gate(result));
   list.push_back(loads_gate(result.trials));
-  // Wrong units explain a poor fit: what else might explain it is no finding.
-  if (result.fit.exchanged && !units) list.push_back(electrode_gate(*result.fit.exchanged));
   if (result.fit.shifted) list.push_back(clock_gate(*result.fit.shifted));
   if (result.fit.scales && result.fit.scales->differ()) list.push_back(scales_gate(*result.fit.scales));
   if (result.fit.other_choice) list.push_back(choice_gate(*result.fit.other_choice));
@@ -402,6 +404,13 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
                                      result.level_faults.end()));
   }
   return list;
+}
+
+const MistakenEmg* named_mistake(const StudyResult& result) {
+  if (!result.fit.mistaken) return nullptr;
+  const MistakenEmg& mistaken = *result.fit.mistaken;
+  const bool of_one_trial = mistaken.is_exchange() && !mistaken.trial.empty();
+  return of_one_trial || doubtful_units(result).empty() ? &mistaken : nullptr;
 }
 
 std::vector<const Remark*> doubtful_units(const StudyResult& result) {

@@ -19,6 +19,10 @@ namespace myoid::run {
 /// report begins with this section.
 [[nodiscard]] page::Section recordings_section(const StudyResult& result);
 
+/// Returns the mistake with the EMG that is named; nullptr: none. Units in doubt explain a poor fit: what else might,
+/// is no finding, unless it is an exchange in one trial, which puts the torque's unit in doubt itself.
+[[nodiscard]] const MistakenEmg* named_mistake(const StudyResult& result);
+
 /// Returns the warnings of a trial that the unit of a joint's angle or torque is another than its header says.
 [[nodiscard]] std::vector<const Remark*> doubtful_units(const StudyResult& result);
 

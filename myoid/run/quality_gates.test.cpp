@@ -105,16 +105,29 @@ TEST(QualityGates, ExchangedElectrodesAreAFailureOrOfSynergistsACaution) {
   const char* gate = "Electrodes on the muscles that they are named for";
   StudyResult result = some_result(0.01, 0, 90.0);
   EXPECT_EQ(status_of(result, gate), GateStatus::info);
-  result.fit.exchanged = {.first = "BIC", .second = "TRI", .log_odds = 20.0, .r2 = 0.0};
+  result.fit.mistaken = {.first = "BIC", .second = "TRI", .log_odds = 20.0, .r2 = 0.0};
   EXPECT_EQ(status_of(result, gate), GateStatus::fail);
-  result.fit.exchanged->r2 = 0.9;
+  result.fit.mistaken->r2 = 0.9;
   EXPECT_EQ(status_of(result, gate), GateStatus::warn);
+  EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
+}
+
+TEST(QualityGates, EmgThatIsMistakenInOneTrialIsNamedFirstAndCapsAllNumbers) {
+  StudyResult result = some_result(0.01, 0, 90.0);
+  result.fit.mistaken = {.trial = "slow", .first = "BIC", .second = "TRI", .log_odds = 20.0, .r2 = 0.9};
+  // An exchange puts the torque's unit in doubt.
+  result.trials[0].remarks = {{.code = RemarkCode::unit_doubtful, .about = "elbow_flexion", .says = "radians?"}};
+  EXPECT_TRUE(quality_gates(result).front().explains);
+  EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
+  result.trials[0].remarks.clear();
+  result.fit.mistaken = {.trial = "slow", .gain = 3.0, .log_odds = 20.0, .r2 = 0.9};
+  EXPECT_TRUE(quality_gates(result).front().explains);
   EXPECT_EQ(verdict_of(result), fit::Verdict::weak);
 }
 
 TEST(QualityGates, AUnitInDoubtComesBeforeAllThatItExplains) {
   StudyResult result = some_result(0.01, 0, 90.0);
-  result.fit.exchanged = {.first = "BIC", .second = "TRI", .log_odds = 20.0, .r2 = 0.0};
+  result.fit.mistaken = {.first = "BIC", .second = "TRI", .log_odds = 20.0, .r2 = 0.0};
   result.trials[0].remarks = {{.code = RemarkCode::unit_doubtful, .about = "elbow_flexion", .says = "radians?"}};
   EXPECT_EQ(quality_gates(result).front().value, "radians?");
   EXPECT_EQ(quality_gates(result).front().status, GateStatus::warn);

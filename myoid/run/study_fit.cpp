@@ -81,9 +81,11 @@ StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64
     } else {
       // EMG that is given as activation may be that of a simulation, without noise.
       std::optional<IdentificationResult> exact;
+      fit::EstimatorOptions telling = input.options;
+      telling.progress.report = progress.report;
       if (study.emg.kind == study::EmgKind::activation) exact = fit::identify_exactly(input.data, input.options);
-      found.methods.push_back(exact ? std::move(*exact) : fit::identify_torque(input.data, input.options));
-      found.exchanged = fit::exchanged_electrodes(input.data, input.options, found.methods.back());
+      found.methods.push_back(exact ? std::move(*exact) : fit::identify_torque(input.data, telling));
+      found.mistaken = mistaken_emg(input.data, input.options, found.methods.back());
       found.other_choice = other_choice(input.data, input.options, found.methods.back());
       found.scales = torque_scales(input.data, input.options, found.methods.back());
     }

@@ -7,10 +7,10 @@
 
 #include "myoid/fit/intervals/result.h"
 #include "myoid/fit/methods/emg_clock.h"
-#include "myoid/fit/methods/exchanged_electrodes.h"
 #include "myoid/ground/core/progress.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/informed_forces.h"
+#include "myoid/run/mistaken_emg.h"
 #include "myoid/run/other_choice.h"
 #include "myoid/run/solver_contest.h"
 #include "myoid/run/torque_scales.h"
@@ -20,8 +20,7 @@ namespace myoid::run {
 /// The parameters of a study and the forces that follow from the parameters.
 struct StudyFit {
   std::vector<fit::IdentificationResult> methods;
-  /// Two channels that fit better with exchanged names.
-  std::optional<fit::ExchangedElectrodes> exchanged;
+  std::optional<MistakenEmg> mistaken;      ///< Exchanged electrodes, or another gain in a trial.
   std::optional<fit::ShiftedEmg> shifted;   ///< EMG on another clock than the torque.
   std::optional<TorqueScales> scales;       ///< Of trials with a dynamometer and without.
   std::optional<OtherChoice> other_choice;  ///< Of muscles without EMG.

@@ -102,8 +102,8 @@ std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vecto
     caps.push_back(of_all("The motion it rests on failed its quality gate: mend that first."));
   const bool doubtful = !doubtful_units(result).empty();
   if (doubtful) caps.push_back(of_all("A unit of an angle or a torque seems to be another: mend that first."));
-  if (result.fit.exchanged && !doubtful)
-    caps.push_back(of_all("Two electrodes seem to be exchanged: mend that first."));
+  if (const MistakenEmg* mistaken = named_mistake(result))
+    caps.push_back(of_all(fmt::format("{}: mend that first.", mistaken->finding())));
   if (result.fit.shifted) caps.push_back(of_all("EMG and torque seem to be on different clocks: mend that first."));
   if (result.fit.scales && result.fit.scales->differ())
     caps.push_back({.reason = "Dynamometer and masses disagree about the torque's scale: mend that first.",

@@ -126,6 +126,7 @@ struct ChannelSource {
   /// envelope's. Its spread remains and enlarges the relative spread of a small envelope u by the factor 1 + (rest /
   /// u)^2. It counts where the bandwidth is known.
   double rest = 0.0;
+  double full_v = 0.0;  ///< The level that counts as 1; 0: not known.
 };
 
 /// The facts about the activations that a fit receives. The defaults describe activations of unknown origin.
