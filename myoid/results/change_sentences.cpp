@@ -40,11 +40,13 @@ std::string owner_of(const ComparedParameter& p) { return page::spelled(page::pl
 
 /// Returns "8 %", or the size itself where the number of the first session is no scale.
 std::string share_or_size(const ComparedParameter& p, double size) {
-  if (!(std::abs(p.of_first.value) > 0.0)) return with_unit(size, p.first.unit);
+  if (!has_scale(p)) return with_unit(size, p.first.unit);
   return percent_text(100.0 * size / std::abs(p.of_first.value)) + " %";
 }
 
 }  // namespace
+
+bool has_scale(const ComparedParameter& p) { return p.of_first.value != 0.0 && p.first.unit != Unit::radian; }
 
 std::string percent_text(double percent) {
   return std::abs(percent) < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
@@ -78,9 +80,14 @@ std::string change_text(const ComparedParameter& p) {
   }
   const double seen = *p.smallest_detectable, size = std::abs(p.difference);
   const std::string unseen = fmt::format("a change below {} would not have been seen", share_or_size(p, seen));
+  if (p.differs_alone_only())
+    return fmt::format(
+        "{} {} by {}: by itself more than chance explains (p {:.2g}), but not among {} numbers (p {:.2g} by Holm)",
+        owner_of(p), direction(p.first.parameter, p.difference), with_unit(size, p.first.unit), *p.p_alone, p.tested,
+        *p.p_value);
   if (p.change == Change::no_change)
     return fmt::format("{}: no change of {} shows; {}", owner_of(p), page::spelled(p.first.parameter), unseen);
-  const std::string share = std::abs(p.of_first.value) > 0.0 ? share_or_size(p, size) + ", " : "";
+  const std::string share = has_scale(p) ? share_or_size(p, size) + ", " : "";
   return fmt::format("{} {} by {} ({}95 % {} to {}); {}", owner_of(p), direction(p.first.parameter, p.difference),
                      with_unit(size, p.first.unit), share,
                      page::format_value((size - seen) * page::plain_unit(p.first.unit).per_si),
@@ -111,14 +118,20 @@ std::string changes_sentence(const RunComparison& comparison) {
   std::vector<const ComparedParameter*> counted = counted_parameters(comparison);
   std::ranges::stable_sort(counted, {}, [](const ComparedParameter* p) { return rank(p->first); });
   std::vector<std::string> found;
-  std::size_t same = 0, untold = 0;
+  std::size_t same = 0, untold = 0, alone = 0;
+  int tested = 0;
   for (const ComparedParameter* p : counted) {
     if (p->change == Change::differs) found.push_back(change_text(*p));
     same += p->change == Change::no_change;
     untold += p->change == Change::cannot_tell;
+    alone += p->differs_alone_only();
+    tested += p->p_value ? 1 : 0;
   }
-  const std::string rest = fmt::format("{} no change, and of {} a recording does not tell enough",
-                                       same == 1 ? "1 number shows" : fmt::format("{} numbers show", same), untold);
+  std::string rest = fmt::format("{} no change, and of {} a recording does not tell enough",
+                                 same == 1 ? "1 number shows" : fmt::format("{} numbers show", same), untold);
+  if (alone > 0)
+    rest += fmt::format(". {} by itself, but {} numbers were tested, of which one in 20 does so by chance (Holm)",
+                        alone == 1 ? "1 of them differs" : fmt::format("{} of them differ", alone), tested);
   if (found.empty()) return fmt::format("No number changed by more than chance explains: {}.", rest);
   const std::size_t more = found.size() - std::min(found.size(), kNamed);
   found.resize(found.size() - more);

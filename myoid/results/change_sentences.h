@@ -23,6 +23,9 @@ namespace myoid::results {
 /// Returns two digits of a share in percent, three from 100 on: "8", "-63", "105".
 [[nodiscard]] std::string percent_text(double percent);
 
+/// Returns true for a number of which a percent means something: not 0, and no angle.
+[[nodiscard]] bool has_scale(const ComparedParameter& p);
+
 /// Returns the branch of a muscle between `before` and `behind`; empty if the number is of both branches.
 [[nodiscard]] std::string branch_text(fit::FitCase fit_case, std::string_view before, std::string_view behind = "");
 

@@ -32,7 +32,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLevel = 0.05;
 /// Share of the errors of the first kind that the greatest voluntary torques may make.
 constexpr double kOfTorques = 0.9;
 /// The effort that a person's maximal contraction reaches differs by this share from session to session (judgment).
@@ -209,6 +208,7 @@ void adjust_p_values(std::vector<ComparedParameter*> compared, double share) {
     largest =
         std::max(largest, std::min(1.0, *compared[k]->p_value * static_cast<double>(compared.size() - k) / share));
     compared[k]->p_value = largest;
+    compared[k]->tested = static_cast<int>(compared.size());
     compared[k]->change = largest < kLevel ? Change::differs : Change::no_change;
   }
 }
@@ -246,7 +246,8 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
   if (usable && told(p.first) && told(p.second)) {
     const double se = std::hypot(one.sd, other.sd);
     p.smallest_detectable = kNormal95 * se;
-    p.p_value = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
+    p.p_alone = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
+    p.p_value = p.p_alone;
   }
   return p;
 }

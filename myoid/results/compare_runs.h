@@ -19,6 +19,8 @@ enum class Change {
 };
 [[nodiscard]] std::string_view name(Change change);
 
+inline constexpr double kLevel = 0.05;  ///< Below which a p-value means a difference.
+
 /// A number of one session in the compared reading: given geometry and sensors where both sessions have it.
 struct ComparedValue {
   double value = 0.0;
@@ -32,8 +34,12 @@ struct ComparedParameter {
   ComparedValue of_first, of_second;
   double difference = 0.0;                    ///< Second minus first, in the compared reading.
   std::optional<double> smallest_detectable;  ///< 1.96 standard errors of the difference.
-  std::optional<double> p_value;              ///< Two-sided, adjusted (Holm) within the method.
+  std::optional<double> p_alone;              ///< Two-sided, of this number by itself.
+  std::optional<double> p_value;              ///< p_alone, adjusted (Holm) among `tested` numbers.
+  int tested = 0;                             ///< Numbers of one method that are tested together, with this one.
   Change change = Change::cannot_tell;
+  /// True for a number that would differ if it were tested alone, but not among the others.
+  [[nodiscard]] bool differs_alone_only() const { return change == Change::no_change && *p_alone < kLevel; }
 };
 
 /// A trial of both sessions under one name, or of one session.

@@ -184,6 +184,10 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
   // z = 2.03 alone would be called a difference (p = 0.042); among three it is not.
   EXPECT_EQ(c.parameters[3].change, Change::no_change);
   EXPECT_NEAR(*c.parameters[3].p_value, 2.0 * 0.0423, 1e-3);
+  EXPECT_NEAR(*c.parameters[3].p_alone, 0.0423, 1e-4);
+  EXPECT_EQ(c.parameters[3].tested, 3);
+  EXPECT_TRUE(c.parameters[3].differs_alone_only());
+  EXPECT_FALSE(c.parameters[1].differs_alone_only());
   ASSERT_EQ(c.remarks.size(), 1u);
   EXPECT_NE(c.remarks[0].about.find("ANC"), std::string::npos);
   EXPECT_EQ(*c.trials[0].rmse_second_nm, 2.0);
@@ -192,9 +196,14 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
   EXPECT_EQ(
       changes_sentence(c),
       "Biceps stronger by 180 N (30 %, 95 % 82 to 278 N); a change below 16 % would not have been seen. 2 numbers "
-      "show no change, and of 1 a recording does not tell enough.");
+      "show no change, and of 1 a recording does not tell enough. 1 of them differs by itself, but 3 numbers were "
+      "tested, of which one in 20 does so by chance (Holm).");
   EXPECT_EQ(change_text(c.parameters[1]),
             "Brachialis: no change of max isometric force shows; a change below 12 % would not have been seen");
+  ComparedParameter angle = c.parameters[0];
+  angle.first.unit = Unit::radian;
+  EXPECT_FALSE(has_scale(angle));
+  EXPECT_TRUE(has_scale(c.parameters[0]));
   ComparedParameter doubled = c.parameters[0];
   doubled.difference = doubled.of_first.value;
   EXPECT_NE(change_text(doubled).find("(100 %, "), std::string::npos);

@@ -26,7 +26,10 @@ page::Badge badge(Change change) {
                                        : page::Badge::weak;
 }
 
-std::string verdict(const ComparedParameter& p) { return page::spelled(name(p.change)); }
+std::string verdict(const ComparedParameter& p) {
+  return p.differs_alone_only() ? fmt::format("no change shown among {} numbers", p.tested)
+                                : page::spelled(name(p.change));
+}
 
 /// Returns "second (2026-03-01)".
 std::string session_name(std::string_view which, const std::string& day) {
@@ -50,8 +53,10 @@ std::string value_text(const page::SessionValue& of) {
   return of.lower && of.upper ? fmt::format("{} ({})", value, page::format_interval(*of.lower, *of.upper)) : value;
 }
 
+std::string p_text(const std::optional<double>& p) { return p ? fmt::format("{:.2g}", *p) : "–"; }
+
 std::string change_in_percent(const ComparedParameter& p) {
-  if (p.of_first.value == 0.0) return "-";
+  if (!has_scale(p)) return "-";
   const double percent = 100.0 * p.difference / std::abs(p.of_first.value);
   return (percent < 0.0 ? "" : "+") + percent_text(percent);
 }
@@ -107,11 +112,15 @@ std::string headline(const RunComparison& comparison) {
 }  // namespace
 
 page::Table compared_table(const RunComparison& comparison, fit::Method of, bool all) {
-  page::Table table{.id = fmt::format("compared_{}", name(of)),
-                    .title = fmt::format("Parameters (method {})", name(of)),
-                    .caption = "Number with its 95 % interval. p-values are adjusted for their number (Holm).",
-                    .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
-                                session_name("second", comparison.second_date), "difference", "%", "p", "verdict"}};
+  page::Table table{
+      .id = fmt::format("compared_{}", name(of)),
+      .title = fmt::format("Parameters (method {})", name(of)),
+      .caption =
+          "Number with its 95 % interval. p alone: of this number by itself, of which one in "
+          "20 is below 0.05 by chance; p (Holm): corrected for all numbers that are tested. "
+          "The verdict goes by p (Holm).",
+      .columns = {"muscle", "parameter", "unit", session_name("first", comparison.first_date),
+                  session_name("second", comparison.second_date), "difference", "%", "p alone", "p (Holm)", "verdict"}};
   for (const ComparedParameter& p : comparison.parameters) {
     if (p.first.method != of || (!all && p.change == Change::cannot_tell)) continue;
     const PlainUnit unit = page::plain_unit(p.first.unit);
@@ -122,7 +131,8 @@ page::Table compared_table(const RunComparison& comparison, fit::Method of, bool
                           {value_text(shown(p.of_second, unit))},
                           {page::format_value(p.difference * unit.per_si)},
                           {change_in_percent(p)},
-                          {p.p_value ? fmt::format("{:.2g}", *p.p_value) : "–"},
+                          {p_text(p.p_alone)},
+                          {p_text(p.p_value)},
                           {verdict(p), badge(p.change), change_text(p)}});
   }
   return table;

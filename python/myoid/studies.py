@@ -175,7 +175,8 @@ class CompareResult(Shown):
     """Two runs, number by number.
 
     Attributes:
-        parameters: A row for each number: first, second, difference, smallest_detectable, p_value, change.
+        parameters: A row for each number: first, second, difference, smallest_detectable, p_alone, p_value, tested,
+            change.
         unlike: Model, person and muscles that differ.
         notes: Numbers that only one of the runs has.
     """

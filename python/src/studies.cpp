@@ -146,7 +146,9 @@ py::dict compare(py::dict given) {
     d["second"] = p.second.estimate;
     d["difference"] = p.difference;
     d["smallest_detectable"] = optional(p.smallest_detectable);
+    d["p_alone"] = optional(p.p_alone);
     d["p_value"] = optional(p.p_value);
+    d["tested"] = p.tested;
     d["change"] = std::string(results::name(p.change));
     rows.append(d);
   }

@@ -19,22 +19,23 @@ namespace {
 nlohmann::ordered_json to_json(const results::RunComparison& comparison) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const results::ComparedParameter& p : comparison.parameters) {
-    rows.push_back(
-        {{"muscle", p.muscle},
-         {"parameter", p.first.parameter},
-         {"unit", std::string(symbol(p.first.unit))},
-         {"method", std::string(fit::name(p.first.method))},
-         {"case", std::string(fit::name(p.first.fit_case))},
-         {"first", p.of_first.value},
-         {"second", p.of_second.value},
-         {"difference", p.difference},
-         {"difference_percent", p.of_first.value == 0.0
-                                    ? nlohmann::ordered_json(nullptr)
-                                    : nlohmann::ordered_json(100.0 * p.difference / std::abs(p.of_first.value))},
-         {"smallest_detectable", page::number_or_null(p.smallest_detectable)},
-         {"p_value", page::number_or_null(p.p_value)},
-         {"change", std::string(results::name(p.change))},
-         {"says", results::change_text(p)}});
+    rows.push_back({{"muscle", p.muscle},
+                    {"parameter", p.first.parameter},
+                    {"unit", std::string(symbol(p.first.unit))},
+                    {"method", std::string(fit::name(p.first.method))},
+                    {"case", std::string(fit::name(p.first.fit_case))},
+                    {"first", p.of_first.value},
+                    {"second", p.of_second.value},
+                    {"difference", p.difference},
+                    {"difference_percent",
+                     results::has_scale(p) ? nlohmann::ordered_json(100.0 * p.difference / std::abs(p.of_first.value))
+                                           : nlohmann::ordered_json(nullptr)},
+                    {"smallest_detectable", page::number_or_null(p.smallest_detectable)},
+                    {"p_alone", page::number_or_null(p.p_alone)},
+                    {"tested", p.tested},
+                    {"p_value", page::number_or_null(p.p_value)},
+                    {"change", std::string(results::name(p.change))},
+                    {"says", results::change_text(p)}});
   }
   return {{"first", comparison.first.string()},
           {"second", comparison.second.string()},
