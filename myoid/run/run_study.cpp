@@ -167,16 +167,24 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
     validation = stages.run(
         "validation", "predicts parts left out of the fit", 0.85, 0.95,
         [&](const Progress& progress) { return study_validation(fit_source(result), input, *best, progress); });
-  if (study.identify.next_movements > 0 && wants_torque(study))
+  result.fit = std::move(fit);
+  const auto warn = [&](std::vector<Remark> remarks) {
+    for (IdentificationResult& method : result.fit.methods)
+      if (&method == best_method(result.fit)) std::ranges::move(remarks, std::back_inserter(method.warnings));
+  };
+  result.folds = std::move(validation.folds);
+  warn(std::move(validation.remarks));
+  // Movements that are planned on numbers that failed may tell nothing.
+  const std::vector<page::Gate> gates = quality_gates(result);
+  const bool failed = std::ranges::find(gates, page::GateStatus::fail, &page::Gate::status) != gates.end();
+  if (study.identify.next_movements > 0 && wants_torque(study) && !failed) {
+    std::vector<Remark> remarks;
     result.next = stages.run(
         "next recording", "looks for the next recording", 0.95, 1.0,
-        [&](const Progress& progress) { return next_recording(result.source, fit, progress, validation.remarks); });
-  for (IdentificationResult& method : fit.methods) {
-    if (&method == best) std::ranges::move(validation.remarks, std::back_inserter(method.warnings));
+        [&](const Progress& progress) { return next_recording(result.source, result.fit, progress, remarks); });
+    warn(std::move(remarks));
   }
   input.options.drives.reset();
-  result.fit = std::move(fit);
-  result.folds = std::move(validation.folds);
   const std::vector<fit::VerdictCap> caps = verdict_caps(result, quality_gates(result));
   for (IdentificationResult& method : result.fit.methods) fit::apply(caps, method);
 }

@@ -68,6 +68,22 @@ TEST(RunStudy, FromExactFilesEveryParameterIsTheTruthToAMillionth) {
   EXPECT_EQ(compared, 25);  // six of each muscle, and the delay
 }
 
+TEST(RunStudy, PlansNoRecordingOnNumbersThatFailed) {
+  study::Study study = ExactRun::get().result.source.study;
+  study.identify.methods = {fit::Method::torque};
+  study.identify.cross_validate = false;
+  study.identify.next_movements = 1;
+  // A held mass that acts nowhere is the failure of its trial.
+  study.model.held_mass.reset();
+  for (study::TrialSpec& trial : study.trials) trial.held_mass_kg = 0.0;
+  const auto moves = std::ranges::find(study.trials, study::Use::calibration, &study::TrialSpec::use);
+  ASSERT_NE(moves, study.trials.end());
+  moves->held_mass_kg = 2.0;
+  const StudyResult failed = run_study(study, {.store = ExactRun::get().folder / "stages"});
+  EXPECT_FALSE(failed.next);
+  EXPECT_EQ(std::ranges::find(failed.times, "next recording", &StageTime::stage), failed.times.end());
+}
+
 TEST(WriteResults, LeavesTheFilesThatArePromised) {
   const ExactRun& run = ExactRun::get();
   const auto out = run.folder / "results";
