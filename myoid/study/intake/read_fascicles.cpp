@@ -72,16 +72,17 @@ TimeSeries read_fascicles(const Study& study,
   return file.data.select(there);
 }
 
-void require_times_of_motion(const std::filesystem::path& path,
-                             const TimeSeries& fascicles,
-                             const Eigen::VectorXd& motion_s) {
+void require_times_of_trial(const std::filesystem::path& path,
+                            const TimeSeries& fascicles,
+                            const Eigen::VectorXd& trial_s) {
   const Eigen::VectorXd& own_s = fascicles.time_s();
-  const double begin_s = motion_s[0], end_s = motion_s[motion_s.size() - 1];
+  const double begin_s = trial_s[0], end_s = trial_s[trial_s.size() - 1];
   if (std::ranges::any_of(own_s, [&](double t) { return t >= begin_s && t <= end_s; })) return;
-  throw ReadError(path, 0,
-                  fmt::format("the lengths are of {:.4g} to {:.4g} s and the motion of {:.4g} to {:.4g} s; write the "
-                              "times of the lengths on the clock of the motion",
-                              own_s[0], own_s[own_s.size() - 1], begin_s, end_s));
+  throw ReadError(
+      path, 0,
+      fmt::format("the lengths are of {:.4g} to {:.4g} s and the trial's of {:.4g} to {:.4g} s: is it another "
+                  "trial's file? Write the times of the lengths on the clock of the trial",
+                  own_s[0], own_s[own_s.size() - 1], begin_s, end_s));
 }
 
 Eigen::MatrixXd fascicles_at(const TimeSeries& fascicles,

@@ -20,10 +20,10 @@ namespace myoid::study {
                                         const std::filesystem::path& path,
                                         std::vector<Remark>& remarks);
 
-/// Throws ReadError for lengths of other times than the motion's.
-void require_times_of_motion(const std::filesystem::path& path,
-                             const TimeSeries& fascicles,
-                             const Eigen::VectorXd& motion_s);
+/// Throws ReadError for lengths of other times than the trial's, those of its motion or of its muscles' lengths.
+void require_times_of_trial(const std::filesystem::path& path,
+                            const TimeSeries& fascicles,
+                            const Eigen::VectorXd& trial_s);
 
 /// Returns the lengths of the study's muscles at these times, n x muscles, by straight lines between samples: NaN where
 /// there is none, outside the file's times and in its gaps of more than 0.2 s.

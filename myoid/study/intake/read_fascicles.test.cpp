@@ -52,11 +52,11 @@ TEST(ReadFascicles, RefusesNoMuscleNoLengthAndAnotherUnit) {
   EXPECT_THROW((void)of.read("time [s],TA [pixel]\n0,50\n0.1,52\n"), ReadError);
 }
 
-TEST(ReadFascicles, RefusesTimesThatTheMotionDoesNotHave) {
+TEST(ReadFascicles, RefusesTimesThatTheTrialDoesNotHave) {
   Fascicles of;
   const TimeSeries found = of.read("time [s],TA [mm]\n100,50\n101,52\n");
-  EXPECT_THROW(require_times_of_motion("us.csv", found, Eigen::Vector2d(0.0, 20.0)), ReadError);
-  EXPECT_NO_THROW(require_times_of_motion("us.csv", found, Eigen::Vector2d(0.0, 100.0)));
+  EXPECT_THROW(require_times_of_trial("us.csv", found, Eigen::Vector2d(0.0, 20.0)), ReadError);
+  EXPECT_NO_THROW(require_times_of_trial("us.csv", found, Eigen::Vector2d(0.0, 100.0)));
 }
 
 TEST(ReadFascicles, LiesOnStraightLinesAndIsAbsentWhereNothingWasMeasured) {

@@ -92,6 +92,15 @@ TEST(ReadGiven, TimesThatAFileLacksAreLeftOutAndNamed) {
   EXPECT_NE(message_of([&] { (void)trial.read(); }).find("id.sto"), std::string::npos);
 }
 
+TEST(ReadGiven, FasciclesOfAnotherTrialsTimesAreRefused) {
+  GivenTrial trial;
+  trial.spec.fascicles = trial.folder / "us.sto";
+  trial.write("us.sto", GivenTrial::clock(1.0, 3.0), Eigen::VectorXd::Constant(201, 0.1), Unit::meter);
+  EXPECT_EQ(trial.read().size(), 1U);
+  trial.write("us.sto", GivenTrial::clock(11.0, 13.0), Eigen::VectorXd::Constant(201, 0.1), Unit::meter);
+  EXPECT_THROW((void)trial.read(), ReadError);
+}
+
 TEST(ReadGiven, AGapOfAFileIsExcludedFromTheTrialWithItsSurroundings) {
   const GivenTrial trial;
   Eigen::VectorXd t = GivenTrial::clock(0.0, 3.0);

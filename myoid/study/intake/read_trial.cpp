@@ -229,8 +229,8 @@ TrialInput read_trial_input(const Study& study, const TrialSpec& trial, const bo
     remember(*trial.fascicles);
     input.fascicles = read_fascicles(study, model, *trial.fascicles, input.remarks);
     if (input.markers || input.motion)
-      require_times_of_motion(*trial.fascicles, *input.fascicles,
-                              input.markers ? input.markers->time_s : input.motion->time_s());
+      require_times_of_trial(*trial.fascicles, *input.fascicles,
+                             input.markers ? input.markers->time_s : input.motion->time_s());
   }
   input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.remarks);
   return input;
