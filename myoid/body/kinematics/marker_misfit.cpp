@@ -64,6 +64,18 @@ std::vector<recording::ExpectedSegment> segments_of(const body::BodyModel& model
   return segments;
 }
 
+MarkerSeries spread_frames(const MarkerSeries& markers) {
+  constexpr Eigen::Index kMost = 6;
+  const Eigen::Index count = std::min(kMost, markers.frame_count());
+  MarkerSeries some{Eigen::VectorXd(count), markers.names, Eigen::MatrixXd(count, markers.positions_m.cols())};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index frame = count == 1 ? 0 : i * (markers.frame_count() - 1) / (count - 1);
+    some.time_s[i] = markers.time_s[frame];
+    some.positions_m.row(i) = markers.positions_m.row(frame);
+  }
+  return some;
+}
+
 MarkerMisfit marker_misfit(const body::BodyModel& model, const MarkerSeries& markers, const IkResult& solved) {
   MarkerMisfit misfit;
   double sum = 0.0;

@@ -13,6 +13,9 @@ namespace myoid::body {
 [[nodiscard]] std::vector<recording::ExpectedSegment> segments_of(const body::BodyModel& model,
                                                                   const MarkerSeries& markers);
 
+/// Returns six frames at even distances, the first and the last included, or all of fewer: for a quick look.
+[[nodiscard]] MarkerSeries spread_frames(const MarkerSeries& markers);
+
 struct MarkerMisfit {
   double rms_m = 0.0;       ///< Over all markers of the frames in which markers were seen.
   bool wrong_unit = false;  ///< The recording is not in the unit that its file says.

@@ -69,6 +69,16 @@ TEST(MarkerMisfit, NamesAShiftThatAllMarkersShare) {
   EXPECT_NE(m.warning.find("(0.000, -0.800, 0.100) m"), std::string::npos) << m.warning;
 }
 
+TEST(SpreadFrames, AreSixAtEvenDistancesOrAllOfFewer) {
+  MarkerSeries markers{Eigen::VectorXd::LinSpaced(101, 0.0, 10.0), {"a"}, Eigen::MatrixXd::Zero(101, 3)};
+  const MarkerSeries some = spread_frames(markers);
+  EXPECT_EQ(some.time_s, Eigen::VectorXd::LinSpaced(6, 0.0, 10.0));
+  EXPECT_EQ(spread_frames(some).frame_count(), 6);
+  markers.time_s.conservativeResize(1);
+  markers.positions_m.conservativeResize(1, 3);
+  EXPECT_EQ(spread_frames(markers).frame_count(), 1);
+}
+
 TEST(SegmentsOf, AreTheBodiesThatCarryTwoMarkersOrMore) {
   const body::BodyModel model = body::parse_osim(body::arm4_osim(), "arm4.osim");
   MarkerSeries markers;

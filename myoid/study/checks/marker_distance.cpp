@@ -11,22 +11,6 @@
 #include "myoid/study/intake/trial_model.h"
 
 namespace myoid::study {
-namespace {
-
-/// Returns frames at even distances, the first and the last included.
-MarkerSeries spread_frames(const MarkerSeries& markers) {
-  constexpr Eigen::Index kMost = 6;
-  const Eigen::Index count = std::min(kMost, markers.frame_count());
-  MarkerSeries some{Eigen::VectorXd(count), markers.names, Eigen::MatrixXd(count, markers.positions_m.cols())};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index frame = count == 1 ? 0 : i * (markers.frame_count() - 1) / (count - 1);
-    some.time_s[i] = markers.time_s[frame];
-    some.positions_m.row(i) = markers.positions_m.row(frame);
-  }
-  return some;
-}
-
-}  // namespace
 
 std::optional<Remark> far_markers(const Study& study,
                                   const TrialSpec& trial,
@@ -54,7 +38,7 @@ std::optional<Remark> distant_markers(const Study& study,
                                       const TrialInput& input) {
   if (!input.markers) return std::nullopt;
   const std::optional<body::BodyModel> own = trial_model(study, model, trial, input);
-  const MarkerSeries frames = spread_frames(*input.markers);
+  const MarkerSeries frames = body::spread_frames(*input.markers);
   const body::IkResult solved =
       body::inverse_kinematics(own ? *own : model, frames, {.marker_weights = study.markers.weight});
   if (auto far = far_markers(study, trial, own ? *own : model, frames, solved)) {

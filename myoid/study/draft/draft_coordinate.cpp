@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "myoid/body/kinematics/joint_motion.h"
 #include "myoid/body/kinematics/muscle_kinematics.h"
 #include "myoid/ground/core/time_series.h"
+#include "myoid/ground/core/units.h"
 #include "myoid/ground/files/label_match.h"
 #include "myoid/study/draft/channel_muscles.h"
 
@@ -80,6 +82,36 @@ bool is_usual(const std::string& coordinate) { return rank(coordinate) < kUsual.
 std::vector<std::string> usual_first(std::vector<std::string> coordinates) {
   std::ranges::stable_sort(coordinates, [](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
   return coordinates;
+}
+
+std::vector<std::string> moved_coordinates(const body::BodyModel& model,
+                                           const std::vector<std::string>& coordinates,
+                                           const std::vector<TimeSeries>& recorded) {
+  constexpr double kLeast_rad = 5.0 * kDegree, kMost = 0.5;
+  enum class Recorded { no, still, moves };
+  std::map<std::string, Recorded> kept;
+  for (const std::string& name : coordinates) {
+    const body::Coordinate& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
+    double least = c.default_value, greatest = c.default_value;
+    bool any_sample = false, beyond = false;
+    for (const TimeSeries& angles : recorded) {
+      const auto column = angles.find(name);
+      if (!column || angles.sample_count() == 0) continue;
+      const Eigen::ArrayXd q = angles.values().col(*column).array();
+      least = any_sample ? std::min(least, q.minCoeff()) : q.minCoeff();
+      greatest = any_sample ? std::max(greatest, q.maxCoeff()) : q.maxCoeff();
+      any_sample = true;
+      const auto outside = static_cast<double>((q < c.lower || q > c.upper).count());
+      beyond = beyond || outside > kMost * static_cast<double>(q.size());
+    }
+    if (c.clamped && beyond) continue;
+    kept[name] = !any_sample ? Recorded::no : greatest - least < kLeast_rad ? Recorded::still : Recorded::moves;
+  }
+  const bool any = std::ranges::any_of(kept, [](const auto& one) { return one.second == Recorded::moves; });
+  std::vector<std::string> names;
+  for (const std::string& name : coordinates)
+    if (kept.contains(name) && (!any || kept.at(name) == Recorded::moves)) names.push_back(name);
+  return names;
 }
 
 std::string coordinate_of_channels(const body::BodyModel& model,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "myoid/body/model/body_model.h"
+#include "myoid/ground/core/time_series.h"
 
 namespace myoid::study {
 
@@ -16,6 +17,12 @@ namespace myoid::study {
 
 /// Puts elbow, knee and ankle first and keeps the order of the other coordinates.
 [[nodiscard]] std::vector<std::string> usual_first(std::vector<std::string> coordinates);
+
+/// Returns the coordinates that the recordings move by 5 degrees or more; where they move none, all. A coordinate whose
+/// angles lie beyond the model's clamped range for most of a recording is left out: it follows another convention.
+[[nodiscard]] std::vector<std::string> moved_coordinates(const body::BodyModel& model,
+                                                         const std::vector<std::string>& coordinates,
+                                                         const std::vector<TimeSeries>& recorded);
 
 /// Finds the coordinate that the muscles of most channels move (`match_channels`), of equals the
 /// first. Empty if no channel has the name of a muscle that moves a coordinate.

@@ -22,6 +22,25 @@ TEST(DraftCoordinate, TheElbowIsMovedByItsFourMusclesAndTheShoulderByNone) {
   EXPECT_EQ(coordinate_of_channels(arm, {}, {"Biceps"}), "");
 }
 
+TEST(DraftCoordinate, IsOneThatTheRecordingMovesWithinTheModelsRange) {
+  const body::BodyModel arm = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  const std::vector<std::string> names{"shoulder_flexion", "elbow_flexion"};
+  const auto recorded = [&](double shoulder_rad, double elbow_rad) {
+    Eigen::MatrixXd q(2, 2);
+    q << 0.1, 0.1, 0.1 + shoulder_rad, 0.1 + elbow_rad;
+    return std::vector<TimeSeries>{
+        {Eigen::Vector2d(0.0, 1.0), {{names[0], Unit::radian}, {names[1], Unit::radian}}, q}};
+  };
+  EXPECT_THAT(moved_coordinates(arm, names, recorded(0.01, 1.0)), ElementsAre("elbow_flexion"));
+  EXPECT_THAT(moved_coordinates(arm, names, recorded(0.01, 0.01)), ElementsAre("shoulder_flexion", "elbow_flexion"));
+  EXPECT_THAT(moved_coordinates(arm, names, {}), ElementsAre("shoulder_flexion", "elbow_flexion"));
+  body::BodyModel narrow = arm;
+  body::Coordinate& elbow = narrow.coordinates[static_cast<std::size_t>(narrow.coordinate_index("elbow_flexion"))];
+  elbow.clamped = true;
+  elbow.lower = 2.0;
+  EXPECT_THAT(moved_coordinates(narrow, names, recorded(1.0, 1.0)), ElementsAre("shoulder_flexion"));
+}
+
 TEST(DraftCoordinate, ElectrodesThatNameNoSideMayBeOnTheOtherOne) {
   const body::BodyModel arm = body::parse_osim(body::arm4_osim(), "arm4.osim");
   EXPECT_EQ(same_on_the_other_side(arm, "elbow_flexion", {"Biceps"}), "");

@@ -2,37 +2,53 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/body/kinematics/marker_misfit.h"
 #include "myoid/body/osim/osim_reader.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/label_match.h"
+#include "myoid/recording/laboratory_up.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/draft/channel_muscles.h"
+#include "myoid/study/trial_up.h"
 
 namespace myoid::study {
 namespace {
 
 constexpr std::size_t kFilesWithMarkers = 3;
 
-/// Returns the plain labels of the markers of the first recordings that have any.
-std::set<std::string> marker_labels(const std::vector<std::filesystem::path>& files) {
-  std::set<std::string> labels;
-  std::size_t with_markers = 0;
+/// Returns the markers of the first recordings that have any.
+std::vector<MarkerSeries> first_markers(const std::vector<std::filesystem::path>& files) {
+  std::vector<MarkerSeries> found;
   for (const std::filesystem::path& file : files) {
-    if (with_markers == kFilesWithMarkers) break;
+    if (found.size() == kFilesWithMarkers) break;
     try {
-      const recording::Recording recording = recording::read_recording(file);
-      for (const std::string& name : recording.markers.names) labels.insert(plain_label(name));
-      with_markers += recording.markers.names.empty() ? 0 : 1;
+      recording::Recording recording = recording::read_recording(file);
+      if (!recording.markers.names.empty()) found.push_back(std::move(recording.markers));
     } catch (const InvalidInput&) {  // the draft names files that cannot be read
     }
   }
-  return labels;
+  return found;
+}
+
+/// Returns the root mean square distance of the markers from the model's; empty where none can be found.
+std::optional<double> distance_m(const body::BodyModel& model, const MarkerSeries& markers) {
+  const std::optional<body::IkResult> solved = quick_motion(model, markers);
+  if (!solved) return std::nullopt;
+  double squares = 0.0, count = 0.0;
+  for (const double rms_m : solved->errors.column("marker_error_RMS")) {
+    if (!std::isfinite(rms_m)) continue;
+    squares += rms_m * rms_m;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::optional(std::sqrt(squares / count)) : std::nullopt;
 }
 
 }  // namespace
@@ -52,23 +68,51 @@ void leave_out_unreadable(std::vector<std::filesystem::path>& models, std::vecto
   });
 }
 
+std::optional<body::IkResult> quick_motion(const body::BodyModel& model, MarkerSeries markers) {
+  std::vector<std::string> wanted;
+  for (const body::Marker& marker : model.markers) wanted.push_back(marker.name);
+  const LabelMatch match = match_labels(markers.names, wanted);
+  for (std::string& name : markers.names) {
+    if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
+  }
+  const std::optional<UprightAxis> up = upright_axis(model, markers, {"y", "z", "x"});
+  if (!up) return std::nullopt;
+  try {
+    const Mat3 turn = rotation_onto(model, *recording::axis_vector(up->name));
+    return body::inverse_kinematics(model, body::spread_frames(rotated(std::move(markers), turn)), {});
+  } catch (const InvalidInput&) {  // no frame has markers enough
+    return std::nullopt;
+  }
+}
+
 ModelByMarkers model_of_markers(const std::vector<std::filesystem::path>& models,
                                 const std::vector<std::filesystem::path>& files) {
-  const std::set<std::string> labels = marker_labels(files);
-  ModelByMarkers best;
-  bool alone = false;
+  constexpr double kNearlyAll = 0.8;
+  const std::vector<MarkerSeries> recorded = first_markers(files);
+  std::set<std::string> labels;
+  for (const MarkerSeries& markers : recorded)
+    for (const std::string& name : markers.names) labels.insert(plain_label(name));
+  std::vector<std::pair<Eigen::Index, body::BodyModel>> known;
+  Eigen::Index most = 0;
   for (const std::filesystem::path& path : models) {
-    Eigen::Index known = 0;
-    for (const body::Marker& marker : body::read_osim(path).markers)
-      known += labels.contains(plain_label(marker.name)) ? 1 : 0;
-    if (known > best.markers) {
-      best = {path, known};
-      alone = true;
-    } else if (known == best.markers) {
-      alone = false;
-    }
+    known.emplace_back(0, body::read_osim(path));
+    for (const body::Marker& marker : known.back().second.markers)
+      known.back().first += labels.contains(plain_label(marker.name)) ? 1 : 0;
+    most = std::max(most, known.back().first);
   }
-  return alone ? best : ModelByMarkers{};
+  std::vector<ModelByMarkers> near;
+  for (std::size_t i = 0; i < models.size(); ++i)
+    if (most > 0 && static_cast<double>(known[i].first) >= kNearlyAll * static_cast<double>(most))
+      near.push_back({.model = models[i], .markers = known[i].first, .rms_m = {}});
+  if (near.size() == 1) return near.front();
+  for (ModelByMarkers& one : near) {
+    const auto i = static_cast<std::size_t>(std::ranges::find(models, one.model) - models.begin());
+    one.rms_m = distance_m(known[i].second, recorded.front());
+  }
+  std::erase_if(near, [](const ModelByMarkers& one) { return !one.rms_m; });
+  std::ranges::sort(near, {}, [](const ModelByMarkers& one) { return *one.rms_m; });
+  if (near.empty() || (near.size() > 1 && *near[0].rms_m == *near[1].rms_m)) return {};
+  return near.front();
 }
 
 bool is_of_a_leg(const std::vector<FoundRecording>& found) {

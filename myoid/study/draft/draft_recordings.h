@@ -20,6 +20,7 @@ struct FoundRecording {
   std::string stem;                   ///< Small letters, words like "emg" and "markers" at its end removed.
   MarkerSeries markers;               ///< Empty: none.
   std::vector<std::string> angles;    ///< Coordinates of the model.
+  TimeSeries motion;                  ///< Their values.
   std::vector<std::string> channels;  ///< EMG.
   bool has_unit = true;               ///< The EMG has a unit.
   bool raw = true;

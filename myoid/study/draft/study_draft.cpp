@@ -24,6 +24,7 @@
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
+#include "myoid/recording/tables/storage_reader.h"
 #include "myoid/study/draft/channel_muscles.h"
 #include "myoid/study/draft/draft_coordinate.h"
 #include "myoid/study/draft/draft_model.h"
@@ -122,9 +123,12 @@ class Draft {
       if (chosen.markers > 0) {
         model_file_ = chosen.model;
         note(RemarkCode::reading, chosen.model,
-             fmt::format("of {} models {} is taken: it knows {} of the recorded markers, more than "
-                         "any other",
-                         models.size(), relative(chosen.model), chosen.markers));
+             fmt::format("of {} models {} is taken: it knows {} of the recorded markers, {}", models.size(),
+                         relative(chosen.model), chosen.markers,
+                         chosen.rms_m ? fmt::format("which lie {:.0f} mm rms from its own, nearer than to those of any "
+                                                    "other that knows as many",
+                                                    1e3 * *chosen.rms_m)
+                                      : "more than any other"));
       }
       for (const fs::path& m : models) {
         if (!model_file_ || m != *model_file_) other_models_.push_back(relative(m));
@@ -138,10 +142,25 @@ class Draft {
   void choose_coordinate() {
     const std::vector<std::string> names = usual_first(free_coordinates());
     const std::vector<std::string> channels = all_channels();
-    coordinate_ = coordinate_of_channels(model_, names, channels);
+    coordinate_ = coordinate_of_channels(model_, moved_coordinates(model_, names, recorded_angles()), channels);
+    if (coordinate_.empty()) coordinate_ = coordinate_of_channels(model_, names, channels);
     if (!coordinate_.empty()) return;
     coordinate_ = names.empty() ? "TODO" : names[0];
     guessed_coordinate_ = names.empty() || !is_usual(names[0]) || !channels.empty();
+  }
+
+  /// Returns the angles of all recordings that have any; without one, those of a few frames of the first markers.
+  [[nodiscard]] std::vector<TimeSeries> recorded_angles() const {
+    std::vector<TimeSeries> angles;
+    for (const FoundRecording& f : found_)
+      if (!f.angles.empty()) angles.push_back(f.motion);
+    if (!angles.empty()) return angles;
+    const auto marked =
+        std::ranges::find_if(found_, [](const FoundRecording& f) { return f.markers.frame_count() > 0; });
+    if (marked == found_.end()) return angles;
+    if (std::optional<body::IkResult> quick = quick_motion(model_, marked->markers))
+      angles.push_back(std::move(quick->q));
+    return angles;
   }
 
   [[nodiscard]] std::vector<std::string> free_coordinates() const {
@@ -189,6 +208,7 @@ class Draft {
                     return c.name == q.name + "_moment";
                   });
       }
+      if (!f.angles.empty()) f.motion = motion_of(path, file).select(f.angles);
       const bool of_motion = format == FileFormat::storage && !f.angles.empty();
       if (!of_motion && !file.analog.empty() && format != FileFormat::bids_motion)
         find_emg(path, file.analog.series(), file.plates, f);
@@ -223,6 +243,15 @@ class Draft {
       if (known >= 4 && up_ == ' ') find_up(f.markers);
     }
     found_.push_back(std::move(f));
+  }
+
+  /// Returns the channels of a file with angles, which are in radians.
+  [[nodiscard]] TimeSeries motion_of(const fs::path& path, const recording::Recording& file) const {
+    if (format_of(path) != FileFormat::storage) return file.analog.series();
+    return recording::to_si(recording::read_storage(path), [&](const std::string& name) {
+      const auto c = model_.find_coordinate(name);
+      return c && model_.coordinates[static_cast<std::size_t>(*c)].motion == body::MotionType::rotational;
+    });
   }
 
   /// Keeps the vertical that the first file with one states.

@@ -274,6 +274,26 @@ TEST(StudyDraft, TakesTheModelThatKnowsTheMarkers) {
   EXPECT_THAT(draft.todo, Contains(HasSubstr("a_other.osim")));
 }
 
+TEST(StudyDraft, OfModelsThatKnowNearlyAsManyMarkersTakesTheOneThatTheyLieNearest) {
+  const auto data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "box-lift");
+  // das knows one marker more than wu, and its markers lie twice as far.
+  const test::TemporaryFolder folder;
+  const StudyDraft draft = draft_study(folder.path(), {.from = {data / "box-lift"}});
+  EXPECT_THAT(draft.toml, HasSubstr("wu.osim\"\n"));
+}
+
+TEST(StudyDraft, OfAnArmTakesAJointWhoseAnglesTheModelCanHave) {
+  const auto data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "upper-limb-optical");
+  const test::TemporaryFolder folder;
+  const StudyDraft draft = draft_study(folder.path(), {.from = {data / "upper-limb-optical"}});
+  write_file(folder / "study.toml", draft.toml);
+  const Study study = read_study(folder / "study.toml");
+  EXPECT_EQ(study.model.coordinate.find("shoulder_plane"), std::string::npos);
+  for (const Remark& remark : check_study(study)) EXPECT_NE(remark.severity, Severity::error) << remark.says;
+}
+
 TEST(StudyDraft, SaysThatMarkersOfALegMeetAnArm) {
   const test::TemporaryFolder folder;
   write_markers(folder / "walk.trc", {"LASI", "RASI", "LKNE", "RKNE", "LANK", "RANK", "LHEE", "RHEE"});
