@@ -17,7 +17,7 @@ struct Repair {
   std::size_t line = 0;  ///< Counted from 1; 0: the whole file.
   std::string message;
   double apart_s = 0.0;  ///< Of a clock: by so much two statements about it differ at the recording's end.
-  bool lost = false;     ///< The file holds less than its header states: a part of the recording is absent.
+  bool lost = false;     ///< The file ends in a row, or holds less than its header states: a part is absent.
 };
 
 /// Notes a repair of the whole file; the message is a format and its arguments, as of `fmt::format`.

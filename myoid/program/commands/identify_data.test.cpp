@@ -151,7 +151,7 @@ TEST(IdentifyData, ACutOffFileIsSaidOnceWithWhatWasLeftOut) {
   write_file(files.folder / "l.sto", text);
   (void)files.read();
   int said = 0;
-  for (const std::string& remark : files.notes)
+  for (const std::string& remark : files.remarks)
     said += remark.find("l.sto") != std::string::npos && remark.find(kLastRowLeftOut) != std::string::npos ? 1 : 0;
   EXPECT_EQ(said, 1);
 }

@@ -33,6 +33,7 @@ TEST(SeriesFile, WhatAReaderLeftOutIsKept) {
     EXPECT_EQ(file.data.sample_count(), 2) << name;
     ASSERT_EQ(file.repairs.size(), 1U) << name;
     EXPECT_EQ(file.repairs[0].message, kLastRowLeftOut);
+    EXPECT_TRUE(file.repairs[0].lost);
   }
 }
 

@@ -514,7 +514,7 @@ LastRow last_row_without_end(const TableText& text, bool whole, bool only_row) {
   }
   const bool complete = whole && line > 1 && !shorter;
   const bool kept = only_row || complete;
-  return {kept, {line, std::string(kept ? kLastRowKept : kLastRowLeftOut)}};
+  return {kept, {.line = line, .message = std::string(kept ? kLastRowKept : kLastRowLeftOut), .lost = !kept}};
 }
 
 void compare_count(std::optional<double> said,

@@ -18,6 +18,7 @@
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/angle_file.h"
 #include "myoid/recording/channel_choice.h"
+#include "myoid/recording/column_unit.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
@@ -29,6 +30,7 @@
 #include "myoid/recording/signals/marker_quality.h"
 #include "myoid/recording/signals/plate_quality.h"
 #include "myoid/recording/tables/result_units.h"
+#include "myoid/recording/tables/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/study/intake/trial_input.h"
 
@@ -155,6 +157,28 @@ TimeSeries angles_of(const recording::Storage& file, const body::BodyModel* mode
   return recording::to_si(file, is_angle).select(known);
 }
 
+/// Returns the columns of a table whose header says radians.
+TimeSeries radians_of(const std::filesystem::path& path) {
+  const recording::SeriesFile file = recording::read_series(path);
+  std::vector<std::string> names;
+  for (Eigen::Index c = 0; c < file.data.channel_count(); ++c) {
+    const Channel& channel = file.data.channels()[static_cast<std::size_t>(c)];
+    if (channel.unit == Unit::radian && recording::written_factor(file, c) == 1.0) names.push_back(channel.name);
+  }
+  return file.data.select(names);
+}
+
+/// Compares a motion with the unit of its file.
+std::vector<Remark> unit_doubts(const std::filesystem::path& path, bool says_degrees, const TimeSeries& motion) {
+  try {
+    const std::string doubt = check_angle_unit(path, says_degrees, motion);
+    if (doubt.empty()) return {};
+    return {{.code = RemarkCode::unit_doubtful, .says = doubt}};
+  } catch (const ReadError& error) {
+    return {{.code = RemarkCode::unit_doubtful, .severity = Severity::error, .says = error.what()}};
+  }
+}
+
 }  // namespace
 
 std::vector<Remark> check_motion_file(const std::filesystem::path& path, const body::BodyModel* model) {
@@ -165,15 +189,9 @@ std::vector<Remark> check_motion_file(const std::filesystem::path& path, const b
   if ((!of_model && !recording::may_hold_angles(file)) || recording::stated_voltage(file)) return {};
   const TimeSeries motion = angles_of(file, model);
   if (motion.empty()) return {};
-  std::vector<Remark> found;
-  try {
-    if (std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
-      found.push_back({.code = RemarkCode::unit_doubtful, .says = std::move(doubt)});
-  } catch (const ReadError& error) {
-    found.push_back({.code = RemarkCode::unit_doubtful, .severity = Severity::error, .says = error.what()});
-  }
-  found = joined(std::move(found),
-                 model != nullptr ? body::implausible_motion(*model, motion) : body::implausible_motion(motion));
+  std::vector<Remark> found =
+      joined(unit_doubts(path, file.in_degrees, motion),
+             model != nullptr ? body::implausible_motion(*model, motion) : body::implausible_motion(motion));
   for (Remark& remark : found) remark.where = path.filename().string();
   return found;
 }
@@ -235,6 +253,10 @@ std::vector<Remark> check_recording(const std::filesystem::path& path,
     if (never) fault.severity = std::max(fault.severity, Severity::note);
   }
   add(std::move(of_markers));
+  const std::vector<Channel>& channels = file.analog.channels();
+  if (format_of(path) == FileFormat::text_table &&
+      std::ranges::find(channels, Unit::radian, &Channel::unit) != channels.end())
+    add(unit_doubts(path, false, radians_of(path)));
   if (const auto emg = voltages(path, file.analog, file.plates)) add(check_channels_of_emg(path, *emg));
   for (const recording::PlateSetup& plate : file.plates) {
     if (standing) add(recording::check_force_plate(file.force_plate(plate)));

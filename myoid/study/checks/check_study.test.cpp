@@ -343,6 +343,20 @@ TEST(CheckRecording, UnevenSamplesAreAnErrorOfTheFile) {
   EXPECT_EQ(fault->where, "emg.csv");
 }
 
+TEST(CheckRecording, DegreesUnderAHeaderThatSaysRadiansAreAnError) {
+  const test::TemporaryFolder folder;
+  for (const double largest : {3.0, 36.0}) {
+    std::string text = "time [s],elbow_flexion [rad],knee_angle [deg]\n";
+    for (int i = 0; i <= 100; ++i) text += fmt::format("{:.2f},{:.4f},{:.4f}\n", 0.01 * i, 0.01 * largest * i, 0.9 * i);
+    write_file(folder / "q.csv", text);
+    const std::vector<Remark> found = check_recording(folder / "q.csv");
+    const bool doubted = std::ranges::any_of(found, [](const Remark& remark) {
+      return remark.code == RemarkCode::unit_doubtful && remark.severity == Severity::error;
+    });
+    EXPECT_EQ(doubted, largest > 4.0 * kPi);
+  }
+}
+
 TEST(CheckRecording, OneSampleIsNoRecording) {
   const test::TemporaryFolder folder;
   write_file(folder / "emg.csv", "time,a [mV]\n0,1\n");
