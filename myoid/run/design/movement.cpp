@@ -116,7 +116,9 @@ struct Share {
 std::string Movement::description() const {
   const std::string range = kind == MovementKind::isometric
                                 ? fmt::format("{:.0f} deg", degrees(lowest_rad))
-                                : fmt::format("{:.0f}-{:.0f} deg", degrees(lowest_rad), degrees(highest_rad));
+                                // A dash before a minus is no range for a reader.
+                                : fmt::format("{:.0f}{}{:.0f} deg", degrees(lowest_rad),
+                                              degrees(lowest_rad) < 0.0 ? " to " : "-", degrees(highest_rad));
   switch (kind) {
     case MovementKind::swing:
     case MovementKind::lowering:

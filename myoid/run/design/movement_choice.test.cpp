@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/units.h"
 
 namespace myoid::run {
 namespace {
@@ -118,6 +119,12 @@ TEST(ChooseMovements, RefusesWhatDoesNotFitTogether) {
   for (auto& movement : problem.catalogue)
     for (auto& m : movement.per_person) m = Eigen::MatrixXd();
   EXPECT_THROW((void)choose_movements(problem), InvalidInput);
+}
+
+TEST(Movement, ARangeBelowZeroHasNoDashBesideItsMinus) {
+  const Movement turn{.kind = MovementKind::isokinetic, .lowest_rad = -51.0 * kDegree, .highest_rad = -15.0 * kDegree};
+  EXPECT_EQ(turn.description().find("--"), std::string::npos);
+  EXPECT_NE(turn.description().find("-51 to -15"), std::string::npos);
 }
 
 }  // namespace
