@@ -139,7 +139,7 @@ std::vector<std::size_t> doubtful_trials(const StudyData& data, const Identifica
 class Mistakes {
  public:
   Mistakes(const StudyData& data, const EstimatorOptions& options, const IdentificationResult& fit)
-      : data_(data), fit_(fit), plain_(fit::remembering_drives(fit::of_a_fold(options))) {
+      : data_(data), fit_(fit), plain_(fit::remembering_drives(fit::of_a_fold(options))), progress_(options.progress) {
     plain_.law = fit.lag;
     plain_.choose_lag = false;
   }
@@ -189,6 +189,7 @@ class Mistakes {
     };
     if (!as_it_is_) as_it_is_ = log_evidence(data_, fit::beginning_at(fit_, plain_));
     const double odds = log_evidence(without, options) - *as_it_is_;
+    progress_.tell(1.0 - std::pow(0.7, ++considered_), "looks for mistaken EMG");  // nobody knows how many follow
     if (odds <= (best_ ? best_->log_odds : kMistakenOdds)) return;
     best_ = mistake;
     best_->log_odds = odds;
@@ -238,6 +239,8 @@ class Mistakes {
   const StudyData& data_;
   const IdentificationResult& fit_;
   EstimatorOptions plain_;
+  const Progress& progress_;
+  int considered_ = 0;
   std::optional<double> as_it_is_;  ///< ln of the evidence with the mistakes.
   std::optional<MistakenEmg> best_;
 };
@@ -246,10 +249,11 @@ class Mistakes {
 
 std::string MistakenEmg::about_trial() const {
   return is_exchange() ? fmt::format("electrodes of {} and {} exchanged", first, second)
-                       : fmt::format("EMG of {:.2g} times the gain of the other trials", gain);
+                       : fmt::format("EMG of {:.2g} times the other trials' gain", gain);
 }
 
 std::string MistakenEmg::finding() const {
+  if (!is_exchange()) return fmt::format("trial '{}' has {}", trial, about_trial());
   return about_trial() + (trial.empty() ? " in every trial" : fmt::format(" in trial '{}'", trial));
 }
 

@@ -158,7 +158,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   const study::Study& study = result.source.study;
   FitInput& input = result.fit_input;
   input.options = fit::remembering_drives(std::move(input.options));
-  StudyFit fit = stages.run("fit", "fits the muscles", 0.72, 0.8,
+  StudyFit fit = stages.run("fit", "fits the muscles", 0.72, 0.85,
                             [&](const Progress& progress) { return study_fit(study, input, options.seed, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
   StudyValidation validation;

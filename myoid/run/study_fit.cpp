@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "myoid/fit/methods/force.h"
@@ -40,6 +41,16 @@ bool wants_torque(const study::Study& study) {
 }
 
 namespace {
+
+constexpr double kShareOfFit = 0.6;  // of the stage's time; the rest looks for mistakes
+
+/// Returns the options of a fit that tells its progress as this part of the stage's.
+fit::EstimatorOptions telling(fit::EstimatorOptions options, const Progress& progress, double from, double to) {
+  options.progress.report = [&progress, from, to](double share, std::string_view what) {
+    progress.tell(from + (to - from) * share, what);
+  };
+  return options;
+}
 
 /// Compares the solvers of method `paper`, whose result is the last; their minima join its basins.
 void compare_solvers(
@@ -81,11 +92,11 @@ StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64
     } else {
       // EMG that is given as activation may be that of a simulation, without noise.
       std::optional<IdentificationResult> exact;
-      fit::EstimatorOptions telling = input.options;
-      telling.progress.report = progress.report;
+      const fit::EstimatorOptions fits = telling(input.options, progress, 0.0, kShareOfFit);
       if (study.emg.kind == study::EmgKind::activation) exact = fit::identify_exactly(input.data, input.options);
-      found.methods.push_back(exact ? std::move(*exact) : fit::identify_torque(input.data, telling));
-      found.mistaken = mistaken_emg(input.data, input.options, found.methods.back());
+      found.methods.push_back(exact ? std::move(*exact) : fit::identify_torque(input.data, fits));
+      found.mistaken =
+          mistaken_emg(input.data, telling(input.options, progress, kShareOfFit, 1.0), found.methods.back());
       found.other_choice = other_choice(input.data, input.options, found.methods.back());
       found.scales = torque_scales(input.data, input.options, found.methods.back());
     }

@@ -62,10 +62,11 @@ StudyValidation study_validation(const FitSource& source,
     return fit::identify_torque(split, options);
   };
   StudyValidation found;
+  fit::EstimatorOptions options = beginning_at(whole, input.options);
+  options.progress.report = progress.report;
   if (whole.method == fit::Method::force && whole.exact) return found;
-  found.folds = whole.method == fit::Method::force
-                    ? fit::cross_validate_force(input.data, input.options, how)
-                    : fit::cross_validate(input.data, fit, beginning_at(whole, input.options), how);
+  found.folds = whole.method == fit::Method::force ? fit::cross_validate_force(input.data, input.options, how)
+                                                   : fit::cross_validate(input.data, fit, options, how);
   std::string why_not;
   (void)fit::splits(input.data, how, &why_not);
   if (!why_not.empty())

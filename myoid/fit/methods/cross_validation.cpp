@@ -1,6 +1,7 @@
 #include "myoid/fit/methods/cross_validation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -337,7 +338,11 @@ std::vector<Fold> cross_validate(const StudyData& data,
   std::vector<Split> all = splits(data, how);
   const EstimatorOptions shared = remembering_drives(options);
   std::vector<std::vector<Fold>> of_split(all.size());
-  parallel_each(all.size(), [&](std::size_t f) { of_split[f] = score_split(std::move(all[f]), fit, shared); });
+  std::atomic<std::size_t> done{0};
+  parallel_each(all.size(), [&](std::size_t f) {
+    of_split[f] = score_split(std::move(all[f]), fit, shared);
+    options.progress.tell(static_cast<double>(++done) / static_cast<double>(all.size()), "predicts parts left out");
+  });
   std::vector<Fold> folds;
   for (std::vector<Fold>& of_one : of_split) std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
   return folds;

@@ -20,6 +20,8 @@ constexpr int kMostReferences = 4;
 constexpr Eigen::Index kApproximateDraws = 4000;
 constexpr int kOtherStarts = 3;  // of a fit that is reported
 constexpr std::uint64_t kSeed = 20;
+constexpr double kShareOfModes = 0.5;  // of the time of a fit that is reported
+constexpr const char* kFits = "fits the muscles";
 
 /// Returns the start moved by the prior's spread, up or down by a fixed pattern.
 Eigen::VectorXd moved_start(const Density& density, int number) {
@@ -73,6 +75,7 @@ std::vector<Candidate> modes_of(Density& density,
     return std::any_of(basins.begin(), basins.end(), [&](const Basin& b) { return b.holds(x); });
   };
   for (std::size_t i = 1; i < starts.size(); ++i) {
+    options.progress.tell(kShareOfModes * static_cast<double>(i) / static_cast<double>(starts.size()), kFits);
     const Mode rough = find_mode(density, {.x = starts[i]}, options.progress, kRoughPromise, is_known);
     if (!rough.converged || is_known(rough.x) || rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
       continue;
@@ -81,6 +84,7 @@ std::vector<Candidate> modes_of(Density& density,
     basins.emplace_back(density, mode.x);
     found.push_back({.density = &density, .lag = options.law, .mode = std::move(mode)});
   }
+  options.progress.tell(kShareOfModes, kFits);
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.mode.log_density > b.mode.log_density; });
   return found;
