@@ -81,11 +81,16 @@ void print_settings(const Context& context, const std::string& file, const std::
   say_whole(context.json ? study::reference_json(tables) : study::reference_text(tables));
 }
 
-/// Prints the command that goes on after a check without errors. A model and a motion have none.
+/// Prints the command that goes on after a check. A model and a motion have none.
 void print_next(const program::CheckResult& result, const program::CheckOptions& o) {
   const auto format = format_of(o.input);
   const std::string word = shell_word(o.input);
-  if (result.errors > 0 || !format) return;
+  if (!format) return;
+  if (result.errors > 0) {
+    say("next: mend {}, then: myoid check {}\n", result.errors == 1 ? "the error" : "the errors, the first one first",
+        word);
+    return;
+  }
   if (result.of_study) {
     const ResultsPlace place = place_for_results(o.input);
     say("next: myoid run {} --out {}{}\n", word, shell_word(place.folder.string()),

@@ -230,9 +230,12 @@ void lost_in_trials(const std::string& channel, const LevelsByTrial& trials, std
     const bool above = rest && here.quietest > kLimits.noise.level * *rest && white;
     const bool silent = white && works_elsewhere(channel, here.greatest, trials, i);
     if (!below && !above && !silent) continue;
+    const double over_rest = rest ? here.greatest / *rest : 0.0;
     const std::string level =
-        below || above ? fmt::format("{:.2g} times its resting level in the other trials", here.greatest / *rest)
-                       : fmt::format("{:.2g} uV, while its muscle works in all other trials", 1e6 * here.greatest);
+        below || above
+            ? fmt::format("{} its resting level in the other trials",
+                          over_rest < 0.01 ? "less than a hundredth of" : fmt::format("{:.2g} times", over_rest))
+            : fmt::format("{:.2g} uV, while its muscle works in all other trials", 1e6 * here.greatest);
     faults.push_back(
         {.code = RemarkCode::emg_low_signal,
          .severity = Severity::warning,

@@ -1,6 +1,8 @@
 #include "myoid/study/checks/open_questions.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,24 +14,32 @@ namespace myoid::study {
 
 std::optional<Remark> open_questions(std::string_view text, const std::filesystem::path& file) {
   constexpr std::string_view kMark = "# TODO: ";
-  constexpr std::size_t kMost = 60;  // bytes of a question
-  std::vector<std::string> asked;
+  constexpr std::size_t kMost = 60;                                     // bytes of a question
+  std::vector<std::pair<std::string, std::vector<std::size_t>>> asked;  // a question and its lines
+  std::size_t count = 0;
   const auto lines = split_lines(text);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const auto at = lines[i].find(kMark);
     if (at == std::string_view::npos) continue;
     std::string what(trim(lines[i].substr(at + kMark.size())));
     if (what.size() > kMost) what = what.substr(0, what.rfind(' ', kMost)) + " ...";
-    asked.push_back(fmt::format("line {}: {}", i + 1, what));
+    ++count;
+    const auto same = std::ranges::find(asked, what, [](const auto& one) { return one.first; });
+    if (same == asked.end())
+      asked.push_back({what, {i + 1}});
+    else
+      same->second.push_back(i + 1);
   }
   if (asked.empty()) return std::nullopt;
-  return Remark{
-      .code = RemarkCode::unanswered,
-      .severity = Severity::warning,
-      .where = file.filename().string(),
-      .value = static_cast<double>(asked.size()),
-      .says = fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}", asked.size(),
-                          asked.size() == 1 ? "" : "s", asked.size() == 1 ? "s" : "", fmt::join(asked, "; "))};
+  std::vector<std::string> questions;
+  for (const auto& [what, at] : asked)
+    questions.push_back(fmt::format("line{} {}: {}", at.size() == 1 ? "" : "s", fmt::join(at, ", "), what));
+  return Remark{.code = RemarkCode::unanswered,
+                .severity = Severity::warning,
+                .where = file.filename().string(),
+                .value = static_cast<double>(count),
+                .says = fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}", count,
+                                    count == 1 ? "" : "s", count == 1 ? "s" : "", fmt::join(questions, "; "))};
 }
 
 }  // namespace myoid::study

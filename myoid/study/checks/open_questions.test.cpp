@@ -17,5 +17,12 @@ TEST(OpenQuestions, EveryLineThatNobodyAnsweredIsNamed) {
   EXPECT_THAT(asked->says, testing::AllOf(testing::HasSubstr("line 1: the mass"), testing::HasSubstr("line 3: who?")));
 }
 
+TEST(OpenQuestions, OneQuestionOfSeveralLinesIsSaidOnce) {
+  const auto asked = open_questions("# TODO: held?\n# TODO: who?\n# TODO: held?\n", "study.toml");
+  ASSERT_TRUE(asked);
+  EXPECT_EQ(asked->value, 3.0);
+  EXPECT_EQ(asked->says.find("held?"), asked->says.rfind("held?"));
+}
+
 }  // namespace
 }  // namespace myoid::study

@@ -69,14 +69,18 @@ void check_angles(const Study& study,
          .where = where,
          .about = name,
          .says = fmt::format(
-             "{} goes from {} to {} deg, but {} {} to {} deg{}: {:.0f} % of the samples lie outside, by up to {} "
+             "{} goes from {} to {} deg, but {} {} to {} deg{}: {} of the samples lie outside, by up to {} "
              "deg{}; "
              "{}",
              name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()),
              range.of_people ? "people's joints reach" : "the model's range is", whole_degrees(lower + kBeyond_rad),
-             whole_degrees(upper - kBeyond_rad), c.clamped || range.of_people ? "" : " (not clamped)", 100.0 * share,
-             whole_degrees(far), range.of_people ? "" : ", where its muscle paths mean nothing",
-             negated ? "is its sign the opposite of the model's?" : "is its zero or sign another than the model's?")});
+             whole_degrees(upper - kBeyond_rad), c.clamped || range.of_people ? "" : " (not clamped)",
+             share < 0.005 ? std::string("less than 1 %") : fmt::format("{:.0f} %", 100.0 * share), whole_degrees(far),
+             range.of_people ? "" : ", where its muscle paths mean nothing",
+             negated ? "is its sign the opposite of the model's?" : "is its zero or sign another than the model's?"),
+         .remedy = wrong ? "turn or shift the angles, take a model of the same convention, or draft another joint "
+                           "(myoid init --coordinate)"
+                         : ""});
   }
 }
 

@@ -98,6 +98,7 @@ TEST(Implausible, ANegatedAngleIsAnErrorThatAsksForTheSign) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);
   EXPECT_NE(found[0].says.find("-10 to 150 deg"), std::string::npos) << found[0].says;
+  EXPECT_FALSE(found[0].remedy.empty());
   EXPECT_NE(found[0].says.find("opposite"), std::string::npos) << found[0].says;
 }
 

@@ -74,8 +74,10 @@ AngleFile read_angles(const std::filesystem::path& path,
     if (is_angle(channel.name, file.data.channel_count() == 1) && channel.unit != Unit::radian)
       throw ReadError(
           path, 0,
-          fmt::format("column '{}' is in {}, expected an angle; write its unit in the header, as in '{} [deg]'",
-                      channel.name, symbol(channel.unit), channel.name));
+          fmt::format(
+              "column '{}' {}, expected an angle; write its unit in the header, as in '{} [deg]'", channel.name,
+              channel.unit == Unit::dimensionless ? "has no unit" : fmt::format("is in {}", symbol(channel.unit)),
+              channel.name));
   }
   bool says_degrees = false;
   for (Eigen::Index c = 0; c < file.data.channel_count(); ++c)

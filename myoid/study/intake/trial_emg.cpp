@@ -226,7 +226,7 @@ TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Reme
   recording::EmgFile file = recording::read_emg(*trial.emg, study.emg.unit, study.emg.kind != EmgKind::raw);
   add_repairs(*trial.emg, file.repairs, input.remarks);
   if (!file.unit_conflict.empty())
-    warn(input, RemarkCode::unit_doubtful, fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
+    warn(input, RemarkCode::unit_doubtful, "EMG: " + file.unit_conflict);  // the same words in every trial
   name_by_target_muscle(study, *trial.emg, file, input.remarks);
   join_clocks(study, *trial.emg, file, input.remarks);
   require_channels(study, *trial.emg, file.data);
