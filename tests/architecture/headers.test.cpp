@@ -26,7 +26,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/program/cli/options.h", "exercised by running the program"},
     {"myoid/program/cli/run.h", "exercised by running the program"},
     {"myoid/program/cli/wrong_line.h", "exercised by running the program"},
-    {"myoid/run/prediction_input.h", "exercised by running the program"},
+    {"myoid/program/commands/prediction_input.h", "exercised by running the program"},
     {"myoid/ground/core/prior.h", "a plain value, exercised by the estimators"},
     {"myoid/ground/core/stretch.h", "a plain value, exercised by the estimators"},
     {"myoid/ground/files/event.h", "a plain value, exercised by the readers"},

@@ -7,9 +7,9 @@
 #include "myoid/ground/core/json_text.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/page/json_values.h"
+#include "myoid/program/commands/prediction_input.h"
+#include "myoid/program/commands/read_fit.h"
 #include "myoid/results/prediction_files.h"
-#include "myoid/results/read_fit.h"
-#include "myoid/run/prediction_input.h"
 #include "myoid/study/study_text.h"
 
 namespace myoid::program {
@@ -25,18 +25,18 @@ void visit(PredictOptions& o, study::SettingVisitor& v) {
 
 PredictResult predict(const PredictOptions& o) {
   Remarks remarks(o.call);
-  const run::PredictionInput input = run::prediction_input(o.folder, {.study = o.study,
-                                                                      .trials = o.trials,
-                                                                      .start_s = o.call.start_s,
-                                                                      .end_s = o.call.end_s,
-                                                                      .progress = o.call.progress});
+  const PredictionInput input = prediction_input(o.folder, {.study = o.study,
+                                                            .trials = o.trials,
+                                                            .start_s = o.call.start_s,
+                                                            .end_s = o.call.end_s,
+                                                            .progress = o.call.progress});
   remarks.warn_of_changes(o.folder, {"parameters.json", "run.json"});
   for (const Remark& remark : input.remarks) remarks.add(remark);
   PredictResult result;
   result.provenance.command = o.call.command;
   result.provenance.inputs = input.files;
   result.provenance.options_json = study::study_json(input.study);
-  const fit::IdentificationResult fit = results::read_fit(o.folder, input.fit.data, input.fit.options);
+  const fit::IdentificationResult fit = read_fit(o.folder, input.fit.data, input.fit.options);
   const fit::TrialPredictions predictions(input.fit.data, input.fit.options, fit);
   for (const fit::TrialData& trial : input.trials) {
     if (trial.calibration) remarks.note(fmt::format("trial {} took part in the fit", trial.name));

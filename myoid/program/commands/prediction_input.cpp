@@ -1,4 +1,4 @@
-#include "myoid/run/prediction_input.h"
+#include "myoid/program/commands/prediction_input.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,7 +15,7 @@
 #include "myoid/study/run_identity.h"
 #include "myoid/study/run_record.h"
 
-namespace myoid::run {
+namespace myoid::program {
 namespace {
 
 using fit::TrialData;
@@ -44,7 +44,7 @@ study::Study study_of_run(const study::RunRecord& run) {
 }
 
 /// Returns muscles with their channels: "BIC by biceps".
-std::vector<std::string> muscles_of(const FitInput& input) {
+std::vector<std::string> muscles_of(const run::FitInput& input) {
   std::vector<std::string> list;
   for (const fit::MuscleSetup& muscle : input.data.muscles)
     list.push_back(fmt::format("{} by {}", muscle.name, muscle.emg_channel));
@@ -63,13 +63,13 @@ std::vector<TrialData> other_trials(const std::filesystem::path& folder,
       input.remarks.push_back({.says = fmt::format("{}: {}, in the run; the bands hold for the run's person and model",
                                                    choice.study, text)});
   study.identify.methods = {fit::Method::torque};
-  if (!from_maximal_effort(study.emg))
+  if (!run::from_maximal_effort(study.emg))
     input.remarks.push_back(
         {.code = RemarkCode::no_maximal_contraction,
          .says = fmt::format("{}: its EMG is not relative to a maximal contraction of its own; the prediction takes "
                              "the greatest effort of both studies for the same",
                              choice.study)});
-  StudyResult other = study_data(
+  run::StudyResult other = run::study_data(
       study, {.start_s = choice.start_s, .end_s = choice.end_s, .progress = choice.progress, .share_forces = false});
   input.files.insert(input.files.end(), other.source.files.begin(), other.source.files.end());
   const std::vector<std::string> found = muscles_of(other.fit_input), wanted = muscles_of(input.fit);
@@ -106,9 +106,9 @@ std::vector<TrialData> chosen(const std::vector<TrialData>& trials, const std::v
 
 PredictionInput prediction_input(const std::filesystem::path& folder, const PredictionChoice& choice) {
   const study::RunRecord run = study::read_run_record(folder);
-  StudyResult base =
-      study_data(study_of_run(run),
-                 {.start_s = run.start_s, .end_s = run.end_s, .progress = choice.progress, .share_forces = false});
+  run::StudyResult base =
+      run::study_data(study_of_run(run),
+                      {.start_s = run.start_s, .end_s = run.end_s, .progress = choice.progress, .share_forces = false});
   study::refuse_changed(base.source.files, run, run.study);
   PredictionInput input{.study = std::move(base.source.study),
                         .fit = std::move(base.fit_input),
@@ -120,4 +120,4 @@ PredictionInput prediction_input(const std::filesystem::path& folder, const Pred
   return input;
 }
 
-}  // namespace myoid::run
+}  // namespace myoid::program

@@ -1,4 +1,4 @@
-#include "myoid/results/read_fit.h"
+#include "myoid/program/commands/read_fit.h"
 
 #include <limits>
 #include <optional>
@@ -15,7 +15,7 @@
 #include "myoid/ground/core/json_text.h"
 #include "myoid/ground/files/text_file.h"
 
-namespace myoid::results {
+namespace myoid::program {
 namespace {
 
 using fit::EmgLag;
@@ -95,4 +95,4 @@ fit::IdentificationResult read_fit(const std::filesystem::path& folder,
   throw InvalidInput(fmt::format("{} has no method torque; add it to method in [identify]", path.string()));
 }
 
-}  // namespace myoid::results
+}  // namespace myoid::program

@@ -1,4 +1,4 @@
-#include "myoid/results/read_fit.h"
+#include "myoid/program/commands/read_fit.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@
 #include "tests/support/elbow_study.h"
 #include "tests/support/temporary_folder.h"
 
-namespace myoid::results {
+namespace myoid::program {
 namespace {
 
 using fit::IdentificationResult;
@@ -35,7 +35,7 @@ TEST(ReadFit, GivesBackTheNumbersThatWereWritten) {
   const test::TemporaryFolder folder;
   const test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 4.0});
   const IdentificationResult made = made_fit(study, {});
-  write_file(folder / "parameters.json", parameters_json({made}, {}, {}));
+  write_file(folder / "parameters.json", results::parameters_json({made}, {}, {}));
   const IdentificationResult read = read_fit(folder.path(), study.data, {});
   EXPECT_EQ(read.solution, made.solution);
   EXPECT_EQ(read.covariance, made.covariance);
@@ -51,7 +51,7 @@ TEST(ReadFit, GivesBackTheNumbersThatWereWritten) {
 TEST(ReadFit, RefusesListsOfAnotherLengthAndCellsThatAreNoNumbers) {
   const test::TemporaryFolder folder;
   const test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 4.0});
-  const nlohmann::json good = nlohmann::json::parse(parameters_json({made_fit(study, {})}, {}, {}));
+  const nlohmann::json good = nlohmann::json::parse(results::parameters_json({made_fit(study, {})}, {}, {}));
   const auto refuses = [&](const auto& damage) {
     nlohmann::json content = good;
     damage(content.at("methods").at(0));
@@ -70,7 +70,7 @@ TEST(ReadFit, RefusesOtherUnknownsAndOtherFiles) {
   const test::TemporaryFolder folder;
   test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 4.0});
   EXPECT_THROW((void)read_fit(folder.path(), study.data, {}), ReadError);
-  write_file(folder / "parameters.json", parameters_json({made_fit(study, {})}, {}, {}));
+  write_file(folder / "parameters.json", results::parameters_json({made_fit(study, {})}, {}, {}));
   study.data.rules = {test::freed("emg_exponent")};
   EXPECT_THROW((void)read_fit(folder.path(), study.data, {}), InvalidInput);
   write_file(folder / "parameters.json", "{\"methods\": [{\"method\": \"torque\"}]}");
@@ -80,4 +80,4 @@ TEST(ReadFit, RefusesOtherUnknownsAndOtherFiles) {
 }
 
 }  // namespace
-}  // namespace myoid::results
+}  // namespace myoid::program

@@ -6,7 +6,7 @@
 #include "myoid/fit/measurement/options.h"
 #include "myoid/fit/measurement/study_data.h"
 
-namespace myoid::results {
+namespace myoid::program {
 
 /// Reads the members of method torque in a run's parameters.json that predictions need
 /// (fit::TrialPredictions): `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`,
@@ -16,4 +16,4 @@ namespace myoid::results {
                                                  const fit::StudyData& data,
                                                  const fit::EstimatorOptions& options);
 
-}  // namespace myoid::results
+}  // namespace myoid::program

@@ -11,7 +11,7 @@
 #include "myoid/run/fit_input.h"
 #include "myoid/study/study.h"
 
-namespace myoid::run {
+namespace myoid::program {
 
 /// The choice of trials to predict by the fit of a finished run.
 struct PredictionChoice {
@@ -24,7 +24,7 @@ struct PredictionChoice {
 /// The data of the run's fit and of the trials to predict.
 struct PredictionInput {
   study::Study study;                  ///< Study of the run.
-  FitInput fit;                        ///< Data of the run's fit: its calibration trials.
+  run::FitInput fit;                   ///< Data of the run's fit: its calibration trials.
   std::vector<fit::TrialData> trials;  ///< Trials to predict.
   std::vector<InputFile> files;
   std::vector<Remark> remarks;
@@ -36,4 +36,4 @@ struct PredictionInput {
 /// InvalidInput for unknown trials and for another study with other muscles.
 [[nodiscard]] PredictionInput prediction_input(const std::filesystem::path& folder, const PredictionChoice& choice);
 
-}  // namespace myoid::run
+}  // namespace myoid::program
