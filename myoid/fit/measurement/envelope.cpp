@@ -190,6 +190,15 @@ Eigen::MatrixXd rates(const Eigen::VectorXd& time_s, const Eigen::VectorXd& y, b
 
 }  // namespace
 
+Envelope Envelope::within(double first_s, double last_s) const {
+  constexpr std::ptrdiff_t kFewest = 4;
+  const auto begin = std::max(time_s_.begin(), std::lower_bound(time_s_.begin(), time_s_.end(), first_s) - 1);
+  const auto end = std::min(time_s_.end(), std::upper_bound(begin, time_s_.end(), last_s) + 1);
+  if (end - begin == time_s_.size() || end - begin < kFewest) return *this;
+  const auto rows = Eigen::seqN(begin - time_s_.begin(), end - begin);
+  return {time_s_(rows), samples_(rows), apart_};
+}
+
 Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values, Eigen::Index apart)
     : time_s_(time_s),
       samples_(values),

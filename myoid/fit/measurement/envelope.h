@@ -29,6 +29,9 @@ class Envelope {
   /// Returns the values at time_s - delay_s, n.
   [[nodiscard]] std::vector<Value> at(const Eigen::Ref<const Eigen::VectorXd>& time_s, double delay_s) const;
 
+  /// Returns the envelope of the samples from `first_s` to `last_s` alone, four of them at least.
+  [[nodiscard]] Envelope within(double first_s, double last_s) const;
+
   [[nodiscard]] double first_s() const { return time_s_[0]; }
   [[nodiscard]] double last_s() const { return time_s_[time_s_.size() - 1]; }
   [[nodiscard]] const Eigen::VectorXd& time_s() const { return time_s_; }

@@ -38,6 +38,27 @@ ChannelValues with_delay(double delay_s) {
   return c;
 }
 
+// Lags forget the begin of a recording within two seconds, and polynomials its ends within half of one.
+TEST(Envelope, APartReadsAsTheWholeDoesAlsoBehindLags) {
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(2001, 0.0, 20.0);
+  const Eigen::VectorXd u = 0.4 + 0.3 * (5.0 * t.array()).sin() + 0.2 * (13.0 * t.array()).cos();
+  const Envelope whole(t, u, 5), part = whole.within(8.0, 13.5);
+  EXPECT_LT(part.time_s().size(), 560);
+  EXPECT_EQ(whole.within(-1.0, 30.0).time_s().size(), t.size());
+  const Eigen::VectorXd read = Eigen::VectorXd::LinSpaced(60, 10.2, 13.0);
+  ChannelValues channel{};
+  channel[kGain] = channel[kExponent] = 1.0;
+  channel[kDelay] = 0.15;
+  for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
+    const std::vector<Activation> of_whole = activation(whole, read, channel, lag),
+                                  of_part = activation(part, read, channel, lag);
+    for (std::size_t i = 0; i < of_whole.size(); ++i) {
+      EXPECT_NEAR(of_part[i].value, of_whole[i].value, 1e-8);
+      EXPECT_NEAR(of_part[i].by_field[kDelay], of_whole[i].by_field[kDelay], 1e-6);
+    }
+  }
+}
+
 TEST(EmgLag, ASharedDelayIsTheMeanLagOfRiseAndFall) {
   // Behind a ramp the output of a lag stays by slope times tau: (10 + 40 + 15) / 82.5 of d on the
   // way up, (10 + 40 + 50) / 82.5 on the way down, d in the mean.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -49,10 +50,17 @@ Drives drives_of(const TrialData& trial, const EstimatorOptions& options, const 
   return drives;
 }
 
+/// The envelopes of a trial that a run reads: lags and memory grow with the run, and not with its trial.
+struct Reads {
+  static constexpr double kLagsForget_s = 2.0, kSplineForgets_s = 0.5;
+  double first_s = -std::numeric_limits<double>::infinity(), last_s = std::numeric_limits<double>::infinity();
+};
+
 void add_envelopes(const TrialData& trial,
                    const Drives& drives,
                    const EstimatorOptions& options,
                    const ParameterMap& map,
+                   const Reads& reads,
                    TrialRun& run) {
   run.envelope_sd.resize(static_cast<Eigen::Index>(drives.size()));
   run.parts.resize(drives.size());
@@ -60,13 +68,14 @@ void add_envelopes(const TrialData& trial,
   for (std::size_t c = 0; c < drives.size(); ++c) {
     const std::string& name = map.channels()[c];
     const auto column = static_cast<Eigen::Index>(c);
-    run.envelopes.push_back(drives[c]->envelope);
+    run.envelopes.push_back(drives[c]->envelope.within(reads.first_s, reads.last_s));
     run.rest[column] = options.rest_level(name);
     if (const std::optional<UnseenActivation>& unseen = map.unseen_activation(c)) {
       run.envelope_sd[column] = unseen->sd;
       run.errors.emplace_back(unseen->cutoff_hz, std::array<double, 2>{});
       for (const std::string& part : unseen->parts)
-        run.parts[c].emplace_back(trial.activation.time_s(), trial.activation.column(part));
+        run.parts[c].push_back(
+            Envelope(trial.activation.time_s(), trial.activation.column(part)).within(reads.first_s, reads.last_s));
       continue;
     }
     run.envelope_sd[column] = envelope_spread(options, name);
@@ -110,7 +119,8 @@ TrialRun make_run(const TrialData& trial,
                   const std::vector<Eigen::Index>& rows,
                   const Drives& drives,
                   const EstimatorOptions& options,
-                  const ParameterMap& map) {
+                  const ParameterMap& map,
+                  const Reads& reads) {
   const auto n = static_cast<Eigen::Index>(rows.size());
   const std::size_t joints = joint_count(trial);
   const double span = trial.time_s[rows.back()] - trial.time_s[rows.front()];
@@ -128,7 +138,7 @@ TrialRun make_run(const TrialData& trial,
   run.measured_nm.resize(static_cast<Eigen::Index>(joints) * run.reduction.outputs());
   for (std::size_t j = 0; j < joints; ++j) add_joint(of_joint(trial, j), rows, j, map, run);
   add_fascicles(trial, rows, run);
-  add_envelopes(trial, drives, options, map, run);
+  add_envelopes(trial, drives, options, map, reads, run);
   return run;
 }
 
@@ -176,7 +186,9 @@ std::vector<TrialRun> trial_runs(const StudyData& data, const EstimatorOptions& 
       if (static_cast<Eigen::Index>(stretch.size()) < kFewest) continue;
       for (const auto& rows : pieces(stretch, trial.time_s, options.residual_cutoff_hz)) {
         if (static_cast<Eigen::Index>(rows.size()) < kFewest) continue;
-        TrialRun& run = runs.emplace_back(make_run(trial, rows, drives[i], options, map));
+        const Reads reads{trial.time_s[rows.front()] - map.longest_delay_s() - Reads::kLagsForget_s,
+                          trial.time_s[rows.back()] + Reads::kSplineForgets_s};
+        TrialRun& run = runs.emplace_back(make_run(trial, rows, drives[i], options, map, reads));
         run.trial = static_cast<int>(i);
         const double middle = 0.5 * (run.time_s[0] + run.time_s[run.time_s.size() - 1]) - begin;
         run.session = session.place(before + middle / span);
@@ -195,7 +207,7 @@ TrialRun whole_run(const TrialData& trial,
                    const ParameterMap& map) {
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(trial.time_s.size()));
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
-  TrialRun run = make_run(trial, rows, drives_of(trial, options, map), options, map);
+  TrialRun run = make_run(trial, rows, drives_of(trial, options, map), options, map, {});
   const auto here =
       std::find_if(data.trials.begin(), data.trials.end(), [&](const TrialData& of) { return of.name == trial.name; });
   const auto before = static_cast<double>(std::count_if(data.trials.begin(), here, is_fitted));
