@@ -142,6 +142,8 @@ class Mistakes {
       : data_(data), fit_(fit), plain_(fit::remembering_drives(fit::of_a_fold(options))), progress_(options.progress) {
     plain_.law = fit.lag;
     plain_.choose_lag = false;
+    if (std::ranges::any_of(data.muscles, [](const MuscleSetup& setup) { return setup.unseen.has_value(); }))
+      least_odds_ = kSureOdds;
   }
 
   void consider_all_trials() {
@@ -190,7 +192,7 @@ class Mistakes {
     if (!as_it_is_) as_it_is_ = log_evidence(data_, fit::beginning_at(fit_, plain_));
     const double odds = log_evidence(without, options) - *as_it_is_;
     progress_.tell(1.0 - std::pow(0.7, ++considered_), "looks for mistaken EMG");  // nobody knows how many follow
-    if (odds <= (best_ ? best_->log_odds : kMistakenOdds)) return;
+    if (odds <= (best_ ? best_->log_odds : least_odds_)) return;
     best_ = mistake;
     best_->log_odds = odds;
     best_->r2 = fit_.r2;
@@ -241,11 +243,16 @@ class Mistakes {
   EstimatorOptions plain_;
   const Progress& progress_;
   int considered_ = 0;
+  double least_odds_ = kMistakenOdds;
   std::optional<double> as_it_is_;  ///< ln of the evidence with the mistakes.
   std::optional<MistakenEmg> best_;
 };
 
 }  // namespace
+
+bool MistakenEmg::spoils_all(double least_r2) const {
+  return !(r2 > least_r2) || (!is_exchange() && log_odds > kSureOdds);
+}
 
 std::string MistakenEmg::about_trial() const {
   return is_exchange() ? fmt::format("electrodes of {} and {} exchanged", first, second)

@@ -19,6 +19,9 @@ struct MistakenEmg {
   double log_odds = 0.0;      ///< ln of the evidence without the mistake, over that as it is.
   double r2 = 0.0;            ///< Of the fit with the EMG as it is.
   [[nodiscard]] bool is_exchange() const { return !first.empty(); }
+  /// Returns true where no number of the fit is to be used: it explains less than `least_r2` of the torque, or the
+  /// trial's gain is another by kSureOdds.
+  [[nodiscard]] bool spoils_all(double least_r2) const;
   [[nodiscard]] std::string about_trial() const;  ///< "electrodes of BIC and TRI exchanged"
   [[nodiscard]] std::string finding() const;      ///< "electrodes of BIC and TRI exchanged in trial 'slow'"
   [[nodiscard]] std::string sentence() const;     ///< The finding and its odds.
@@ -34,5 +37,8 @@ struct MistakenEmg {
                                                       const fit::IdentificationResult& fit);
 
 inline constexpr double kMistakenOdds = 5.0;  ///< ln of the odds from which a mistake is named: 150 to 1.
+/// ln of the odds that no other fault explains, 10^10: from these on a mistake is named where a muscle has no EMG,
+/// whose pull may be another mistake's, and another gain makes the fit fail.
+inline constexpr double kSureOdds = 23.0;
 
 }  // namespace myoid::run

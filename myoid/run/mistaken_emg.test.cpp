@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/fit/measurement/unseen_activations.h"
 #include "myoid/fit/methods/cross_validation.h"
 #include "myoid/fit/methods/torque.h"
 
@@ -143,6 +144,26 @@ TEST(MistakenEmg, OfExchangedChannelsCountsByTheirOwnMusclesLevels) {
   EXPECT_EQ(by_volts->first, "BIC");
   EXPECT_EQ(by_volts->second, "TRI");
   EXPECT_GT(by_volts->log_odds, (by_numbers ? by_numbers->log_odds : 0.0) + kMistakenOdds);
+}
+
+TEST(MistakenEmg, OfAGainSpoilsAllNumbersWhereItIsSure) {
+  MistakenEmg mistaken{.trial = "slow", .gain = 3.0, .log_odds = 2.0 * kSureOdds, .r2 = 0.9};
+  EXPECT_TRUE(mistaken.spoils_all(0.5));
+  mistaken.log_odds = 0.5 * kSureOdds;
+  EXPECT_FALSE(mistaken.spoils_all(0.5));
+  const MistakenEmg exchanged{.first = "BIC", .second = "TRI", .log_odds = 2.0 * kSureOdds, .r2 = 0.9};
+  EXPECT_FALSE(exchanged.spoils_all(0.5));
+  EXPECT_TRUE(exchanged.spoils_all(0.95));
+}
+
+// The brachialis' pull is not seen, and the flexors' errors in one trial are its own.
+TEST(MistakenEmg, IsNoneWhereAMuscleWithoutEmgPulls) {
+  test::ElbowStudy study = person(3);
+  study.data.muscles[1].unseen = fit::UnseenActivation{.by = fit::WithoutEmg::unseen, .parts = {}};
+  study.data.muscles[1].emg_channel = "without EMG";
+  fit::expect_activations(study.data);
+  const auto found = found_in(study);
+  EXPECT_FALSE(found) << found->sentence();
 }
 
 TEST(MistakenEmg, OneMuscleHasNobodyToExchangeWith) {

@@ -343,11 +343,12 @@ Gate emg_gate(const MistakenEmg& mistaken) {
   // A person whose synergists differ more than usual could explain an exchange, too.
   return {
       .name = mistaken.is_exchange() ? "Electrodes on the muscles that they are named for" : "One gain in every trial",
-      .status = mistaken.r2 > study::kGateLimits.explains ? GateStatus::warn : GateStatus::fail,
+      .status = mistaken.spoils_all(study::kGateLimits.explains) ? GateStatus::fail : GateStatus::warn,
       .value = mistaken.sentence(),
       .threshold = fmt::format("no exchange of two channels and no gain of a trial by which the recording is {:.0f} "
-                               "times as probable; fails where the fit explains less than half of the torque (R2 0.5)",
-                               std::exp(kMistakenOdds)),
+                               "times as probable; fails where the fit explains less than half of the torque (R2 0.5), "
+                               "and by a gain of {:.0e} times",
+                               std::exp(kMistakenOdds), std::exp(kSureOdds)),
       .why = mistaken.is_exchange() ? "Every number of the two muscles is then the other's."
                                     : "Or its torque is in another unit, or a held mass is wrong: every number rests "
                                       "on both.",

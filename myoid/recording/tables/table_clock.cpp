@@ -182,9 +182,9 @@ class RowClock {
     if (numbers_.day_times || layout_.rate_hz > 0.0 || time.size() < kFewest || rate > kSlowest_hz) return;
     const double length = time[time.size() - 1] - time[0];
     repairs_.push_back({.line = line(0),
-                        .message = fmt::format("'{}' counts s, {:.4g} s from row to row, or ms, and is named "
-                                               "'time_ms'",
-                                               name, 1.0 / rate),
+                        .message = fmt::format("'{}' has no unit: its rows are {:.4g} s apart, or ms if its name is "
+                                               "to be '{} [ms]'",
+                                               name, 1.0 / rate, name),
                         .apart_s = length - 1e-3 * length});
   }
 
