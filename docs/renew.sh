@@ -12,6 +12,7 @@ for room in beliefs study intake commands intervals files virtual_person; do
   MYOID_PRINT_PAGES=1 "$build/bin/${room}_tests" --gtest_brief=1
 done
 "$python" docs/house.py --write
+"$python" tests/tutorial/errors_of_demo.py "$build/bin/myoid" README.md --write
 "$python" tests/tutorial/commands_of_page.py "$build/bin/myoid" docs/tutorial.md . --write
 MYOID_PRINT_PAGES=1 bash tests/python/run_tests.sh "$build/bin/myoid" "$build/python" "$python" test_notebooks.py
 if [ "${1:-}" = --figures ]; then

@@ -10,8 +10,8 @@
 
 namespace myoid::run {
 
-/// What becomes of the numbers of a fit if the activations without EMG are expected otherwise: by the synergies of the
-/// measured EMG in place of a constant, and by a constant in place of synergies.
+/// The numbers of a fit if the activations without EMG are expected otherwise: by the synergies of the measured EMG in
+/// place of a constant, and by a constant in place of synergies.
 struct OtherChoice {
   struct Number {
     std::string muscle, parameter;
@@ -22,7 +22,7 @@ struct OtherChoice {
   std::string other;  ///< The choice in words.
   std::vector<Number> numbers;
 
-  /// Returns what became of an estimate; null: nothing is known.
+  /// Returns the number of this estimate; null: it has none, as V_sh V_shl.
   [[nodiscard]] const Number* of(const fit::ParameterEstimate& estimate) const;
   /// Returns how many numbers leave their interval.
   [[nodiscard]] std::ptrdiff_t outside() const;

@@ -9,14 +9,8 @@ namespace myoid::fit {
 namespace {
 
 constexpr double kActivationStep = 0.02;
+constexpr double kLeastUnseen = 1e-4;  // without EMG
 const std::vector<ParameterMap::Chain> kNoChains;
-
-/// The error of an activation without EMG does not grow with it.
-NoiseOverEnvelope one_over(double activation) {
-  constexpr double kLeast = 1e-4;
-  if (activation <= kLeast) return {1.0 / kLeast, 0.0};
-  return {1.0 / activation, -1.0 / (activation * activation)};
-}
 
 /// Returns the activations at an envelope larger by kActivationStep: a (1 + h p).
 std::vector<Activation> more_active(std::vector<Activation> activation, double exponent) {
@@ -82,8 +76,11 @@ RunEvaluation::RunEvaluation(
     const bool unseen = !run.parts[c].empty();
     for (Eigen::Index i = 0; i < n && (unseen || run.rest[column] > 0.0); ++i) {
       const Envelope::Value& u = delayed[static_cast<std::size_t>(i)];
-      const NoiseOverEnvelope noise =
-          unseen ? one_over(u.value) : noise_over_envelope(u.value, run.envelope_sd[column], run.rest[column]);
+      if (unseen) {  // The error of an activation does not grow with it, and belongs to the reference.
+        gain_(i, column) = 1.0 / std::max(u.value, kLeastUnseen);
+        continue;
+      }
+      const NoiseOverEnvelope noise = noise_over_envelope(u.value, run.envelope_sd[column], run.rest[column]);
       gain_(i, column) = noise.value;
       gain_by_delay_(i, column) = -noise.slope * u.slope;
     }

@@ -64,11 +64,13 @@ Eigen::MatrixXd Woodbury::transposed_times(const Eigen::MatrixXd& c) const {
   return sum;
 }
 
-Eigen::MatrixXd Woodbury::project(const std::vector<Eigen::MatrixXd>& b) const {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(columns_, b.empty() ? 0 : b.front().cols());
-  for (std::size_t r = 0; r < b.size(); ++r) sum += blocks_[r]->transpose() * b[r];
-  return sum;
+Eigen::MatrixXd Woodbury::whole() const {
+  Eigen::MatrixXd all(rows_, columns_);
+  for (std::size_t r = 0; r < blocks_.size(); ++r) all.middleRows(first_[r], blocks_[r]->rows()) = *blocks_[r];
+  return all;
 }
+
+Eigen::MatrixXd Woodbury::project(const std::vector<Eigen::MatrixXd>& b) const { return transposed_times(stacked(b)); }
 
 Eigen::MatrixXd Woodbury::solve(const std::vector<Eigen::MatrixXd>& b) const {
   return by_rows() ? transposed_times(factor_.solve(stacked(b))) : Eigen::MatrixXd(factor_.solve(project(b)));
@@ -98,8 +100,7 @@ Eigen::MatrixXd Woodbury::solve(const std::vector<Eigen::MatrixXd>& b, const Eig
 Eigen::MatrixXd Woodbury::inverse() const {
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(columns_, columns_);
   if (!by_rows()) return factor_.solve(identity);
-  Eigen::MatrixXd half(rows_, columns_);
-  for (std::size_t r = 0; r < blocks_.size(); ++r) half.middleRows(first_[r], blocks_[r]->rows()) = *blocks_[r];
+  Eigen::MatrixXd half = whole();
   factor_.matrixL().solveInPlace(half);
   return identity - half.transpose() * half;
 }
@@ -112,9 +113,7 @@ Woodbury::Left Woodbury::left() const {
     found.diagonal = covariance.diagonal();
     return found;
   }
-  Eigen::MatrixXd all(rows_, columns_);
-  for (std::size_t r = 0; r < blocks_.size(); ++r) all.middleRows(first_[r], blocks_[r]->rows()) = *blocks_[r];
-  factor_.solveInPlace(all);
+  const Eigen::MatrixXd all = factor_.solve(whole());
   found.diagonal.setOnes(columns_);
   for (std::size_t r = 0; r < blocks_.size(); ++r) {
     found.blocks[r] = all.middleRows(first_[r], blocks_[r]->rows());

@@ -44,6 +44,7 @@ class Woodbury {
   /// Returns the lower half of U F U'.
   [[nodiscard]] Eigen::MatrixXd over_rows(const Blocks& blocks, const Eigen::VectorXd& f) const;
   [[nodiscard]] Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& b) const;
+  [[nodiscard]] Eigen::MatrixXd whole() const;  ///< U
   /// Returns U' c, c as high as all blocks.
   [[nodiscard]] Eigen::MatrixXd transposed_times(const Eigen::MatrixXd& c) const;
 

@@ -182,8 +182,8 @@ class RowClock {
     if (numbers_.day_times || layout_.rate_hz > 0.0 || time.size() < kFewest || rate > kSlowest_hz) return;
     const double length = time[time.size() - 1] - time[0];
     repairs_.push_back({.line = line(0),
-                        .message = fmt::format("'{}' has no unit: its rows are {:.4g} s apart, or ms if its name is "
-                                               "to be '{} [ms]'",
+                        .message = fmt::format("'{}' has no unit and is read as s, {:.4g} s from row to row, not as "
+                                               "ms, which '{} [ms]' says",
                                                name, 1.0 / rate, name),
                         .apart_s = length - 1e-3 * length});
   }
