@@ -94,6 +94,8 @@ TEST(ParseStorage, MendsWhatCanBeMendedAndSaysSo) {
   EXPECT_NE(all.find("9: a value"), std::string::npos) << all;
   EXPECT_NE(all.find("says 9 rows"), std::string::npos) << all;
   EXPECT_NE(all.find("says 2 columns"), std::string::npos) << all;
+  // A file of times alone, of which one repeats, has no value to move.
+  EXPECT_EQ(parse_storage("x\nendheader\ntime\n0\n0\n1\n5\n", "f.sto").data.sample_count(), 3);
   // A lost row is no matter of columns.
   EXPECT_EQ(std::ranges::count_if(s.repairs, &Repair::lost), 1);
 }

@@ -321,7 +321,8 @@ std::size_t settle_repeats(std::vector<double>& time_s, Eigen::MatrixXd& values,
   for (Eigen::Index row = 1; row < count; ++row) {
     if (time[row] == time[kept - 1]) continue;
     time_s[at(kept)] = time[row];
-    values.row(kept++) = values.row(row).eval();
+    for (auto column : values.colwise()) column[kept] = column[row];
+    ++kept;
   }
   time_s.resize(at(kept));
   return at(count - kept);
