@@ -38,9 +38,15 @@ constexpr std::size_t kMostPairs = 4;    // that are tried
 constexpr double kLargerErrors = 0.7;    // of ln b, above the median of the other trials: twice
 constexpr double kMuchOfTorque = 0.1;    // b sigma_T over the trial's torque, root mean squares
 constexpr std::size_t kMostDoubted = 2;  // that are tried
-constexpr double kGainStep = 0.35;       // of ln gain
-constexpr int kGainSteps = 7;            // to either side, up to 12 times
-constexpr int kLeastGainSteps = 2;       // 2 times: levels of a muscle differ by less from trial to trial
+
+/// Sizes of a mistake that are tried, to either side of none.
+struct Sizes {
+  double step = 0.0;
+  int steps = 0;
+  int least = 0;  ///< Steps that a mistake has.
+};
+constexpr Sizes kLogGains{.step = 0.35, .steps = 7, .least = 2};  // 2 to 12 times: a muscle's levels differ by less
+constexpr Sizes kLags_s{.step = 0.1, .steps = 15, .least = 2};    // delays differ by less from trial to trial
 
 /// Returns pairs of channels behind the sums of their muscles' distances from what is known of people, greatest first.
 std::vector<std::tuple<double, std::string, std::string>> doubtful_pairs(const StudyData& data,
@@ -85,10 +91,10 @@ TimeSeries undone(const StudyData& data,
     values.col(first).swap(values.col(second));
     values.col(first) /= ratio;
     values.col(second) *= ratio;
-  } else {
+  } else if (!mistake.is_clock()) {
     for (const std::string& channel : fit::measured_channels(data)) values.col(emg.index(channel)) /= mistake.gain;
   }
-  return {emg.time_s(), emg.channels(), std::move(values)};
+  return {emg.time_s().array() - mistake.late_s, emg.channels(), std::move(values)};
 }
 
 /// Returns the exchanges that one trial may have.
@@ -164,17 +170,21 @@ class Mistakes {
       exchange.log_odds = gained(exchange);
       if (exchange.log_odds > likeliest.log_odds) likeliest = exchange;
     }
-    std::map<int, double> by_gain;
-    for (int step = -kGainSteps - 1; step <= kGainSteps + 1; ++step)
-      by_gain[step] = gained({.trial = likeliest.trial, .gain = std::exp(kGainStep * step)});
-    for (int step = -kGainSteps; step <= kGainSteps; ++step) {
-      if (std::abs(step) < kLeastGainSteps || by_gain[step] <= likeliest.log_odds) continue;
-      // The vertex of the parabola through three gains.
-      const double below = by_gain[step - 1], here = by_gain[step], above = by_gain[step + 1];
-      const double bend = 2.0 * here - below - above;
-      const double off = bend > 0.0 ? std::clamp(0.5 * (above - below) / bend, -0.5, 0.5) : 0.0;
-      likeliest = {.trial = likeliest.trial, .gain = std::exp(kGainStep * (step + off)), .log_odds = here};
-    }
+    const auto sizes = [&](const Sizes& tried, const auto& of_size) {
+      std::map<int, double> odds;
+      for (int i = -tried.steps - 1; i <= tried.steps + 1; ++i) odds[i] = gained(of_size(tried.step * i));
+      for (int i = -tried.steps; i <= tried.steps; ++i) {
+        if (std::abs(i) < tried.least || odds[i] <= likeliest.log_odds) continue;
+        // The vertex of the parabola through three sizes.
+        const double bend = 2.0 * odds[i] - odds[i - 1] - odds[i + 1];
+        const double off = bend > 0.0 ? std::clamp(0.5 * (odds[i + 1] - odds[i - 1]) / bend, -0.5, 0.5) : 0.0;
+        likeliest = of_size(tried.step * (i + off));
+        likeliest.log_odds = odds[i];
+      }
+    };
+    const std::string name = likeliest.trial;
+    sizes(kLogGains, [&](double log_gain) { return MistakenEmg{.trial = name, .gain = std::exp(log_gain)}; });
+    sizes(kLags_s, [&](double late_s) { return MistakenEmg{.trial = name, .late_s = late_s}; });
     if (likeliest.log_odds <= kMistakenOdds) return;
     StudyData mended = data_;
     mended.trials[trial].activation = undone(data_, plain_, emg, likeliest);
@@ -255,8 +265,11 @@ bool MistakenEmg::spoils_all(double least_r2) const {
 }
 
 std::string MistakenEmg::about_trial() const {
-  return is_exchange() ? fmt::format("electrodes of {} and {} exchanged", first, second)
-                       : fmt::format("EMG of {:.2g} times the other trials' gain", gain);
+  if (is_exchange()) return fmt::format("electrodes of {} and {} exchanged", first, second);
+  if (is_clock())
+    return fmt::format("EMG that is {:.1f} s too {} beside its torque", std::abs(late_s),
+                       late_s > 0.0 ? "late" : "early");
+  return fmt::format("EMG of {:.2g} times the other trials' gain", gain);
 }
 
 std::string MistakenEmg::finding() const {

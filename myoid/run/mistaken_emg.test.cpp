@@ -123,6 +123,19 @@ TEST(MistakenEmg, OfOneTrialsGainIsNamedWithTheFactor) {
   }
 }
 
+TEST(MistakenEmg, OfOneTrialsClockIsNamedWithItsLag) {
+  // With seeds 1 to 6 the lag is found within 0.1 s.
+  for (const double late_s : {0.6, -0.4}) {
+    test::ElbowStudy study = with_second_trial(1, [](const auto&) {});
+    test::delay_emg(study.data.trials[1], late_s);
+    const auto found = found_in(study);
+    ASSERT_TRUE(found) << late_s;
+    EXPECT_EQ(found->trial, "trial2");
+    EXPECT_TRUE(found->is_clock()) << found->sentence();
+    EXPECT_NEAR(found->late_s, late_s, 0.1);
+  }
+}
+
 TEST(MistakenEmg, OfOneTrialIsNoneWhereAllTrialsAreAlike) {
   // With seeds 1 to 18 none, either.
   for (std::uint64_t seed = 1; seed <= 4; ++seed) EXPECT_FALSE(found_in(with_second_trial(seed, [](const auto&) {})));

@@ -339,26 +339,31 @@ std::optional<Gate> unit_gate(const StudyResult& result) {
               "Every number of the fit rests on angles and torques: correct the unit first."};
 }
 
+constexpr const char* kOneClock = "EMG and torque on one clock";
+constexpr const char* kMovesClock = "[sync] offset_s moves the clock of the EMG; every number of the fit rests on it.";
+
 Gate emg_gate(const MistakenEmg& mistaken) {
   // A person whose synergists differ more than usual could explain an exchange, too.
   return {
-      .name = mistaken.is_exchange() ? "Electrodes on the muscles that they are named for" : "One gain in every trial",
+      .name = mistaken.is_exchange() ? "Electrodes on the muscles that they are named for"
+              : mistaken.is_clock()  ? kOneClock
+                                     : "One gain in every trial",
       .status = mistaken.spoils_all(study::kGateLimits.explains) ? GateStatus::fail : GateStatus::warn,
       .value = mistaken.sentence(),
-      .threshold = fmt::format("no exchange of two channels and no gain of a trial by which the recording is {:.0f} "
-                               "times as probable; fails where the fit explains less than half of the torque (R2 0.5), "
-                               "and by a gain of {:.0e} times",
+      .threshold = fmt::format("no exchange of two channels, no gain and no clock of a trial by which the recording is "
+                               "{:.0f} times as probable; fails where the fit explains less than half of the torque "
+                               "(R2 0.5), and by a gain or a clock of {:.0e} times",
                                std::exp(kMistakenOdds), std::exp(kSureOdds)),
       .why = mistaken.is_exchange() ? "Every number of the two muscles is then the other's."
+             : mistaken.is_clock()  ? kMovesClock
                                     : "Or its torque is in another unit, or a held mass is wrong: every number rests "
                                       "on both.",
       .explains = true};
 }
 
 Gate clock_gate(const fit::ShiftedEmg& shifted) {
-  return {"EMG and torque on one clock", GateStatus::warn, shifted.sentence(),
-          "no other clock of the EMG with which the muscles make the torque better",
-          "[sync] offset_s moves the clock of the EMG; every number of the fit rests on it."};
+  return {kOneClock, GateStatus::warn, shifted.sentence(),
+          "no other clock of the EMG with which the muscles make the torque better", kMovesClock};
 }
 
 Gate scales_gate(const TorqueScales& scales) {

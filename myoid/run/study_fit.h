@@ -20,8 +20,8 @@ namespace myoid::run {
 /// The parameters of a study and the forces that follow from the parameters.
 struct StudyFit {
   std::vector<fit::IdentificationResult> methods;
-  std::optional<MistakenEmg> mistaken;      ///< Exchanged electrodes, or another gain in a trial.
-  std::optional<fit::ShiftedEmg> shifted;   ///< EMG on another clock than the torque.
+  std::optional<MistakenEmg> mistaken;      ///< Exchanged electrodes, or another gain or clock in a trial.
+  std::optional<fit::ShiftedEmg> shifted;   ///< EMG of all trials on another clock than the torque.
   std::optional<TorqueScales> scales;       ///< Of trials with a dynamometer and without.
   std::optional<OtherChoice> other_choice;  ///< Of muscles without EMG.
   std::vector<SolverContest> contests;      ///< Solvers of method `paper`, if the study compares them.

@@ -126,44 +126,31 @@ LabelFit fit_of_labels(const StudyData& data, double lead_s) {
 
 std::string ShiftedEmg::sentence() const {
   return fmt::format(
-      "with the EMG{} {:.1f} s {} the literature's muscles make the torque to {:.2f} N m rms, with a lead of {:g} to "
+      "with the EMG {:.1f} s {} the literature's muscles make the torque to {:.2f} N m rms, with a lead of {:g} to "
       "{:g} s, as EMG has, only to {:.2f}: were the recordings started together?",
-      trial.empty() ? "" : fmt::format(" of '{}'", trial), std::abs(lead_s), lead_s < 0.0 ? "earlier" : "later", rms_nm,
-      usual.earliest_s, usual.latest_s, usual_rms_nm);
+      std::abs(lead_s), lead_s < 0.0 ? "earlier" : "later", rms_nm, usual.earliest_s, usual.latest_s, usual_rms_nm);
 }
 
 std::optional<ShiftedEmg> shifted_emg(const StudyData& data, const UsualLead& usual) {
-  constexpr double kDescribes = 0.5, kBetter = 0.95, kMuchBetter = 0.75, kAlike = 1.5;
+  constexpr double kDescribes = 0.5, kBetter = 0.95;
   std::vector<LabelFit> fits;
-  for (std::size_t k = 0; k <= 2 * kReach; ++k) fits.push_back(fit_of_labels(data, lead_of(k)));
-  std::vector<std::string> names;
-  for (const TrialData& trial : data.trials) {
-    if (trial.calibration) names.push_back(trial.name);
-  }
-  if (names.empty()) return std::nullopt;
   std::vector<double> of_all;
-  for (const LabelFit& fit : fits) of_all.push_back(fit.rms_nm);
+  for (std::size_t k = 0; k <= 2 * kReach; ++k) {
+    fits.push_back(fit_of_labels(data, lead_of(k)));
+    of_all.push_back(fits.back().rms_nm);
+  }
   const LeadErrors all(of_all, usual);
-  std::vector<LeadErrors> trials;
-  std::vector<double> usual_rms;
-  for (std::size_t t = 0; t < names.size(); ++t) {
+  if (!all.shifted(kBetter) || fits[all.best].r2 <= kDescribes) return std::nullopt;
+  const std::size_t trials = fits.front().trial_rms_nm.size();
+  std::size_t alike = 0;
+  for (std::size_t t = 0; t < trials; ++t) {
     std::vector<double> rms;
     for (const LabelFit& fit : fits) rms.push_back(fit.trial_rms_nm[t]);
-    trials.emplace_back(rms, usual);
-    usual_rms.push_back(trials.back().usual);
+    const LeadErrors of_trial(rms, usual);
+    if (!of_trial.inside && (lead_of(of_trial.best) < 0.0) == (lead_of(all.best) < 0.0)) ++alike;
   }
-  const auto late = [](const LeadErrors& e) { return lead_of(e.best) < 0.0; };
-  const auto alike =
-      std::ranges::count_if(trials, [&](const LeadErrors& e) { return !e.inside && late(e) == late(all); });
-  if (all.shifted(kBetter) && fits[all.best].r2 > kDescribes && 4 * alike >= 3 * std::ssize(trials))
-    return ShiftedEmg{"", lead_of(all.best), all.least, all.usual, usual};
-  if (trials.size() < 3 || all.shifted(kBetter)) return std::nullopt;
-  const double others = math::median(std::move(usual_rms));
-  for (std::size_t t = 0; t < trials.size(); ++t) {
-    if (trials[t].shifted(kMuchBetter) && trials[t].least < kAlike * others)
-      return ShiftedEmg{names[t], lead_of(trials[t].best), trials[t].least, trials[t].usual, usual};
-  }
-  return std::nullopt;
+  if (4 * alike < 3 * trials) return std::nullopt;
+  return ShiftedEmg{lead_of(all.best), all.least, all.usual, usual};
 }
 
 std::string LateEmg::sentence() const {

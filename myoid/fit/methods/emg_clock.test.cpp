@@ -38,25 +38,20 @@ TEST(ShiftedEmg, IsNotSuspectedWhereTheClocksAgree) {
   }
 }
 
-TEST(ShiftedEmg, OfAllTrialsOrOfOneIsFoundToATenthOfASecond) {
-  int all = 0, one = 0;
-  constexpr int kPersons = 10;
-  for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {
+TEST(ShiftedEmg, OfAllTrialsIsFoundToATenthOfASecond) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     for (const double late_s : {0.6, -0.5}) {
       StudyData data = four_trials(seed);
       for (TrialData& trial : data.trials) test::delay_emg(trial, late_s);
       const auto found = shifted_emg(data, kUsual);
-      all += found && found->trial.empty() && std::abs(found->lead_s + late_s - 0.05) < 0.11 ? 1 : 0;
+      ASSERT_TRUE(found) << seed;
+      EXPECT_NEAR(found->lead_s + late_s, 0.05, 0.11) << seed;
+      // Of one trial it is no matter of the muscles of literature.
       StudyData single = four_trials(seed);
       test::delay_emg(single.trials[1], late_s);
-      const auto alone = shifted_emg(single, kUsual);
-      one += alone && alone->trial == single.trials[1].name && std::abs(alone->lead_s + late_s - 0.05) < 0.11 ? 1 : 0;
+      EXPECT_FALSE(shifted_emg(single, kUsual)) << seed;
     }
   }
-  EXPECT_GE(all, kPersons);
-  EXPECT_GE(one, kPersons);
-  RecordProperty("all", all);
-  RecordProperty("one", one);
 }
 
 /// A noisy recording whose EMG is stamped `late_s` after its own time; its muscles pull with the EMG.

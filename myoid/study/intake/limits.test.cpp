@@ -362,15 +362,16 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
                    l.far_fold, l.larger_fold)},
       {"lines with TODO", "warning", "any"},
       {"a unit of an angle or torque in doubt", "warning; fails", "fails if the joint hardly moves"},
-      {"electrodes exchanged, or another gain in a trial", "warning; fails",
-       fmt::format("the fit is 150 times as probable [without](verdicts.md#mistaken); fails if its R² is {:g} or less",
+      {"electrodes exchanged, or another gain or clock in a trial", "warning; fails",
+       fmt::format("the fit is 150 times as probable [without](verdicts.md#mistaken); fails at R² {:g} or less, or a "
+                   "gain or clock at 10^10",
                    l.explains)},
       {"dynamometer and masses that disagree", "warning",
        "the interval of their scales' ratio is farther from 1 than `torque_scale_sd`"},
       {"EMG on another clock than the torque", "warning",
        "the literature's muscles err least at one delay outside the usual leads (`clock_offset`), 5 % less than "
        "inside, in three of four trials"},
-      {"", "", "delays of -1.5 to 1.5 s are tried; a single trial needs 25 %, and an error as low as in the others"},
+      {"", "", "delays of -1.5 to 1.5 s are tried"},
       {"", "", "of all movements whose torque and effort do not repeat themselves; gait and slow lifts too"},
   };
 }
