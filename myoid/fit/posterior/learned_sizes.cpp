@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
+#include "myoid/ground/core/index.h"
+#include "myoid/ground/core/numbers.h"
 #include "myoid/ground/math/bounded.h"
 #include "myoid/ground/math/decompositions.h"
 
 namespace myoid::fit {
 namespace {
 
-constexpr double kMostWider = 2.0;  // of y' over y: a size that the torque hardly tells has a long tail
+constexpr double kLnStep = 0.4;
+constexpr int kStepsBelow = 8, kStepsAbove = 3;  // of the believed size: from 4 % of it to 3.3 times
+constexpr int kSweeps = 2;                       // over the sizes, each given the others
 
 Eigen::VectorXd deviations(const Density& density, const Eigen::VectorXd& z, const NoiseValues& noise) {
   return math::inverse_of_positive(density.likelihood().information(z, noise).information + density.precision())
@@ -18,18 +24,75 @@ Eigen::VectorXd deviations(const Density& density, const Eigen::VectorXd& z, con
       .cwiseSqrt();
 }
 
+/// The density of the sizes about a mode, z and x integrated out.
+class DensityOfSizes {
+ public:
+  DensityOfSizes(const Density& density, const Eigen::VectorXd& z, const NoiseValues& noise)
+      : density_(density), at_mode_(noise) {
+    const Likelihood& likelihood = density.likelihood();
+    const std::vector<UnseenQuantity>& quantities = likelihood.unseen().quantities;
+    unknowns_ = z.size();
+    unseen_ = static_cast<Eigen::Index>(quantities.size());
+    for (const UnseenQuantity& each : quantities) size_of_.push_back(each.size);
+    information_.setZero(unknowns_ + unseen_, unknowns_ + unseen_);
+    for (const Eigen::MatrixXd& of_trial : likelihood.information_by_trial(z, noise)) information_ += of_trial;
+    // Both gradients follow from the expectation of x at the mode of z.
+    const Eigen::VectorXd mean = likelihood.unseen_given(z, noise).mean;
+    gradient_ = information_.rightCols(unseen_) * mean;
+    gradient_.tail(unseen_) += mean;
+    information_.topLeftCorner(unknowns_, unknowns_) += density.precision();
+  }
+
+  [[nodiscard]] bool has(int field) const {
+    return std::ranges::find(size_of_, std::optional<NoiseField>(static_cast<NoiseField>(field))) != size_of_.end();
+  }
+
+  /// Returns ln p of these sizes, over a constant.
+  [[nodiscard]] double operator()(const NoiseValues& noise) const {
+    Eigen::VectorXd d = Eigen::VectorXd::Ones(unknowns_ + unseen_);
+    for (Eigen::Index i = 0; i < unseen_; ++i)
+      if (const auto field = size_of_[at(i)]) d[unknowns_ + i] = std::exp(noise[*field] - at_mode_[*field]);
+    Eigen::MatrixXd both = d.asDiagonal() * information_ * d.asDiagonal();
+    both.diagonal().tail(unseen_).array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> factor(both);
+    if (factor.info() != Eigen::Success) return -kInfinity;
+    const Eigen::VectorXd half = factor.matrixL().solve(d.cwiseProduct(gradient_));
+    double prior = 0.0;
+    for (int field = kModelErrorSize; field < kNoiseFieldCount; ++field)
+      prior += density_.log_prior_of_size(field, noise);
+    return 0.5 * half.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum() + prior;
+  }
+
+ private:
+  const Density& density_;
+  NoiseValues at_mode_;
+  Eigen::Index unknowns_ = 0, unseen_ = 0;
+  std::vector<std::optional<NoiseField>> size_of_;
+  Eigen::MatrixXd information_;
+  Eigen::VectorXd gradient_;
+};
+
 }  // namespace
 
-LearnedSizes learned_sizes(const Candidate& best, const Sample& drawn) {
+LearnedSizes learned_sizes(const Candidate& best) {
   const Density& density = *best.density;
   const Eigen::VectorXd z = density.z_of(best.mode.x);
   const NoiseValues at_mode = density.noise_of(best.mode.x);
+  const DensityOfSizes of_sizes(density, z, at_mode);
   LearnedSizes found{.noise = at_mode, .wider = {}};
-  const Eigen::VectorXd weight = drawn.weight.head(drawn.of_best) / drawn.weight.head(drawn.of_best).sum();
-  for (int field = kModelErrorSize; field < kNoiseFieldCount; ++field) {
-    const Eigen::ArrayXd ln_size = drawn.noise.row(field).head(drawn.of_best).transpose();
-    const double squares = ((2.0 * ln_size).exp() * weight.array()).sum();
-    found.noise[field] = std::clamp(0.5 * std::log(squares), at_mode[field], at_mode[field] + std::log(kMostWider));
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int field = kModelErrorSize; field < kNoiseFieldCount; ++field) {
+      if (!of_sizes.has(field)) continue;
+      Eigen::ArrayXd ln_size(kStepsBelow + kStepsAbove + 1), ln_p(ln_size.size());
+      NoiseValues noise = found.noise;
+      for (int k = 0; k < ln_size.size(); ++k) {
+        noise[field] = ln_size[k] = density.believed_size(field) + kLnStep * (k - kStepsBelow);
+        ln_p[k] = of_sizes(noise);
+      }
+      const Eigen::ArrayXd weight = (ln_p - ln_p.maxCoeff()).exp();
+      if (weight.isFinite().all())
+        found.noise[field] = 0.5 * std::log(((2.0 * ln_size).exp() * weight).sum() / weight.sum());
+    }
   }
   found.wider =
       (deviations(density, z, found.noise).array() / deviations(density, z, at_mode).array().max(1e-300)).max(1.0);

@@ -426,7 +426,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   // A fit whose numbers are not reported needs no second interval.
   const Given given =
       options.marginals ? given_geometry(best, drawn, options.progress) : not_asked_for(result.solution);
-  const LearnedSizes sizes = learned_sizes(best, drawn);
+  const LearnedSizes sizes = learned_sizes(best);
   // Draws of the sampler are from the density over all sizes.
   if (options.posterior_draws == 0) {
     stretch(sizes.wider, best.density->parameters(), drawn);
