@@ -40,7 +40,7 @@ const std::string kNdiMarkers =
 TEST(MarkerTable, TrajectoriesOfNexusAreRead) {
   ASSERT_TRUE(is_marker_table(kViconMarkers));
   const MarkerSeries m = parse_marker_table(kViconMarkers, "a.csv").markers;
-  EXPECT_THAT(m.names, ElementsAre("P:A", "P:B"));
+  EXPECT_THAT(m.names, ElementsAre("A", "B"));  // as of a C3D file: without the subject
   ASSERT_EQ(m.frame_count(), 3);
   EXPECT_DOUBLE_EQ(m.time_s[2], 0.02);
   EXPECT_DOUBLE_EQ(m.position(2, 0).y(), 0.022);
@@ -52,9 +52,9 @@ TEST(MarkerTable, SpeedsBesideTrajectoriesOfNexusAreLeftOut) {
       "Trajectories\n100\n,,P:A,,,,,,P:B,,\nFrame,Sub Frame,X,Y,Z,X',Y',Z',X,Y,Z\n"
       ",,mm,mm,mm,mm/s,mm/s,mm/s,mm,mm,mm\n1,0,1,2,3,7,7,7,4,5,6\n2,0,1,2,3,7,7,7,4,50,6\n",
       "a.csv");
-  EXPECT_THAT(file.markers.names, ElementsAre("P:A", "P:B"));
+  EXPECT_THAT(file.markers.names, ElementsAre("A", "B"));
   EXPECT_DOUBLE_EQ(file.markers.position(1, 1).y(), 0.05);
-  EXPECT_EQ(file.repairs.size(), 1U);
+  EXPECT_EQ(file.repairs.size(), 2U);
 }
 
 TEST(MarkerTable, APositionBeyondTheEarthIsMissingAndNamed) {

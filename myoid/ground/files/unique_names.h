@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "myoid/ground/files/text_file.h"
+
 namespace myoid::inline ground {
 
 /// Gives each name of a list its own: the second "a" becomes "a_2", the third "a_3". A name of the list itself is given
@@ -26,5 +28,9 @@ class UniqueNames {
   std::map<std::string, int> next_;  ///< For each name the next number.
   std::size_t trials_ = 0;
 };
+
+/// Takes the subject off names of markers ("subject:marker"), provided that they stay unique, and notes what it does
+/// for the line `line` of the file (0: the whole file).
+void leave_out_subject(std::vector<std::string>& names, std::size_t line, std::vector<Repair>& repairs);
 
 }  // namespace myoid::inline ground

@@ -19,6 +19,18 @@ TEST(UniqueNames, ALaterEqualNameIsNumberedAndTakesNoOtherNameOfTheList) {
   EXPECT_THAT(given({"a_2", "a_2", "a", "a"}), testing::ElementsAre("a_2", "a_2_2", "a", "a_3"));
 }
 
+TEST(UniqueNames, ASubjectIsLeftOutWhereNoTwoNamesBecomeOne) {
+  const auto left = [](std::vector<std::string> names, std::size_t notes) {
+    std::vector<Repair> repairs;
+    leave_out_subject(names, 3, repairs);
+    EXPECT_EQ(repairs.size(), notes);
+    return names;
+  };
+  EXPECT_THAT(left({"P:KNE", "P:ANK", "TOE"}, 1), testing::ElementsAre("KNE", "ANK", "TOE"));
+  EXPECT_THAT(left({"P:KNE", "Q:KNE"}, 1), testing::ElementsAre("P:KNE", "Q:KNE"));
+  EXPECT_THAT(left({"KNE", ":ANK", "TOE:"}, 0), testing::ElementsAre("KNE", ":ANK", "TOE:"));
+}
+
 /// A search from 2 on for each name would try 60,000 * 60,000 / 2 names.
 TEST(UniqueNames, TheWorkGrowsWithTheNumberOfNames) {
   std::vector<std::string> names(60000, "HEAD");

@@ -13,18 +13,13 @@
 #include "myoid/ground/files/file_words.h"
 #include "myoid/ground/files/missing_value.h"
 #include "myoid/ground/files/text_file.h"
+#include "myoid/ground/files/unique_names.h"
 
 namespace myoid::recording {
 namespace {
 
 /// Rows turned into columns at once, so that they stay in the cache.
 constexpr Eigen::Index kBlockRows = 64;
-
-/// Returns the index behind a subject's prefix in a name, 0 if there is none.
-std::size_t bare_begin(const std::string& name) {
-  const std::size_t colon = name.rfind(':');
-  return colon != std::string::npos && colon > 0 && colon + 1 < name.size() ? colon + 1 : 0;
-}
 
 /// Returns true for three equal coordinates that stand for a missing position, as -9999 or -999.9 in single precision.
 bool is_of_nines(const float* p) {
@@ -63,21 +58,8 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
   for (Eigen::Index k = 0; k < frames; ++k)
     markers_.time_s[k] = static_cast<double>(file.first_frame - 1 + k) / file.point_rate_hz;
 
-  // The subject's prefix is dropped if the names stay unique.
-  std::set<std::string> bare;
-  bool prefixed = false;
-  for (const Eigen::Index c : columns_) {
-    const std::string& name = file.point_labels[static_cast<std::size_t>(c)];
-    prefixed = prefixed || bare_begin(name) > 0;
-    bare.insert(name.substr(bare_begin(name)));
-    markers_.names.push_back(name);
-  }
-  if (prefixed && bare.size() == columns_.size()) {
-    for (std::string& name : markers_.names) name.erase(0, bare_begin(name));
-    note(repairs_, "the subject's prefix ('subject:marker') is left out of the names");
-  } else if (prefixed) {
-    note(repairs_, "names keep their subject's prefix, since without it some would be the same");
-  }
+  for (const Eigen::Index c : columns_) markers_.names.push_back(file.point_labels[static_cast<std::size_t>(c)]);
+  leave_out_subject(markers_.names, 0, repairs_);
   markers_.positions_m.resize(frames, static_cast<Eigen::Index>(3 * columns_.size()));
 }
 

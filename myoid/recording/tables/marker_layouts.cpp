@@ -11,6 +11,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_words.h"
+#include "myoid/ground/files/unique_names.h"
 #include "myoid/recording/tables/nexus_section.h"
 
 namespace myoid::recording {
@@ -90,6 +91,7 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text, const std:
                       section->groups[c], c + 1));
   }
   if (layout.names.empty()) return std::nullopt;
+  leave_out_subject(layout.names, line - 1, layout.table.repairs);
   for (std::size_t c = 2; c < std::min(section->units.size(), layout.table.columns.size()); ++c) {
     const std::string& unit = section->units[c];
     if (layout.table.columns[c].kind != Kind::channel || unit.empty()) continue;
