@@ -152,7 +152,7 @@ TEST(MarkerTable, AMarkerWithoutANameLosesNeitherItselfNorTheOthers) {
   std::string text = kViconMarkers;
   text.replace(text.find("P:A"), 3, "");
   const MarkerFile file = parse_marker_table(text, "a.csv");
-  EXPECT_THAT(file.markers.names, ElementsAre("marker_1", "P:B"));
+  EXPECT_THAT(file.markers.names, ElementsAre("marker_1", "B"));
   EXPECT_DOUBLE_EQ(file.markers.position(2, 1).z(), 0.006);
   EXPECT_THAT(file.repairs.back().message, HasSubstr("'marker_1'"));
 }

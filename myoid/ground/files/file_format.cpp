@@ -208,6 +208,7 @@ void refuse_foreign_format(const std::filesystem::path& path) {
       Foreign{".anb", "Motion Analysis", "export the trial there as .c3d or .anc"},
       Foreign{".trb", "Motion Analysis", "export the trial there as .c3d or .trc"},
       Foreign{".tdf", "BTS", "export the tracks there as .emt or .c3d"},
+      Foreign{".lvm", "LabVIEW", "it is a table: rename it to .txt"},
       Foreign{".smr", "Spike2", "export it there as spreadsheet text (.txt), with a column of times"},
       Foreign{".smrx", "Spike2", "export it there as spreadsheet text (.txt), with a column of times"},
       Foreign{".parquet", "Parquet", "write its numbers as .csv, with a column 'time'"},

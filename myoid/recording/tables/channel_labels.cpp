@@ -58,12 +58,13 @@ std::optional<TableColumn> unit_behind_mark(std::string_view text) {
   return std::nullopt;
 }
 
-/// Returns true if a word of the name is "timestamp": "Shimmer_68B7_Timestamp_Unix_CAL".
+/// Returns true if a word of the name is "timestamp" or "timestampsync": "Shimmer_68B7_Timestamp_Unix_CAL".
 bool speaks_of_timestamp(const std::string& name) {
-  const std::string_view word = "timestamp";
+  const std::string_view word = "timestamp", synchronized = "sync";
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   for (std::size_t i = name.find(word); i != std::string::npos; i = name.find(word, i + 1)) {
-    const std::size_t end = i + word.size();
+    std::size_t end = i + word.size();
+    if (name.compare(end, synchronized.size(), synchronized) == 0) end += synchronized.size();
     if ((i == 0 || !is_letter(name[i - 1])) && (end == name.size() || !is_letter(name[end]))) return true;
   }
   return false;
@@ -72,7 +73,7 @@ bool speaks_of_timestamp(const std::string& name) {
 /// Returns true for the name of a clock; a unit of time may stand behind it ("time_ms").
 bool names_clock(std::string_view text) {
   static const std::set<std::string> kWords{"time",  "t",      "times",       "time stamp", "zeit",
-                                            "temps", "tiempo", "time series", "abs time"};
+                                            "temps", "tiempo", "time series", "abs time",   "x_value"};
   const std::string name = lower(trim(text));
   if (kWords.contains(name) || speaks_of_timestamp(name)) return true;
   const std::size_t bar = name.rfind('_');
@@ -133,7 +134,7 @@ std::optional<ScaledUnit> unit_in_cell(std::string_view cell) {
   return parse_file_unit(cell);
 }
 
-std::optional<double> rate_in_cell(std::string_view cell) {
+std::optional<double> hertz_in_cell(std::string_view cell) {
   cell = trim(cell);
   if (cell.size() < 3 || !equal_ignoring_case(cell.substr(cell.size() - 2), "hz")) return std::nullopt;
   cell.remove_suffix(2);
@@ -141,9 +142,17 @@ std::optional<double> rate_in_cell(std::string_view cell) {
   if (kilo) cell.remove_suffix(1);
   auto number = parse_number(trim(cell));
   if (!number) number = parse_comma_number(trim(cell));
-  if (!number) return std::nullopt;
-  const double rate = kilo ? 1000.0 * *number : *number;
-  return rate > 0.0 && rate <= 1e6 ? std::optional(rate) : std::nullopt;
+  return number && kilo ? std::optional(1000.0 * *number) : number;
+}
+
+std::optional<double> rate_in_cell(std::string_view cell) {
+  const auto rate = hertz_in_cell(cell);
+  return rate && *rate > 0.0 && *rate <= 1e6 ? rate : std::nullopt;
+}
+
+bool is_pattern_of_times(std::string_view cell) {
+  const std::string text = lower(trim(cell));
+  return text.find("hh:mm") != std::string::npos && text.find_first_not_of("ymdhst0fz/-.:, ") == std::string::npos;
 }
 
 std::optional<double> period_in_cell(std::string_view cell) {

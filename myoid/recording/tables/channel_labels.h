@@ -20,8 +20,14 @@ namespace myoid::recording {
 /// name ("C7[1]") or where another label has the same name and another number ("EMG [1]", "EMG [2]").
 [[nodiscard]] std::vector<TableColumn> take_labels_apart(const std::vector<std::string>& texts);
 
+/// Returns true for the pattern of written times that stands in place of a unit: "yyyy/mm/dd hh:mm:ss.000".
+[[nodiscard]] bool is_pattern_of_times(std::string_view cell);
+
 /// Returns the unit of a cell that holds nothing else, with or without brackets.
 [[nodiscard]] std::optional<ScaledUnit> unit_in_cell(std::string_view cell);
+
+/// Reads a number of Hz or kHz [Hz], also one that is no rate: "-1 Hz" of a sensor without a fixed rate.
+[[nodiscard]] std::optional<double> hertz_in_cell(std::string_view cell);
 
 /// Reads a rate such as "1259.2593 Hz" or "2 kHz" [Hz].
 [[nodiscard]] std::optional<double> rate_in_cell(std::string_view cell);

@@ -92,16 +92,12 @@ class TableFinder {
     if (const auto words = split_words(text_.lines[above_]); filled(names) == 1 && words.size() == width_)
       names.assign(words.begin(), words.end());
     Cells rates, units, periods;
-    const auto is_rate = [](const std::string& cell) { return rate_in_cell(cell).has_value(); };
+    const auto is_rate = [](const std::string& cell) { return hertz_in_cell(cell).has_value(); };
     const auto is_period = [](const std::string& cell) { return period_in_cell(cell).has_value(); };
-    const auto is_unit = [](const std::string& cell) {
-      const TableColumn label = take_label_apart(cell);
-      return unit_in_cell(cell) || (label.name.empty() && label.unit);
-    };
     // Rows of rates, sample periods and units stand below the names in any order. Some units may be unknown.
     for (bool more = true; more;)
       more = take_row(names, rates, is_rate) || take_row(names, periods, is_period) ||
-             take_row(names, units, is_unit, 0.5);
+             take_row(names, units, states_unit, 0.5);
     state_unknown_units(units);
     layout_.names_line = above_;
     layout_.end_row = text_.lines.size();
@@ -120,7 +116,11 @@ class TableFinder {
       cells[0] = trim(std::string_view(cells[0]).substr(std::min(cells[0].find_first_not_of("#%/ "), cells[0].size())));
     return cells;
   }
-  [[nodiscard]] bool blank(std::size_t n) const { return is_rule(text_.lines[n]); }
+  /// Returns true for a line of rules, also behind a mark of comments.
+  [[nodiscard]] bool blank(std::size_t n) const {
+    const std::string_view line = text_.lines[n];
+    return is_rule(line.substr(std::min(line.find_first_not_of('#'), line.size())));
+  }
   [[nodiscard]] bool numbers(const Cells& cells) const { return is_numbers(cells); }
 
   /// Finds the first row of numbers, and where there is none, of numbers beside texts that stand in every row.
@@ -201,12 +201,16 @@ class TableFinder {
     return true;
   }
 
+  /// Returns true for a cell of a row of units.
+  [[nodiscard]] static bool states_unit(const std::string& cell) {
+    const TableColumn label = take_label_apart(cell);
+    return unit_in_cell(cell) || (label.name.empty() && label.unit) || is_pattern_of_times(cell);
+  }
+
   void state_unknown_units(const Cells& units) {
     std::set<std::string> unknown;
-    for (const std::string& cell : units) {
-      const TableColumn label = take_label_apart(cell);
-      if (!cell.empty() && !unit_in_cell(cell) && !(label.name.empty() && label.unit)) unknown.insert(cell);
-    }
+    for (const std::string& cell : units)
+      if (!cell.empty() && !states_unit(cell)) unknown.insert(cell);
     if (!unknown.empty())
       layout_.repairs.push_back({above_ + 2, fmt::format("units that are not known: {}", fmt::join(unknown, ", "))});
   }
@@ -284,6 +288,13 @@ class TableFinder {
     return std::nullopt;
   }
 
+  /// Returns the last row above the names that begins with a label; it has a cell for each column.
+  [[nodiscard]] Cells labeled_row(std::string_view label) const {
+    for (std::size_t n = layout_.names_line; n-- > 0;)
+      if (Cells cells = row(n); !cells.empty() && lower(cells[0]) == label) return cells;
+    return {};
+  }
+
   /// Reads the statements about channels and table in the lines above the names.
   void read_head() {
     std::map<std::string, std::optional<ScaledUnit>> known;
@@ -297,10 +308,12 @@ class TableFinder {
     const std::size_t end = layout_.names_line;
     const char separator = layout_.separator;
     const auto unit = unit_in_cell(stated_text(text_, end, separator, "measure unit"));
-    for (TableColumn& column : layout_.columns) {
+    const Cells of_columns = labeled_row("y_unit_label");
+    for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
+      TableColumn& column = layout_.columns[c];
       if (column.kind != Kind::channel || column.unit) continue;
       const auto it = known.find(column.name);
-      column.unit = it != known.end() ? it->second : unit;
+      column.unit = it != known.end() ? it->second : c < of_columns.size() ? unit_in_cell(of_columns[c]) : unit;
     }
     if (rates.empty()) {
       const double rate = stated_number(text_, end, separator, {"frequency", "sampling rate"}).value_or(0.0);

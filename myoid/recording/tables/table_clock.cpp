@@ -101,6 +101,15 @@ class RowClock {
     return sub_frame_ ? frame * per_frame + numbers_.clock(i, *sub_frame_) : frame;
   }
 
+  /// Returns true where no number of a frame or sub-frame tells of a lost row.
+  [[nodiscard]] bool frames_step_evenly() const {
+    if (!frame_) return true;
+    const double n = per_frame();
+    for (Eigen::Index i = 2; i < rows(); ++i)
+      if (place(i, n) - place(i - 1, n) != place(1, n) - place(0, n)) return false;
+    return true;
+  }
+
   [[nodiscard]] std::string name_of(Eigen::Index i) const {
     return sub_frame_
                ? fmt::format("frame {}, sub-frame {}", numbers_.clock(i, *frame_), numbers_.clock(i, *sub_frame_))
@@ -192,12 +201,20 @@ class RowClock {
     for (Eigen::Index i = 0; i < time.size(); ++i) {
       if (!std::isfinite(time[i])) throw ReadError(path_, line(i), "the time is missing");
       if (i == 0 || time[i] > time[i - 1]) continue;
-      throw ReadError(path_, line(i),
-                      fmt::format("time does not increase: {} s after {} s{}", time[i], time[i - 1],
-                                  time[i] == time[i - 1] ? "; export it with more decimals, or write a line 'Sampling "
-                                                           "rate: 2000 Hz' above the names"
-                                                         : "; split the file where the times begin anew"));
+      throw ReadError(
+          path_, line(i),
+          fmt::format("time does not increase: {} s after {} s; {}", time[i], time[i - 1],
+                      time[i] == time[i - 1] ? remedy_of_equal_times() : "split the file where the times begin anew"));
     }
+  }
+
+  [[nodiscard]] std::string remedy_of_equal_times() const {
+    if (layout_.rate_hz > 0.0)
+      return fmt::format(
+          "export it with more decimals, or, where no row is lost, delete the column '{}': the stated "
+          "{:.6g} Hz count then",
+          first_of(layout_, Kind::time).name, layout_.rate_hz);
+    return "export it with more decimals, or write a line 'Sampling rate: 2000 Hz' above the names";
   }
 
   [[nodiscard]] Eigen::VectorXd of_time_column() {
@@ -210,7 +227,7 @@ class RowClock {
     }
     if (!layout_.blocks.empty())
       for (Eigen::Index i = 0; i < time.size(); ++i) time[i] += layout_.blocks[block_of(i)].begin_s;
-    if (auto even = frame_ ? std::nullopt : even_times(time, layout_.rate_hz)) {
+    if (auto even = frames_step_evenly() ? even_times(time, layout_.rate_hz) : std::nullopt) {
       Eigen::Index twice = 1;
       while (time[twice] > time[twice - 1]) ++twice;
       repairs_.push_back({line(twice), fmt::format("'{}' is rounded, so that rows share times: the rows are taken as "
