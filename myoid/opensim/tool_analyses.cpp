@@ -147,16 +147,18 @@ std::vector<pugi::xml_node> chosen_analyses(const ToolRun& run) {
   const OsimXml& xml = run.setup.xml();
   std::vector<pugi::xml_node> chosen;
   std::string others;
+  pugi::xml_node first_other;
   for (const auto node : OsimXml::objects(xml.property(run.setup.tool(), "AnalysisSet"))) {
     if (!xml.flag(node, "on", true)) continue;
     if (is_known_analysis(node.name())) {
       chosen.push_back(node);
     } else {
+      if (!first_other) first_other = node;
       others += fmt::format("{}{}", others.empty() ? "" : "; ", not_run(node));
       run.note("{}", not_run(node));
     }
   }
-  if (chosen.empty() && !others.empty()) xml.fail(run.setup.tool(), others);
+  if (chosen.empty() && !others.empty()) xml.fail(first_other, others);
   if (chosen.empty()) xml.fail(run.setup.tool(), "no analysis is on: there is nothing to do");
   return chosen;
 }

@@ -39,7 +39,8 @@ const ElementTable& set_up_elements() {
        "externalLoadsFile motionFile startStopTime"},
       {"momentArmsFiles", "momentArmsFile"},
       {"excitationGenerator", "inputSignals mapping"},
-      {"mapping", "excitation"},
+      {"emgGenerator", "experimental mapping output"},
+      {"mapping", "excitation emg"},
       {"excitation", "input"},
       {"execution", "NMSmodel online offline elaboratedDoFs samplingFrequency logging"}};
   return kElements;
@@ -51,6 +52,38 @@ CalibrationBounds range_of(const OsimXml& xml, pugi::xml_node node) {
   if (ends.size() != 2 || !std::isfinite(ends[0]) || !std::isfinite(ends[1]) || !(ends[1] > ends[0]))
     xml.fail(node, "<{}>: expected two numbers that increase, found '{}'", node.name(), OsimXml::text_of(node));
   return {ends[0], ends[1]};
+}
+
+/// Reads the channels of an <excitation>, each with its weight.
+std::vector<ProjectInput> weighed_inputs(const OsimXml& xml, pugi::xml_node node, const std::string& muscle) {
+  std::vector<ProjectInput> inputs;
+  for (const pugi::xml_node input : node.children("input")) {
+    const std::string channel = OsimXml::text_of(input);
+    const auto weight = parse_number(input.attribute("weight").value());
+    if (channel.empty() || !weight || !std::isfinite(*weight))
+      xml.fail(input, "muscle '{}': expected a channel with a weight, found '{}' with '{}'", muscle, channel,
+               input.attribute("weight").value());
+    inputs.push_back({channel, *weight});
+  }
+  return inputs;
+}
+
+/// Reads the channels of an <emg> of <emgGenerator>, which are assigned, averaged or none ("nil").
+std::vector<ProjectInput> inputs_of_operation(const OsimXml& xml, pugi::xml_node node, const std::string& muscle) {
+  const std::string_view operation = trim(node.attribute("operation").value());
+  const std::string text = OsimXml::text_of(node);
+  const std::vector<std::string_view> channels = split_words(text);
+  const bool fits = operation == "assign" ? channels.size() == 1
+                    : operation == "mean" ? !channels.empty()
+                                          : operation == "nil" && channels.empty();
+  if (!fits)
+    xml.fail(node,
+             "muscle '{}': expected operation 'assign' of one channel, 'mean' of several or 'nil', found '{}' of {}",
+             muscle, operation, channels.size());
+  std::vector<ProjectInput> inputs;
+  for (const std::string_view channel : channels)
+    inputs.push_back({std::string(channel), 1.0 / static_cast<double>(channels.size())});
+  return inputs;
 }
 
 /// A project while it is read.
@@ -140,22 +173,22 @@ class CeinmsReader {
     if (!mapping) xml.fail(root, "<mapping> expected in <{}>, found none", root.name());
     project_.has_mapping = true;
     std::vector<std::string> unknown, unlisted;
-    const std::vector<std::string> signals = xml.words(root, "inputSignals");
-    for (const pugi::xml_node node : mapping.children("excitation")) {
+    std::vector<std::string> signals = xml.words(root, "inputSignals");
+    for (const pugi::xml_node node : root.child("experimental").children("emg"))
+      signals.emplace_back(trim(node.attribute("id").value()));
+    for (const pugi::xml_node node : mapping.children()) {
+      const bool weighs = std::string_view(node.name()) == "excitation";
+      if (!weighs && std::string_view(node.name()) != "emg") continue;
       const std::string id(trim(node.attribute("id").value()));
       ProjectMuscle* muscle = project_.find(id);
       if (muscle == nullptr) {
         unknown.push_back(id);
         continue;
       }
-      for (const pugi::xml_node input : node.children("input")) {
-        const std::string channel = OsimXml::text_of(input);
-        const auto weight = parse_number(input.attribute("weight").value());
-        if (channel.empty() || !weight || !std::isfinite(*weight))
-          xml.fail(input, "muscle '{}': expected a channel with a weight, found '{}' with '{}'", id, channel,
-                   input.attribute("weight").value());
-        if (*weight != 0.0) muscle->inputs.push_back({channel, *weight});
-        if (std::find(signals.begin(), signals.end(), channel) == signals.end()) unlisted.push_back(channel);
+      for (ProjectInput& input : weighs ? weighed_inputs(xml, node, id) : inputs_of_operation(xml, node, id)) {
+        if (std::find(signals.begin(), signals.end(), input.channel) == signals.end())
+          unlisted.push_back(input.channel);
+        if (input.weight != 0.0) muscle->inputs.push_back(std::move(input));
       }
     }
     if (!unknown.empty())

@@ -149,6 +149,29 @@ TEST(CeinmsProject, NamesMusclesWithoutInputAndTheKneeWithoutExtensor) {
   EXPECT_THAT(knees_without_extensor(read_project(folder.path()).value()), IsEmpty());
 }
 
+TEST(CeinmsProject, ReadsTheOperationsOfAnEmgGenerator) {
+  const test::TemporaryFolder folder;
+  write_project(folder);
+  const auto write = [&](const std::string& last) {
+    write_file(
+        folder / "excitation.xml",
+        "<emgGenerator><experimental><emg id=\"hams\"/><emg id=\"quads\"/></experimental><mapping>"
+        "<emg id=\"semiten_r\" operation=\"assign\">\n hams\n</emg><emg id=\"vaslat_r\" operation=\"mean\">quads "
+        "hams</emg>" +
+            last + "</mapping><output>semiten_r vaslat_r</output></emgGenerator>");
+  };
+  write("<emg id=\"iliacus_r\" operation=\"nil\"/>");
+  const Project project = read_project(folder.path()).value();
+  EXPECT_THAT(muscles_without_emg(project), ElementsAre("iliacus_r"));
+  EXPECT_EQ(project.find("semiten_r")->inputs.at(0).channel, "hams");
+  EXPECT_EQ(project.find("semiten_r")->inputs.at(0).weight, 1.0);
+  ASSERT_EQ(project.find("vaslat_r")->inputs.size(), 2U);
+  EXPECT_EQ(project.find("vaslat_r")->inputs[1].channel, "hams");
+  EXPECT_EQ(project.find("vaslat_r")->inputs[1].weight, 0.5);
+  write("<emg id=\"iliacus_r\" operation=\"max\">hams quads</emg>");
+  EXPECT_THROW((void)read_project(folder.path()), ReadError);
+}
+
 TEST(CeinmsProject, KeepsTheClocksOfATrialApart) {
   const test::TemporaryFolder folder;
   write_project(folder);

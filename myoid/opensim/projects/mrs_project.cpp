@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
@@ -74,6 +75,7 @@ class MrsReader {
       project_.remarks.back().value = static_cast<double>(line);
     }
     read_trial_tables(project_);
+    name_channels_as_files();
     return std::move(project_);
   }
 
@@ -128,7 +130,10 @@ class MrsReader {
     if (project_.find(name) != nullptr) return;
     const auto of_model =
         std::find_if(model_.muscles.begin(), model_.muscles.end(), [&](const auto& each) { return each.name == name; });
-    if (of_model == model_.muscles.end() && !model_.muscles.empty()) absent_.insert(name);
+    if (of_model == model_.muscles.end() && !model_.muscles.empty()) {
+      absent_.insert(name);
+      return;
+    }
     ProjectMuscle muscle = of_model == model_.muscles.end() ? ProjectMuscle{name, {}, {}} : *of_model;
     for (auto& [quantity, number] : muscle.numbers) number.start = number.value;
     project_.muscles.push_back(std::move(muscle));
@@ -144,7 +149,8 @@ class MrsReader {
     for (const Estimated& each : estimated())
       for (const std::string& name : texts(each.muscles)) add_muscle(name);
     if (!absent_.empty())
-      note_reading(project_.remarks, script_, fmt::format("the model lacks the muscles {}", name_list(absent_)),
+      note_reading(project_.remarks, script_,
+                   fmt::format("left out, since the model lacks the muscles: {}", name_list(absent_)),
                    name_list(absent_));
   }
 
@@ -170,6 +176,45 @@ class MrsReader {
     for (const std::vector<std::string>& row :
          copies == nullptr ? std::vector<std::vector<std::string>>() : copies->texts)
       for (std::size_t k = 1; k < row.size(); ++k) drive(row[k], row.front());
+  }
+
+  /// Gives the muscles the channels of the EMG files. Misc.EMGheaders stands in place of the names of all their
+  /// columns, that of the time first, whatever these are. Throws ReadError where files name such a column differently.
+  void name_channels_as_files() {
+    const std::vector<std::string> headers = texts("Misc.EMGheaders");
+    std::set<std::string> renamed;
+    for (ProjectMuscle& muscle : project_.muscles)
+      for (ProjectInput& input : muscle.inputs) {
+        const auto place = std::find(headers.begin(), headers.end(), input.channel);
+        if (place == headers.end()) continue;
+        const auto column = static_cast<std::size_t>(place - headers.begin());
+        if (const auto name = column_of_emg(column); name && *name != input.channel) {
+          renamed.insert(fmt::format("'{}' is '{}'", input.channel, *name));
+          input.channel = *name;
+        }
+      }
+    if (!renamed.empty())
+      note_reading(
+          project_.remarks, script_,
+          fmt::format("Misc.EMGheaders names the columns of the EMG by their order: {}", fmt::join(renamed, ", ")),
+          "Misc.EMGheaders");
+  }
+
+  /// Returns the name that the EMG files give a column, the time being column 0; nothing where they have none there.
+  [[nodiscard]] std::optional<std::string> column_of_emg(std::size_t column) const {
+    std::optional<std::string> name;
+    for (const ProjectTrial& trial : project_.trials)
+      for (const TrialFile& file : trial.files) {
+        if (column == 0 || column > file.channels.size()) continue;
+        const std::string& here = file.channels[column - 1];
+        if (name && *name != here)
+          throw ReadError(script_, values_.at("Misc.EMGheaders").line,
+                          fmt::format("Misc.EMGheaders: column {} is '{}' in one file of EMG and '{}' in {}; give both "
+                                      "one name",
+                                      column + 1, *name, here, file.path.string()));
+        name = here;
+      }
+    return name;
   }
 
   /// Reads the channels of the muscles from a table of names.

@@ -109,6 +109,24 @@ TEST(MrsProject, TellsChannelsCopiesAndMusclesWithoutEmg) {
   EXPECT_THAT(muscles_without_emg(project), ElementsAre("tib_r"));
 }
 
+TEST(MrsProject, TakesChannelsByTheOrderThatTheirHeadersTell) {
+  const test::TemporaryFolder folder;
+  write_mrs_project(folder);  // headers: time, sol_r, gas_r, tib_r
+  const auto channels = [&](const std::string& columns) {
+    write_file(folder / "Data/walk_EMG.mot", two_columns(columns, "0.1\t0.2"));
+    const Project project = read_project(folder.path()).value();
+    return std::vector<std::string>{project.find("sol_r")->inputs.at(0).channel,
+                                    project.find("gaslat_r")->inputs.at(0).channel};
+  };
+  EXPECT_THAT(channels("sol_r\tgas_r"), ElementsAre("sol_r", "gas_r"));
+  EXPECT_THAT(channels("ch1\tch2"), ElementsAre("ch1", "ch2"));
+  EXPECT_THAT(channels("gas_r\tsol_r"), ElementsAre("gas_r", "sol_r"));
+  write_file(folder / "Data/run_EMG.mot", two_columns("sol_r\tgas_r", "0.1\t0.2"));
+  write_file(folder / "main.m",
+             mrs_script("Misc.EMGfile = {fullfile(DataPath,'walk_EMG.mot'); fullfile(DataPath,'run_EMG.mot')};\n"));
+  EXPECT_THROW((void)read_project(folder.path()), ReadError);
+}
+
 TEST(MrsProject, CountsWhatIsEstimatedWithBoundsAndCouplings) {
   const test::TemporaryFolder folder;
   write_mrs_project(folder);
@@ -155,6 +173,7 @@ TEST(MrsProject, NamesNegativeEmgAndAbsentMusclesAndFiles) {
   EXPECT_THAT(project.remarks, Contains(Field(&Remark::code, RemarkCode::emg_envelope)));
   EXPECT_THAT(project.remarks, Contains(Field(&Remark::code, RemarkCode::refused)));
   EXPECT_THAT(project.remarks, Contains(Field(&Remark::about, "vas_r")));
+  EXPECT_EQ(project.find("vas_r"), nullptr);  // a study of it would have a muscle without geometry
   EXPECT_THAT(project.remarks, Contains(Field(&Remark::about, "Misc.EMGheaders")));
 }
 

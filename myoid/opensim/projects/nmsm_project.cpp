@@ -139,8 +139,10 @@ class NmsmReader {
     std::vector<std::string> muscles;
     for (const ProjectMuscle& muscle : project_.muscles) muscles.push_back(muscle.name);
     std::vector<pugi::xml_node> tasks;
-    for (const pugi::xml_node task : tool.child("MTPTaskList").children("MTPTask"))
-      if (xml.flag(task, "is_enabled", true)) tasks.push_back(task);
+    // Each spelling of a version.
+    for (const std::string name : {"MTPTask", "MuscleTendonPersonalizationTask"})
+      for (const pugi::xml_node task : tool.child((name + "List").c_str()).children(name.c_str()))
+        if (xml.flag(task, "is_enabled", true)) tasks.push_back(task);
     if (tasks.empty()) {
       note_reading(
           project_.remarks, project_.subject,
@@ -162,13 +164,13 @@ class NmsmReader {
     }
   }
 
-  /// Lists the trials of the data folder by their EMG.
+  /// Lists the trials of the data folder by their EMG. Where none is named, it is the folder of the settings.
   void list_trials(const OsimXml& xml, pugi::xml_node tool) {
     const std::string named = xml.word(tool, "data_directory");
-    if (named.empty()) return;
-    fs::path data = native_path(xml.path().parent_path(), named);
+    const fs::path beside = xml.path().parent_path();
+    fs::path data = named.empty() ? beside : native_path(beside, named);
     std::error_code ignored;
-    if (!fs::is_directory(data, ignored)) data = xml.path().parent_path() / last_part(named);
+    if (!named.empty() && !fs::is_directory(data, ignored)) data = beside / last_part(named);
     const std::vector<std::string> prefixes = xml.words(tool, "trial_prefixes");
     std::set<std::string> other_coordinates;
     for (const fs::path& file : folder_.files()) {

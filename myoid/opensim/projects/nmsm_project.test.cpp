@@ -136,6 +136,22 @@ TEST(NmsmProject, ATaskThatSaysNothingVariesEveryNumber) {
   EXPECT_EQ(unknowns(project, Quantity::emg_scale).all, 0U);
 }
 
+TEST(NmsmProject, AnEarlierVersionHasOtherNamesAndMayHaveTheDataBesideItsSettings) {
+  const test::TemporaryFolder folder;
+  write_nmsm_project(folder);
+  fs::rename(folder / "preprocessed/EMGData", folder / "EMGData");
+  write_file(folder / "settings.xml",
+             "<OpenSimDocument Version=\"40000\"><MuscleTendonPersonalizationTool><input_model_file>m.osim"
+             "</input_model_file><data_directory></data_directory><coordinate_list>knee_angle_r</coordinate_list>"
+             "<MuscleTendonPersonalizationTaskList><MuscleTendonPersonalizationTask><is_enabled>true</is_enabled>"
+             "<optimize_emg_scale_factors>false</optimize_emg_scale_factors></MuscleTendonPersonalizationTask>"
+             "</MuscleTendonPersonalizationTaskList></MuscleTendonPersonalizationTool></OpenSimDocument>");
+  const Project project = read_project(folder.path()).value();
+  EXPECT_EQ(unknowns(project, Quantity::optimal_fiber_length).all, 2U);
+  EXPECT_EQ(unknowns(project, Quantity::emg_scale).all, 0U);
+  EXPECT_FALSE(project.trials.empty());
+}
+
 TEST(NmsmProject, MusclesStandInObjectsOrDirectlyInTheirSet) {
   for (const auto& [set, inside] :
        {std::pair("RCNLMuscleSet", true), std::pair("RCNLMuscleSet", false), std::pair("MTPMuscleSet", true)}) {

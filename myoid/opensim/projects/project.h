@@ -111,6 +111,7 @@ struct TrialFile {
   std::optional<Stretch> time = {};        ///< Of a table that was read.
   double rate_hz = 0.0;                    ///< Mean rate; 0: not known.
   std::optional<bool> is_in_degrees = {};  ///< Of a motion that was read; false: radians.
+  std::vector<std::string> channels = {};  ///< Of EMG that was read, in the order of its columns.
 };
 
 struct ProjectTrial {

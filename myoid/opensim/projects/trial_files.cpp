@@ -36,6 +36,8 @@ recording::SeriesFile read_table(TrialFile& file) {
     table = recording::read_series(file.path);
   }
   set_clock(file, table.data);
+  if (file.role == TrialRole::emg)
+    for (const Channel& channel : table.data.channels()) file.channels.push_back(channel.name);
   return table;
 }
 
