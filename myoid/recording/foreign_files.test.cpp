@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/marker_table.h"
 #include "myoid/recording/recording.h"
+#include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/trc_reader.h"
 
 #include "tests/support/data_folder.h"
@@ -219,6 +221,53 @@ TEST(ForeignEmg, DelsysColumnsWithTheirOwnClocksAreOne) {
   ASSERT_EQ(file.data.sample_count(), 3);
   EXPECT_DOUBLE_EQ(file.data.values()(2, 1), 0.006);
   EXPECT_NEAR(file.data.mean_rate_hz(), 2000.0, 1e-6);
+}
+
+TEST(ForeignEmg, ASensorWithoutAFixedRateBesideOthersHasItsOwnTimes) {
+  // Where the rates of the others stand, a heart-rate strap has -1 Hz.
+  const CsvSeries s = parse_emg_table(
+      "Application:, Discover\nEMG 01 (5), , Strap  (6)\nsensor mode: 45, , sensor mode: 0\n"
+      "EMG 1 Time Series (s), EMG 1 (mV), Heart Rate Time Series (s), Heart Rate (BPM)\n"
+      ", 2000 Hz, , -1 Hz\n0, -0.25, 0.125, 71\n0.0005, 0.5, 1.125, 72\n0.001, 0.75, 2.25, 74\n",
+      "a.csv");
+  EXPECT_EQ(s.data.channels()[0], (Channel{"EMG 1", Unit::volt}));
+  EXPECT_NEAR(s.data.mean_rate_hz(), 2000.0, 1e-6);
+  EXPECT_DOUBLE_EQ(s.data.values()(2, 0), 0.75e-3);
+  ASSERT_EQ(s.other_clocks.size(), 1U);
+  EXPECT_EQ(s.other_clocks[0].data.time_s(), Eigen::Vector3d(0.125, 1.125, 2.25));
+}
+
+TEST(ForeignEmg, ATableOfLabviewHasItsUnitsInALineAboveTheNames) {
+  const CsvSeries s = parse_emg_table(
+      "LabVIEW Measurement\t\nSeparator\tTab\nDate\t2024/05/06\nTime\t16:15:51.123\n***End_of_Header***\t\n\t\n"
+      "Channels\t2\t\t\nSamples\t3\t3\t\nDate\t2024/05/06\t2024/05/06\t\nTime\t16:15:51.12\t16:15:51.12\t\n"
+      "Y_Unit_Label\tVolts\tNm\t\nX_Dimension\tTime\tTime\t\nX0\t0.0E+0\t0.0E+0\t\nDelta_X\t0.002\t0.002\t\n"
+      "***End_of_Header***\t\t\t\nX_Value\tBiceps\tCrank\tComment\n"
+      "0.000\t0.25\t10\t\n0.002\t0.5\t11\t\n0.004\t0.75\t12\t\n",
+      "a.txt");
+  ASSERT_EQ(s.data.channel_count(), 2);
+  EXPECT_NEAR(s.data.mean_rate_hz(), 500.0, 1e-9);
+  EXPECT_EQ(s.data.channels()[0], (Channel{"Biceps", Unit::volt}));
+  EXPECT_EQ(s.data.channels()[1], (Channel{"Crank", Unit::newton_meter}));
+  EXPECT_EQ(s.data.values()(2, 1), 12.0);
+}
+
+/// Times with three decimals at 2000 Hz: rows share a time, and the frames count on.
+std::string rounded_tracks(int lost) {
+  std::string text =
+      "BTS ASCII format\n\nType:\tEmg tracks\nMeasure unit:\tmV\n\nTracks:\t1\nFrequency:\t2000 Hz\n"
+      "Frames:\t40\nStart time:\t0.000\n\n Frame\t  Time\tVoltage:BIC\t\n";
+  for (int k = 0; k < 40; ++k)
+    if (k != lost) text += fmt::format("{:5}\t{:.3f}\t{}\t\n", k + 1, k / 2000.0, k);
+  return text;
+}
+
+TEST(ForeignEmg, TimesThatRoundingMadeEqualGiveWayToFramesThatCountOn) {
+  const TimeSeries track = parse_emg_table(rounded_tracks(-1), "f.emt").data;
+  ASSERT_EQ(track.sample_count(), 40);
+  EXPECT_NEAR(track.mean_rate_hz(), 2000.0, 1e-6);
+  EXPECT_NEAR(track.time_s()[39], 39 / 2000.0, 1e-12);
+  EXPECT_THROW((void)parse_emg_table(rounded_tracks(20), "f.emt"), ReadError);  // a frame is lost
 }
 
 /// The clock that holds a channel, and its second sample.

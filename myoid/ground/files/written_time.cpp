@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/written_time.h"
+#include "myoid/ground/files/written_time.h"
 
 #include <algorithm>
 #include <charconv>
@@ -8,7 +8,7 @@
 
 #include "myoid/ground/files/text_file.h"
 
-namespace myoid::recording {
+namespace myoid::inline ground {
 namespace {
 
 /// Takes up to `most` digits and one of `marks` behind them off the begin of a text.
@@ -83,4 +83,4 @@ std::optional<double> written_time_s(std::string_view cell) {
   return 86400.0 * *days + 3600.0 * *hours + 60.0 * *minutes + *seconds;
 }
 
-}  // namespace myoid::recording
+}  // namespace myoid::inline ground

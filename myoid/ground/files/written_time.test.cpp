@@ -1,10 +1,10 @@
-#include "myoid/recording/tables/written_time.h"
+#include "myoid/ground/files/written_time.h"
 
 #include <utility>
 
 #include <gtest/gtest.h>
 
-namespace myoid::recording {
+namespace myoid::inline ground {
 namespace {
 
 TEST(WrittenTime, ATimeOfTheDayIsReadInEveryUsualForm) {
@@ -27,4 +27,4 @@ TEST(WrittenTime, ADateBeforeItCountsAndWhatIsNoTimeIsNone) {
 }
 
 }  // namespace
-}  // namespace myoid::recording
+}  // namespace myoid::inline ground

@@ -1,6 +1,5 @@
 #include "myoid/recording/tables/channel_layouts.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,24 +71,6 @@ TEST(ChannelLayouts, TracksOfBtsWithOneUnitForAll) {
   expect_the_emg(
       "BTS ASCII format\n\nType:\tEmg tracks\nMeasure unit:\tmV\n\nTracks:\t2\nFrequency:\t2000 "
       "Hz\n\nFrame\tTime\tBIC\tTRI\n1\t0.0000\t1\t2\n2\t0.0005\t3\t4\n3\t0.0010\t5\t6\n");
-}
-
-/// Times with three decimals at 2000 Hz: rows share a time, and the frames count on.
-std::string rounded_tracks(int lost) {
-  std::string text =
-      "BTS ASCII format\n\nType:\tEmg tracks\nMeasure unit:\tmV\n\nTracks:\t1\nFrequency:\t2000 Hz\n"
-      "Frames:\t40\nStart time:\t0.000\n\n Frame\t  Time\tVoltage:BIC\t\n";
-  for (int k = 0; k < 40; ++k)
-    if (k != lost) text += fmt::format("{:5}\t{:.3f}\t{}\t\n", k + 1, k / 2000.0, k);
-  return text;
-}
-
-TEST(ChannelLayouts, TimesThatRoundingMadeEqualGiveWayToFramesThatCountOn) {
-  const TimeSeries track = parse_emg_table(rounded_tracks(-1), "f.emt").data;
-  ASSERT_EQ(track.sample_count(), 40);
-  EXPECT_NEAR(track.mean_rate_hz(), 2000.0, 1e-6);
-  EXPECT_NEAR(track.time_s()[39], 39 / 2000.0, 1e-12);
-  EXPECT_THROW((void)parse_emg_table(rounded_tracks(20), "f.emt"), ReadError);  // a frame is lost
 }
 
 TEST(ChannelLayouts, DevicesOfNexusWithSubFrames) {

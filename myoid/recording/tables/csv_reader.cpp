@@ -10,9 +10,9 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/index.h"
+#include "myoid/ground/files/written_time.h"
 #include "myoid/recording/tables/blank_columns.h"
 #include "myoid/recording/tables/channel_labels.h"
-#include "myoid/recording/tables/written_time.h"
 
 namespace myoid::recording {
 namespace {

@@ -16,11 +16,11 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/files/file_words.h"
+#include "myoid/ground/files/written_time.h"
 #include "myoid/recording/tables/blank_columns.h"
 #include "myoid/recording/tables/channel_labels.h"
 #include "myoid/recording/tables/channel_layouts.h"
 #include "myoid/recording/tables/discover_events.h"
-#include "myoid/recording/tables/written_time.h"
 
 namespace myoid::recording {
 namespace {

@@ -41,20 +41,6 @@ TEST(EmgTable, ATimeColumnForEachChannelGivesAClockForEachRate) {
   EXPECT_EQ(s.repairs.size(), 2U);  // two clocks, cut to the shortest
 }
 
-TEST(EmgTable, ASensorWithoutAFixedRateBesideOthersHasItsOwnTimes) {
-  // Where the rates of the others stand, a heart-rate strap has -1 Hz.
-  const CsvSeries s = parse_emg_table(
-      "Application:, Discover\nEMG 01 (5), , Strap  (6)\nsensor mode: 45, , sensor mode: 0\n"
-      "EMG 1 Time Series (s), EMG 1 (mV), Heart Rate Time Series (s), Heart Rate (BPM)\n"
-      ", 2000 Hz, , -1 Hz\n0, -0.25, 0.125, 71\n0.0005, 0.5, 1.125, 72\n0.001, 0.75, 2.25, 74\n",
-      "a.csv");
-  EXPECT_EQ(s.data.channels()[0], (Channel{"EMG 1", Unit::volt}));
-  EXPECT_NEAR(s.data.mean_rate_hz(), 2000.0, 1e-6);
-  EXPECT_DOUBLE_EQ(s.data.values()(2, 0), 0.75e-3);
-  ASSERT_EQ(s.other_clocks.size(), 1U);
-  EXPECT_EQ(s.other_clocks[0].data.time_s(), Eigen::Vector3d(0.125, 1.125, 2.25));
-}
-
 TEST(EmgTable, WrittenTimesMayHaveTheirPatternForAUnit) {
   const CsvSeries s = parse_emg_table(
       "\"sep=\t\"\nDev_1_Accel_X_CAL\tDev_1_TimestampSync_FormattedUnix_CAL\tDev_1_EMG_CH1_CAL\t\n"
@@ -65,21 +51,6 @@ TEST(EmgTable, WrittenTimesMayHaveTheirPatternForAUnit) {
   EXPECT_NEAR(s.data.mean_rate_hz(), 500.0, 0.1);
   EXPECT_EQ(s.data.channels()[1], (Channel{"Dev_1_EMG_CH1_CAL", Unit::volt}));
   EXPECT_DOUBLE_EQ(s.data.values()(2, 1), 0.75e-3);
-}
-
-TEST(EmgTable, ATableOfLabviewHasItsUnitsInALineAboveTheNames) {
-  const CsvSeries s = parse_emg_table(
-      "LabVIEW Measurement\t\nSeparator\tTab\nDate\t2024/05/06\nTime\t16:15:51.123\n***End_of_Header***\t\n\t\n"
-      "Channels\t2\t\t\nSamples\t3\t3\t\nDate\t2024/05/06\t2024/05/06\t\nTime\t16:15:51.12\t16:15:51.12\t\n"
-      "Y_Unit_Label\tVolts\tNm\t\nX_Dimension\tTime\tTime\t\nX0\t0.0E+0\t0.0E+0\t\nDelta_X\t0.002\t0.002\t\n"
-      "***End_of_Header***\t\t\t\nX_Value\tBiceps\tCrank\tComment\n"
-      "0.000\t0.25\t10\t\n0.002\t0.5\t11\t\n0.004\t0.75\t12\t\n",
-      "a.txt");
-  ASSERT_EQ(s.data.channel_count(), 2);
-  EXPECT_NEAR(s.data.mean_rate_hz(), 500.0, 1e-9);
-  EXPECT_EQ(s.data.channels()[0], (Channel{"Biceps", Unit::volt}));
-  EXPECT_EQ(s.data.channels()[1], (Channel{"Crank", Unit::newton_meter}));
-  EXPECT_EQ(s.data.values()(2, 1), 12.0);
 }
 
 TEST(EmgTable, AMarkOfCommentsAloneIsNoRowOfNames) {

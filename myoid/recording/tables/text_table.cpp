@@ -14,7 +14,7 @@
 #include "myoid/ground/core/parallel.h"
 #include "myoid/ground/files/file_words.h"
 #include "myoid/ground/files/missing_value.h"
-#include "myoid/recording/tables/written_time.h"
+#include "myoid/ground/files/written_time.h"
 
 namespace myoid::recording {
 namespace {
