@@ -32,6 +32,12 @@ bool acts(const ProjectDof& dof, const std::string& muscle) {
   return std::ranges::find(dof.muscles, muscle) != dof.muscles.end();
 }
 
+/// Returns true if a muscle with EMG acts on a joint.
+bool has_emg(const Project& project, const ProjectDof& dof) {
+  return std::ranges::any_of(
+      project.muscles, [&](const ProjectMuscle& muscle) { return !muscle.inputs.empty() && acts(dof, muscle.name); });
+}
+
 /// Returns "semimem", or "0.5 vas_lat + 0.5 vas_med".
 std::string mixture_name(const std::vector<ProjectInput>& inputs) {
   std::vector<std::string> parts;
@@ -81,6 +87,9 @@ class StudyMaker {
     if (study.muscles.empty())
       throw InvalidInput(
           fmt::format("no muscle of {} has EMG: there is nothing to identify", fmt::join(joints_, ", ")));
+    for (const ProjectDof& dof : project_.dofs)
+      if (dof.is_calibrated && !dof.muscles.empty() && !has_emg(project_, dof))
+        note(Severity::note, dof.name, fmt::format("{} is left out: none of its muscles has EMG", dof.name));
     for (const ProjectTrial& trial : project_.trials) add(trial);
     if (study.trials.empty())
       throw InvalidInput(
@@ -228,9 +237,11 @@ class StudyMaker {
     } else {
       return note(Severity::note, trial.name, "left out: neither lengths with moment arms nor a motion with the model");
     }
-    if (project_.dialect == opensim::Dialect::ceinms && trial.used) {
-      spec.start_s = trial.used->begin_s;
-      spec.end_s = trial.used->end_s;
+    const bool in_seconds = project_.dialect == opensim::Dialect::ceinms || project_.dialect == opensim::Dialect::mrs;
+    if (in_seconds && trial.used) {
+      // A script of the redundancy solver may name a stretch that goes beyond the recording.
+      if (!torques->time || trial.used->begin_s > torques->time->begin_s) spec.start_s = trial.used->begin_s;
+      if (!torques->time || trial.used->end_s < torques->time->end_s) spec.end_s = trial.used->end_s;
     }
     result_.study.trials.push_back(std::move(spec));
   }
@@ -271,11 +282,9 @@ class StudyMaker {
 std::vector<std::string> reviewed_joints(const Project& project) {
   std::vector<std::string> fitted, driven;
   for (const ProjectDof& dof : project.dofs) {
-    if (dof.is_calibrated) fitted.push_back(dof.name);
-    if (std::ranges::any_of(project.muscles, [&](const ProjectMuscle& muscle) {
-          return !muscle.inputs.empty() && acts(dof, muscle.name);
-        }))
-      driven.push_back(dof.name);
+    const bool is_driven = has_emg(project, dof);
+    if (dof.is_calibrated && (is_driven || dof.muscles.empty())) fitted.push_back(dof.name);
+    if (is_driven) driven.push_back(dof.name);
   }
   return fitted.empty() ? driven : fitted;
 }

@@ -23,8 +23,8 @@ struct ProjectStudy {
   std::vector<Remark> remarks;
 };
 
-/// Returns the joints that a review judges: those whose torque the calibration fits; if the files tell none, all on
-/// which a muscle with EMG acts.
+/// Returns the joints that a review judges: those whose torque the calibration fits and on which a muscle with EMG
+/// acts, as far as the files tell; if there are none, all on which such a muscle acts.
 [[nodiscard]] std::vector<std::string> reviewed_joints(const opensim::Project& project);
 
 /// Returns the study of a project, for a study.toml in `folder`. Its trials are those with EMG, torques, and either

@@ -1,5 +1,6 @@
 #include "myoid/results/review/project_study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -121,6 +122,23 @@ TEST(ProjectStudy, HasTheJointsMusclesTrialsAndStartsOfTheCalibration) {
   EXPECT_EQ(study.trials[0].emg, made.mixed[0].file);
   EXPECT_NEAR(emg.column("0.5 sol + 0.5 gas")(0), 0.5 * 0.3 + 0.5 * 0.7, 1e-12);
   EXPECT_EQ(made.remarks.size(), 2U);  // the trial without torques, the mixture
+}
+
+TEST(ProjectStudy, LeavesOutAFittedJointWithoutEmg) {
+  AnkleProject ankle;
+  ankle.project.dofs.push_back({"toes", {"tib_post"}, true});
+  EXPECT_THAT(reviewed_joints(ankle.project), ElementsAre("ankle"));
+  const ProjectStudy made = study_of_project(ankle.project, {"ankle"}, ankle.folder / "out");
+  EXPECT_EQ(std::ranges::count(made.remarks, "toes", &Remark::where), 1);
+}
+
+TEST(ProjectStudy, TakesTheStretchOfTheRedundancySolverAsFarAsItIsRecorded) {
+  AnkleProject ankle;
+  ankle.project.dialect = opensim::Dialect::mrs;
+  ankle.project.trials[0].used = Stretch{0.5, 9999.0};
+  const study::TrialSpec trial = study_of_project(ankle.project, {"ankle"}, ankle.folder / "out").study.trials.front();
+  EXPECT_EQ(trial.start_s, 0.5);
+  EXPECT_FALSE(trial.end_s.has_value());
 }
 
 TEST(ProjectStudy, LumpsMusclesOfOneElectrodeWhereTheModelIsThere) {
