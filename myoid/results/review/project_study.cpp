@@ -243,6 +243,12 @@ class StudyMaker {
       if (!torques->time || trial.used->begin_s > torques->time->begin_s) spec.start_s = trial.used->begin_s;
       if (!torques->time || trial.used->end_s < torques->time->end_s) spec.end_s = trial.used->end_s;
     }
+    if (torques->time) {
+      // Two windows of the normalization must fit into a trial, or the trial alone shows no level of rest.
+      const double length_s = spec.end_s.value_or(torques->time->end_s) - spec.start_s.value_or(torques->time->begin_s);
+      double& window_s = result_.study.emg.normalise_window_s;
+      window_s = std::min(window_s, 0.5 * length_s);
+    }
     result_.study.trials.push_back(std::move(spec));
   }
 

@@ -141,6 +141,14 @@ TEST(ProjectStudy, TakesTheStretchOfTheRedundancySolverAsFarAsItIsRecorded) {
   EXPECT_FALSE(trial.end_s.has_value());
 }
 
+TEST(ProjectStudy, HasAWindowOfNormalizationThatFitsTwiceIntoTheShortestStretch) {
+  AnkleProject ankle;
+  ankle.project.trials[0].used = Stretch{1.0, 1.5};
+  EXPECT_EQ(study_of_project(ankle.project, {"ankle"}, ankle.folder / "out").study.emg.normalise_window_s, 0.25);
+  ankle.project.trials[0].used = Stretch{1.0, 3.0};
+  EXPECT_EQ(study_of_project(ankle.project, {"ankle"}, ankle.folder / "out").study.emg.normalise_window_s, 0.5);
+}
+
 TEST(ProjectStudy, LumpsMusclesOfOneElectrodeWhereTheModelIsThere) {
   AnkleProject ankle;
   ankle.project.model = "model.osim";
