@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -327,12 +328,17 @@ Drive drive_of_clean(
   return {clean, std::move(left)};
 }
 
-std::shared_ptr<const Drive> DriveMemory::known(const Key& key) const {
+std::shared_ptr<const Drive> DriveMemory::Known::of(double other) const {
+  if (other == size) return drive;
+  return std::make_shared<const Drive>(Drive{drive->envelope.times(other / size), drive->left});
+}
+
+std::optional<DriveMemory::Known> DriveMemory::known(const Key& key) const {
   {
     const std::lock_guard lock(mutex_);
     if (const auto found = drives_.find(key); found != drives_.end()) return found->second;
   }
-  return whole_ ? whole_->known(key) : nullptr;
+  return whole_ ? whole_->known(key) : std::nullopt;
 }
 
 std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
@@ -342,17 +348,20 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
                                                  const EnvelopeError& error,
                                                  double cutoff_hz) {
   const Eigen::VectorXd values = recorded.column(channel);
-  Key key{noise_sd, rest, cutoff_hz};
+  const double greatest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0,
+               size = greatest > 0.0 ? greatest : 1.0;
+  const auto single = [size](double value) { return static_cast<double>(static_cast<float>(value / size)); };
+  Key key{noise_sd, single(rest), cutoff_hz};
   // Trials share times, so that their values differ sooner.
-  key.insert(key.end(), values.begin(), values.end());
+  std::ranges::transform(values, std::back_inserter(key), single);
   key.insert(key.end(), recorded.time_s().begin(), recorded.time_s().end());
-  if (std::shared_ptr<const Drive> drive = known(key)) return drive;
+  if (const std::optional<Known> found = known(key)) return found->of(size);
   const Envelope envelope(recorded.time_s(), values);
   auto found = std::make_shared<const Drive>(
       level_of_clean_ ? drive_of_clean(envelope, noise_sd, rest, error, cutoff_hz, *level_of_clean_)
                       : drive_behind(envelope, noise_sd, rest, error, cutoff_hz));
   const std::lock_guard lock(mutex_);
-  return drives_.emplace(std::move(key), std::move(found)).first->second;
+  return drives_.emplace(std::move(key), Known{size, std::move(found)}).first->second.of(size);
 }
 
 }  // namespace myoid::fit
