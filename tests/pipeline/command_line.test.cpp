@@ -129,7 +129,8 @@ TEST(CommandLine, InitPrintsEachQuestionWithItsLine) {
     ++number;
     if (!line.starts_with(kMark)) continue;
     ++asked;
-    EXPECT_THAT(init.out, HasSubstr("TODO line " + std::to_string(number) + ": " + line.substr(kMark.size()) + "\n"));
+    const std::string question = line.substr(kMark.size(), line.find(" [draft") - kMark.size());
+    EXPECT_THAT(init.out, HasSubstr("TODO line " + std::to_string(number) + ": " + question + "\n"));
   }
   EXPECT_GT(asked, 0);
 }

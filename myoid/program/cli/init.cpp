@@ -1,8 +1,6 @@
 #include "myoid/program/commands/init.h"
 
-#include <sstream>
 #include <string>
-#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -11,23 +9,19 @@
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
+#include "myoid/study/open_question.h"
 
 namespace myoid::program {
 namespace {
 
 /// Prints the questions of a draft with their lines, by which an editor finds them.
 void print_questions(const std::string& toml) {
-  static constexpr std::string_view kMark = "# TODO: ";
-  std::istringstream lines(toml);
-  std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    if (line.starts_with(kMark)) say("TODO line {}: {}\n", number, line.substr(kMark.size()));
-  }
+  for (const study::OpenQuestion& question : study::open_questions_in(toml))
+    say("TODO line {}: {}\n", question.line, question.text);
 }
 
 void carry_out(Context& context, const InitOptions& o, const CLI::App& /*command*/) {
-  const std::filesystem::path file = std::filesystem::path(o.folder) / "study.toml";
+  const std::filesystem::path file = program::study_file(o);
   context.prepare_file(file, {});
   const program::InitResult result = program::init(o);
   program::write_init(result, file, o.call);

@@ -8,27 +8,34 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/ground/files/text_file.h"
+#include "myoid/study/open_question.h"
 
 namespace myoid::study {
 
+namespace {
+
+/// Returns a question up to the end of its first sentence.
+std::string first_sentence(const std::string& text) {
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i + 1] != ' ') continue;
+    if (text[i] == '?') return text.substr(0, i + 1);
+    if (text[i] == '.' || text[i] == ';') return text.substr(0, i);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::optional<Remark> open_questions(std::string_view text, const std::filesystem::path& file) {
-  constexpr std::string_view kMark = "# TODO: ";
-  constexpr std::size_t kMost = 60;                                     // bytes of a question
   std::vector<std::pair<std::string, std::vector<std::size_t>>> asked;  // a question and its lines
-  std::size_t count = 0;
-  const auto lines = split_lines(text);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const auto at = lines[i].find(kMark);
-    if (at == std::string_view::npos) continue;
-    std::string what(trim(lines[i].substr(at + kMark.size())));
-    if (what.size() > kMost) what = what.substr(0, what.rfind(' ', kMost)) + " ...";
-    ++count;
+  const std::vector<OpenQuestion> open = open_questions_in(text);
+  for (const OpenQuestion& question : open) {
+    const std::string what = first_sentence(question.text);
     const auto same = std::ranges::find(asked, what, [](const auto& one) { return one.first; });
     if (same == asked.end())
-      asked.push_back({what, {i + 1}});
+      asked.push_back({what, {question.line}});
     else
-      same->second.push_back(i + 1);
+      same->second.push_back(question.line);
   }
   if (asked.empty()) return std::nullopt;
   std::vector<std::string> questions;
@@ -37,9 +44,11 @@ std::optional<Remark> open_questions(std::string_view text, const std::filesyste
   return Remark{.code = RemarkCode::unanswered,
                 .severity = Severity::warning,
                 .where = file.filename().string(),
-                .value = static_cast<double>(count),
-                .says = fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}", count,
-                                    count == 1 ? "" : "s", count == 1 ? "s" : "", fmt::join(questions, "; "))};
+                .value = static_cast<double>(open.size()),
+                .says = fmt::format("{} still for an answer (TODO): {}",
+                                    open.size() == 1 ? "1 line asks" : fmt::format("{} lines ask", open.size()),
+                                    fmt::join(questions, "; ")),
+                .remedy = "change the line below each, or delete the TODO where nothing is to change"};
 }
 
 }  // namespace myoid::study

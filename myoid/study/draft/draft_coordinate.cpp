@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -114,18 +115,26 @@ std::vector<std::string> moved_coordinates(const body::BodyModel& model,
   return names;
 }
 
-std::string coordinate_of_channels(const body::BodyModel& model,
-                                   const std::vector<std::string>& coordinates,
-                                   const std::vector<std::string>& channels) {
-  std::string best;
-  std::size_t most = 0;
-  for (const std::string& name : coordinates) {
-    const std::size_t count = channels_of(model, name, channels);
-    if (count <= most) continue;
-    most = count;
-    best = name;
+CoordinateOfChannels coordinate_of_channels(const body::BodyModel& model,
+                                            const std::vector<std::string>& coordinates,
+                                            const std::vector<std::string>& channels) {
+  constexpr std::size_t kEnough = 2;  // a muscle and its antagonist
+  std::vector<std::size_t> counts;
+  for (const std::string& name : coordinates) counts.push_back(channels_of(model, name, channels));
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const auto rank_of = [&](std::size_t k) {
+      return std::pair(is_usual(coordinates[k]) && counts[k] >= kEnough, counts[k]);
+    };
+    if (!best || rank_of(i) > rank_of(*best)) best = i;
   }
-  return best;
+  CoordinateOfChannels chosen;
+  if (!best) return chosen;
+  chosen.name = coordinates[*best];
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    if (counts[i] > counts[*best]) chosen.more.push_back(coordinates[i]);
+  return chosen;
 }
 
 std::string same_on_the_other_side(const body::BodyModel& model,

@@ -24,11 +24,17 @@ namespace myoid::study {
                                                          const std::vector<std::string>& coordinates,
                                                          const std::vector<TimeSeries>& recorded);
 
-/// Finds the coordinate that the muscles of most channels move (`match_channels`), of equals the
-/// first. Empty if no channel has the name of a muscle that moves a coordinate.
-[[nodiscard]] std::string coordinate_of_channels(const body::BodyModel& model,
-                                                 const std::vector<std::string>& coordinates,
-                                                 const std::vector<std::string>& channels);
+/// A coordinate that is chosen by the electrodes.
+struct CoordinateOfChannels {
+  std::string name;               ///< Empty: no channel has the name of a muscle that moves a coordinate.
+  std::vector<std::string> more;  ///< Coordinates whose muscles have more channels.
+};
+
+/// Finds the coordinate that the muscles of most channels move (`match_channels`), of equals the first. Elbow, knee and
+/// ankle with two channels or more come before all others: a muscle of the shoulder or hip moves several of its axes.
+[[nodiscard]] CoordinateOfChannels coordinate_of_channels(const body::BodyModel& model,
+                                                          const std::vector<std::string>& coordinates,
+                                                          const std::vector<std::string>& channels);
 
 /// Returns the same coordinate of the other side ("knee_angle_l" of "knee_angle_r") if as many channels have names of
 /// muscles that move it: channels that state no side. Empty otherwise.

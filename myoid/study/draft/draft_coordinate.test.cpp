@@ -17,9 +17,18 @@ TEST(DraftCoordinate, TheElbowIsMovedByItsFourMusclesAndTheShoulderByNone) {
   const body::BodyModel arm = body::parse_osim(body::arm4_osim(), "arm4.osim");
   EXPECT_THAT(movers(arm, "elbow_flexion"), ElementsAre("BIC", "BRA", "BRD", "TRI"));
   const std::vector<std::string> names{"shoulder_flexion", "elbow_flexion"};
-  EXPECT_EQ(coordinate_of_channels(arm, names, {"Biceps", "ECG"}), "elbow_flexion");
-  EXPECT_EQ(coordinate_of_channels(arm, names, {"ECG"}), "");
-  EXPECT_EQ(coordinate_of_channels(arm, {}, {"Biceps"}), "");
+  EXPECT_EQ(coordinate_of_channels(arm, names, {"Biceps", "ECG"}).name, "elbow_flexion");
+  EXPECT_EQ(coordinate_of_channels(arm, names, {"ECG"}).name, "");
+  EXPECT_EQ(coordinate_of_channels(arm, {}, {"Biceps"}).name, "");
+}
+
+TEST(DraftCoordinate, TheElbowComesBeforeAShoulderWithMoreElectrodes) {
+  const auto file = test::data_folder() / "box-lift/wu.osim";
+  MYOID_REQUIRE_DATA(file);
+  const CoordinateOfChannels chosen = coordinate_of_channels(body::read_osim(file), {"shoulder_plane", "elbow_flexion"},
+                                                             {"Biceps", "Triceps", "Delt_med", "Delt_post", "Infra"});
+  EXPECT_EQ(chosen.name, "elbow_flexion");
+  EXPECT_THAT(chosen.more, ElementsAre("shoulder_plane"));
 }
 
 TEST(DraftCoordinate, IsOneThatTheRecordingMovesWithinTheModelsRange) {

@@ -191,28 +191,29 @@ void ask_for_loads(const std::string& stem, const LoadHints& hints, bool own_mod
   constexpr std::size_t kNamed = 8;
   objects.resize(std::min(objects.size(), kNamed));
   channels.resize(std::min(channels.size(), kNamed));
+  const std::optional<NamedMass> mass = mass_in_name(stem);
+  const std::string answer = mass ? fmt::format("# held_mass_kg = {}", mass->kg()) : "# held_mass_kg = 0.0";
   if (!objects.empty())
     out.todo(fmt::format("{} move as one rigid body that is not the person's: was it held, and how heavy is it?",
-                         fmt::join(objects, ", ")));
+                         fmt::join(objects, ", ")),
+             answer);
   if (!channels.empty())
     out.todo(fmt::format("{} {} of no force plate{}", fmt::join(channels, ", "), channels.size() == 1 ? "is" : "are",
                          hints.only_torques ? ", in N m: a dynamometer? Then external_torque names a table with it as "
                                               "<coordinate>_moment, which myoid convert writes"
                                             : ": a load cell? Then [load_cell] and load_cell say how it acts"));
   const std::string where = own_model ? " Then [model] held_mass must say where it acts" : "";
-  if (const auto mass = mass_in_name(stem)) {
+  if (mass) {
     const std::string unit = mass->unit.empty() ? " without a unit (kg? lb?)" : " " + mass->unit;
-    out.todo(fmt::format("the name says {}{}: held in the hand?{}", mass->value, unit, mass->kg() > 0.0 ? where : ""));
-    out.line(fmt::format("# held_mass_kg = {}", mass->kg()));
-    asked = true;
-    return;
+    out.todo(fmt::format("the name says {}{}: held in the hand?{}", mass->value, unit, mass->kg() > 0.0 ? where : ""),
+             answer);
+  } else if (!asked) {
+    out.todo(fmt::format("what was held, carried or pushed in each trial? Take the # away; 0: nothing.{}{} Forces that "
+                         "were measured: external_loads, force_plates, load_cell, external_torque",
+                         where, where.empty() ? "" : "."),
+             answer);
   }
-  if (!asked)
-    out.todo(fmt::format(
-        "what was held, carried or pushed in each trial? Take the # away; 0: nothing.{}{} Forces that were measured: "
-        "external_loads, force_plates, load_cell, external_torque",
-        where, where.empty() ? "" : "."));
-  out.line("# held_mass_kg = 0.0");
+  out.line(answer);
   asked = true;
 }
 

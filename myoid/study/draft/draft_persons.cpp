@@ -104,18 +104,21 @@ std::vector<std::string> persons_in(const std::vector<FoundRecording>& found) {
 
 OnePerson keep_one_person(std::vector<FoundRecording>& found) {
   OnePerson person{.all = persons_in(found)};
-  if (person.all.size() < 2) return {};
+  if (person.all.empty()) return {};
   const std::vector<std::string> each = person_of_each(found);
   person.kept = *std::ranges::max_element(person.all, {},
                                           [&](const std::string& name) { return std::ranges::count(each, name); });
   std::vector<FoundRecording> own;
   for (std::size_t i = 0; i < found.size(); ++i) {
+    if (each[i].empty()) person.unnamed.push_back(found[i].path);
     if (each[i].empty() || each[i] == person.kept)
       own.push_back(std::move(found[i]));
     else
       person.left_out.push_back(found[i].path.filename().string());
   }
   found = std::move(own);
+  if (person.all.size() < 2) person.all.clear();
+  if (std::ranges::count(each, person.kept) <= std::ssize(person.unnamed)) person.unnamed.clear();
   return person;
 }
 

@@ -22,6 +22,8 @@ struct OnePerson {
   std::vector<std::string> all;       ///< The names of all persons; empty unless there are several.
   std::string kept;                   ///< Whose recordings stayed.
   std::vector<std::string> left_out;  ///< Names of the files that were taken out.
+  /// Files that stayed and name nobody, beside more that name `kept`.
+  std::vector<std::filesystem::path> unnamed;
 };
 
 /// Takes the recordings of all persons out of `found` but those of the person with most of them (of equals the first),

@@ -42,6 +42,18 @@ TEST(DraftPersons, AreNumbersThatSeveralTrialsShare) {
               ElementsAre("P01", "P02"));
 }
 
+TEST(DraftPersons, AFileThatNamesNobodyBesideMoreThatNameOneIsAskedFor) {
+  const auto unnamed_of = [](const std::vector<std::string>& files) {
+    std::vector<FoundRecording> found;
+    for (const std::string& file : files) found.emplace_back().path = file;
+    return keep_one_person(found).unnamed;
+  };
+  EXPECT_THAT(unnamed_of({"/d/subject_1_abd.trc", "/d/subject_1_flex.trc", "/d/live_abd.trc"}),
+              ElementsAre("/d/live_abd.trc"));
+  EXPECT_THAT(unnamed_of({"/d/subject_1_abd.trc", "/d/flex.trc"}), IsEmpty());
+  EXPECT_THAT(unnamed_of({"/d/abd.trc", "/d/flex.trc"}), IsEmpty());
+}
+
 TEST(DraftPersons, AreFoldersWhoseTrialsHaveTheSameNames) {
   EXPECT_THAT(
       persons_of({"/d/Anna M/lift 2 kg.c3d", "/d/Anna M/mvc.c3d", "/d/Bob/lift 2 kg.c3d", "/d/Bob/mvc.c3d"}, true),

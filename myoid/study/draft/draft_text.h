@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "myoid/study/open_question.h"
+
 namespace myoid::study {
 
 /// Returns a text as one line of a remark.
@@ -14,9 +16,15 @@ struct DraftText {
   std::vector<std::string> questions;  ///< The remarks "TODO" of the text.
 
   void line(const std::string& text) { toml += text + '\n'; }
-  void todo(const std::string& text) {
-    line("# TODO: " + in_remark(text));
+  /// Asks a question. A change of `answer`, a line that follows in the same table, answers it.
+  void todo(const std::string& text, const std::string& answer = {}) {
+    line(question_line(in_remark(text), answer));
     questions.push_back(text);
+  }
+  /// Asks a question above the line that answers it.
+  void ask(const std::string& text, const std::string& answer) {
+    todo(text, answer);
+    line(answer);
   }
 };
 

@@ -102,13 +102,21 @@ class TrialWriter {
     if (without_emg && use != Use::passive) use = Use::static_pose;
     if (emg != nullptr) found_[static_cast<std::size_t>(emg - found_.data())].emg_taken = true;
     out_.line("[[trial]]");
-    out_.line("name = " + toml_text(unique(f.stem)));
+    const std::string name_line = "name = " + toml_text(unique(f.stem));
+    if (std::ranges::find(around_.unnamed, f.path) != around_.unnamed.end())
+      out_.todo(
+          fmt::format("'{}' names no person, and the other files name {}: is it of the same person? If not, delete "
+                      "this trial",
+                      f.path.filename().string(), around_.person),
+          name_line);
+    out_.line(name_line);
     out_.line(key + " = " + toml_text(around_.relative(f.path)));
     if (emg != nullptr) out_.line("emg = " + toml_text(around_.relative(emg->path)));
     two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
-    out_.line("use = " + toml_text(std::string(choice_name(use))));
+    const std::string use_line = "use = " + toml_text(std::string(choice_name(use)));
+    if (without_emg && use != Use::passive) without(emg_of(f, found_, !around_.raw_emg), f.stem, use_line);
+    out_.line(use_line);
     any_calibration_ = any_calibration_ || use == Use::calibration;
-    if (without_emg && use != Use::passive) without(emg_of(f, found_, !around_.raw_emg), f.stem);
     bool stated = false;
     for (const std::filesystem::path& loads : around_.external_loads) {
       if (trial_stem(loads) != f.stem) continue;
@@ -143,41 +151,47 @@ class TrialWriter {
       if (table == around_.torques.end() || beside) table = other;
     }
     if (table == around_.torques.end()) return false;
+    const std::string line = "# external_torque = " + toml_text(around_.relative(*table));
     if (!asked_for_torque_)
       out_.todo(
           "tables of joint torques have the names of trials (each # external_torque): did a dynamometer measure them? "
-          "Take each # away. Computed by inverse dynamics: leave them, and say what was held with held_mass_kg");
+          "Take each # away. Computed by inverse dynamics: delete them, and say what was held with held_mass_kg",
+          line);
     asked_for_torque_ = true;
-    out_.line("# external_torque = " + toml_text(around_.relative(*table)));
+    out_.line(line);
     return true;
   }
 
   /// Says why a trial has no EMG: `other` is of the kind that the study does not take, or null.
-  void without(const FoundRecording* other, const std::string& stem) {
+  void without(const FoundRecording* other, const std::string& stem, const std::string& use_line) {
     const std::string why = other == nullptr
                                 ? fmt::format("no EMG was found for '{}'", stem)
                                 : fmt::format("the EMG of '{}' ({}) is {}", stem, other->path.filename().string(),
                                               other->raw ? "raw, and the study takes envelopes"
                                                          : "an envelope, and the study takes raw EMG");
     out_.todo(
-        fmt::format("{}; '{}' gives motion and torque only; use = \"passive\" if the muscles were at rest", why, stem));
+        fmt::format("{}; '{}' gives motion and torque only; use = \"passive\" if the muscles were at rest", why, stem),
+        use_line);
   }
 
   /// Writes a maximal contraction if the name says so, otherwise a question, of relaxed muscles if the name says that.
   void emg_trial(const FoundRecording& f) {
     const Use guessed = guessed_use(f.stem);
     const bool mvc = guessed == Use::mvc, passive = guessed == Use::passive;
-    if (!mvc)
-      out_.todo(fmt::format(
-          "'{}' has EMG and no motion: {}", f.path.filename().string(),
-          passive ? "relaxed muscles tell the joint's resting torque where motion and external_torque are measured; "
-                    "give these and take the # away, or delete the lines"
-                  : "give it markers or motion; or take the # away if it is a maximal contraction"));
     const std::string remark = mvc ? "" : "# ";
+    const std::string use_line =
+        remark + "use = " + toml_text(std::string(choice_name(passive ? Use::passive : Use::mvc)));
+    if (!mvc)
+      out_.todo(
+          fmt::format("'{}' has EMG and no motion: {}", f.path.filename().string(),
+                      passive ? "relaxed muscles tell the joint's resting torque where motion and external_torque are "
+                                "measured; give these and take the # away, or delete the lines"
+                              : "give it markers or motion; or take the # away if it is a maximal contraction"),
+          use_line);
     out_.line(remark + "[[trial]]");
     out_.line(remark + "name = " + toml_text(unique(f.stem)));
     out_.line(remark + "emg = " + toml_text(around_.relative(f.path)));
-    out_.line(remark + "use = " + toml_text(std::string(choice_name(passive ? Use::passive : Use::mvc))));
+    out_.line(use_line);
     out_.line("");
   }
 

@@ -16,6 +16,8 @@ struct TrialSurroundings {
   std::vector<std::filesystem::path> torques;                         ///< Tables of joint torques.
   bool own_model = false;                                             ///< The study names a model file.
   bool raw_emg = true;                                                ///< Else envelopes.
+  std::string person;                                                 ///< Whom most files name.
+  std::vector<std::filesystem::path> unnamed;                         ///< Files that name nobody, beside these.
   std::function<std::string(const std::filesystem::path&)> relative;  ///< A path as in the study.
 };
 

@@ -87,6 +87,8 @@ class Draft {
                   .torques = torques_.of_joints,
                   .own_model = model_file_.has_value(),
                   .raw_emg = raw_emg_,
+                  .person = person_.kept,
+                  .unnamed = person_.unnamed,
                   .relative = [&](const fs::path& path) { return relative(path); }},
                  out_);
     tail();
@@ -103,7 +105,7 @@ class Draft {
   }
 
   void line(const std::string& text) { out_.line(text); }
-  void todo(const std::string& text) { out_.todo(text); }
+  void todo(const std::string& text, const std::string& answer = {}) { out_.todo(text, answer); }
   [[nodiscard]] std::string relative(const fs::path& path) const {
     std::error_code error;
     const fs::path absolute = fs::absolute(path, error);
@@ -142,8 +144,11 @@ class Draft {
   void choose_coordinate() {
     const std::vector<std::string> names = usual_first(free_coordinates());
     const std::vector<std::string> channels = all_channels();
-    coordinate_ = coordinate_of_channels(model_, moved_coordinates(model_, names, recorded_angles()), channels);
-    if (coordinate_.empty()) coordinate_ = coordinate_of_channels(model_, names, channels);
+    CoordinateOfChannels chosen =
+        coordinate_of_channels(model_, moved_coordinates(model_, names, recorded_angles()), channels);
+    if (chosen.name.empty()) chosen = coordinate_of_channels(model_, names, channels);
+    coordinate_ = chosen.name;
+    more_channels_ = chosen.more;
     if (!coordinate_.empty()) return;
     coordinate_ = names.empty() ? "TODO" : names[0];
     guessed_coordinate_ = names.empty() || !is_usual(names[0]) || !channels.empty();
@@ -274,7 +279,10 @@ class Draft {
   }
 
   void subject_table() {
-    line("# A study to start from, written by `myoid init`. Lines with TODO want an answer; then:");
+    line(
+        "# A study to start from, written by `myoid init`. A TODO wants an answer: change the line below it, or "
+        "delete");
+    line("# the TODO where nothing is to change. Then:");
     line("#   myoid check study.toml");
     line("#   myoid run study.toml --out results");
     line("");
@@ -299,15 +307,16 @@ class Draft {
         std::ranges::find_if(found_, [](const FoundRecording& f) { return f.body.mass_kg.has_value(); });
     if (stated == found_.end()) {
       if (model_file_) return;
-      if (!wants_a_leg()) todo("the person's mass, for the segments of the built-in arm");
-      line("# mass_kg = 70.0");
+      constexpr const char* kMass = "# mass_kg = 70.0";
+      if (!wants_a_leg()) todo("the person's mass, for the segments of the built-in arm", kMass);
+      line(kMass);
       return;
     }
     const std::string height =
         stated->body.height_m ? fmt::format(" and a height of {:.3g} m", *stated->body.height_m) : "";
-    todo(fmt::format("is this the person's mass? {} states it (PROCESSING:BODYMASS){}",
-                     stated->path.filename().string(), height));
-    line(fmt::format("mass_kg = {:g}", *stated->body.mass_kg));
+    out_.ask(fmt::format("is this the person's mass? {} states it (PROCESSING:BODYMASS){}",
+                         stated->path.filename().string(), height),
+             fmt::format("mass_kg = {:g}", *stated->body.mass_kg));
   }
 
   /// True where the built-in arm stands for a leg's model: what it lacks is no question.
@@ -315,32 +324,36 @@ class Draft {
 
   void model_table() {
     line("[model]");
-    if (model_file_) {
-      line("file = " + toml_text(relative(*model_file_)));
-    } else {
-      line("builtin = \"arm4\"");
-      if (wants_a_leg())
-        todo(
-            "markers or EMG are those of a leg, and this built-in model is an arm: name a model of the leg with "
-            "--model, OpenSim's gait2392 or Rajagopal2016, for example; joint, markers and muscles follow from it");
-    }
+    const std::string model = model_file_ ? "file = " + toml_text(relative(*model_file_)) : "builtin = \"arm4\"";
+    if (wants_a_leg())
+      todo(
+          "markers or EMG are those of a leg, and this built-in model is an arm: name a model of the leg with "
+          "--model, OpenSim's gait2392 or Rajagopal2016, for example; joint, markers and muscles follow from it",
+          model);
     if (!other_models_.empty())
       todo(fmt::format("or one of the {}models that were found: file = {}", model_file_ ? "other " : "",
-                       list_of(other_models_)));
+                       list_of(other_models_)),
+           model);
+    line(model);
+    const std::string coordinate = "coordinate = " + toml_text(coordinate_);
     if (guessed_coordinate_ && !wants_a_leg())
-      todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
-    if (options_.coordinate.empty()) ask_for_the_side();
-    line("coordinate = " + toml_text(coordinate_));
+      todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")), coordinate);
+    if (!more_channels_.empty())
+      todo(fmt::format("which joint? More electrodes are on muscles of {}", fmt::join(more_channels_, ", ")),
+           coordinate);
+    if (options_.coordinate.empty()) ask_for_the_side(coordinate);
+    line(coordinate);
     line("");
   }
 
-  void ask_for_the_side() {
+  void ask_for_the_side(const std::string& answer) {
     const std::string other = same_on_the_other_side(model_, coordinate_, all_channels());
     if (other.empty()) return;
     todo(
         fmt::format("which side? No electrode's name states it, and this draft takes {} with the muscles of that side; "
                     "`myoid init --coordinate {}` drafts the other",
-                    coordinate_, other));
+                    coordinate_, other),
+        answer);
   }
 
   void markers_table() {
@@ -357,16 +370,16 @@ class Draft {
       return;
     }
     if (up_ == ' ') {
-      todo("the vertical axis of the laboratory: x, y or z");
-      line("up = \"y\"");
+      out_.ask("the vertical axis of the laboratory: x, y or z", "up = \"y\"");
       return;
     }
-    line(fmt::format(
+    const std::string up = fmt::format(
         "up = \"{}\"   # the model's markers stand upright in the laboratory like this ({:.0f} degrees off)", up_,
-        std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
-    if (up_cosine_ < 0.7) todo("that is not upright; is it the right axis?");
+        std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree);
+    if (up_cosine_ < 0.7) todo("this is not upright; is it the right axis?", up);
     if (!file_up_.empty() && file_up_ != std::string(1, up_))
-      todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_, file_up_because_));
+      todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_, file_up_because_), up);
+    line(up);
   }
 
   void marker_names() {
@@ -382,18 +395,17 @@ class Draft {
                       most_known_ == 0 ? "none" : fmt::format("only {}", most_known_), most_known_ == 1 ? "is" : "are",
                       fmt::join(names, ", ")));
     }
-    if (!model_file_ && elsewhere_.empty()) {
+    const bool by_name = !model_file_ && elsewhere_.empty();
+    if (by_name)
       for (const FoundRecording& f : found_) elsewhere_.merge(usual_arm_markers(f.markers.names));
-      if (!elsewhere_.empty())
-        todo("these are usual names of the same places on a right arm: are they the same? Then take the # away");
-    } else if (!elsewhere_.empty()) {
-      todo("these stand where the model has the others: are they the same? Then take the # away");
-    }
     if (elsewhere_.empty()) return;
     std::vector<std::string> pairs;
     for (const auto& [name, like] : elsewhere_)
       pairs.push_back(fmt::format("{} = {}", toml_text(name), toml_text(like)));
-    line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
+    out_.ask(by_name
+                 ? "these are usual names of the same places on a right arm: are they the same? Then take the # away"
+                 : "these stand where the model has the others: are they the same? Then take the # away",
+             fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }
 
   [[nodiscard]] bool of_other_kind(const FoundRecording& f) const { return !f.channels.empty() && f.raw != raw_emg_; }
@@ -425,10 +437,7 @@ class Draft {
     line("[emg]");
     line(fmt::format("kind = \"{}\"   # {}", raw_emg_ ? "raw" : "envelope",
                      raw_emg_ ? "by how often it goes through its median" : "it changes slowly"));
-    if (raw_emg_ && !unit) {
-      todo("the unit of the EMG, where the file does not say: V, mV or uV");
-      line("# unit = \"uV\"");
-    }
+    if (raw_emg_ && !unit) out_.ask("the unit of the EMG, where the file does not say: V, mV or uV", "# unit = \"uV\"");
     line("");
   }
 
@@ -477,25 +486,27 @@ class Draft {
 
   /// Writes a table to fill in, where no channel is named like a muscle.
   void unknown_pairs(const std::vector<std::string>& channels, const std::vector<std::string>& able) {
-    if (!wants_a_leg())
-      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", coordinate_));
     line("[[muscle]]");
+    const std::string osim = fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", "));
+    if (!wants_a_leg())
+      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", coordinate_), osim);
     line("name = \"TODO\"");
-    line(fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", ")));
+    line(osim);
     line(fmt::format("emg = \"TODO\"      # of {}", fmt::join(channels, ", ")));
     line("");
   }
 
   /// Asks what to do with muscles without electrode; the first is written as one that acts like one of `drafted`.
   void without_electrode(const std::vector<std::string>& left, const std::vector<std::string>& drafted) {
-    todo(
-        fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a group, or let them "
-                    "act as another muscle does:",
-                    coordinate_, fmt::join(left, ", ")));
+    const std::string emg = fmt::format("# emg = {{ same_as = \"TODO\" }}   # a muscle that pulls with it, of {}",
+                                        fmt::join(drafted, ", "));
+    todo(fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a group, or let them "
+                     "act as another muscle does:",
+                     coordinate_, fmt::join(left, ", ")),
+         emg);
     line("# [[muscle]]");
     line("# name = " + toml_text(left[0]));
-    line(fmt::format("# emg = {{ same_as = \"TODO\" }}   # a muscle that pulls with it, of {}",
-                     fmt::join(drafted, ", ")));
+    line(emg);
     line("");
   }
 
@@ -513,7 +524,7 @@ class Draft {
   void tail() {
     line("");
     line("[identify]");
-    line("method = [\"paper\", \"torque\"]");
+    line("# method = [\"paper\", \"torque\"]   # the default; where a muscle has without_emg, torque alone");
     for (const std::string& file : person_.left_out)
       note(RemarkCode::refused, file, file + ": left out, of another person");
     if (!draft_.remarks.empty()) line("");
@@ -527,6 +538,7 @@ class Draft {
   body::BodyModel model_;
   std::string coordinate_;
   bool guessed_coordinate_ = false;
+  std::vector<std::string> more_channels_;  ///< Coordinates with more electrodes than the chosen one.
   std::set<fs::path> loads_data_;
   TorqueTables torques_;
   std::vector<FoundRecording> found_;
