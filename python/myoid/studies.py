@@ -435,12 +435,13 @@ class InitResult(Shown):
     remarks: list[Remark] = field(default_factory=list)
 
 
-def init(dir: File, *, from_: Texts | File | Sequence[File] | None = None, model: File | None = None,
+def init(dir: File, study: File | None = None, *, from_: Texts | File | Sequence[File] | None = None, model: File | None = None,
          coordinate: str | None = None, overwrite: bool = False, progress: Report = None) -> InitResult:  # fmt: skip
     """A commented study.toml to start from: finds recordings, and pairs EMG channels with muscles.
 
     Args:
-        dir: Folder for study.toml.
+        dir: Folder for study.toml, or the file itself (.toml).
+        study: The file; None: study.toml in `dir`.
         from_: Recordings, folders of them, or a project of CEINMS, CEINMS-RT or NMSM; None: the folder itself.
         model: OpenSim model (.osim); None: the only one in the folders, else "arm4".
         coordinate: The joint, by the model's coordinate; None: guessed.

@@ -99,7 +99,7 @@ py::dict report(py::dict given) {
 py::dict init(py::dict given) {
   Work work("init", std::move(given));
   const auto o = work.options<program::InitOptions>();
-  const std::filesystem::path file = std::filesystem::path(o.folder) / "study.toml";
+  const std::filesystem::path file = program::study_file(o);
   const program::InitResult result = work.run([&] {
     check_output(file, {}, o.call.overwrite);
     program::InitResult r = program::init(o);

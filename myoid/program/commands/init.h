@@ -14,13 +14,17 @@ namespace myoid::program {
 /// Options of the draft of a study.toml.
 struct InitOptions {
   Call call;
-  std::string folder;  ///< Folder of study.toml: paths are relative to it.
+  std::string folder;  ///< Folder of study.toml: paths are relative to it. A name with .toml is the file itself.
+  std::string study;   ///< The file; empty: study.toml in the folder.
   /// Recordings, or their folders, or the project of another program; empty: the folder itself.
   std::vector<std::string> from;
   std::string model;       ///< .osim; empty: the only one in the folders, else arm4.
   std::string coordinate;  ///< The joint; empty: guessed.
 };
 void visit(InitOptions& options, study::SettingVisitor& v);
+
+/// Returns the study file that the options name.
+[[nodiscard]] std::filesystem::path study_file(const InitOptions& options);
 
 struct InitResult {
   study::StudyDraft draft;
