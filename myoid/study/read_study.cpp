@@ -170,6 +170,12 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
       if (other.name == *muscle.same_as) muscle.emg = other.emg;
     }
   }
+  const bool all_have_emg =
+      std::ranges::none_of(study.muscles, [](const MuscleSpec& m) { return m.without_emg.has_value(); });
+  if (!all_have_emg && !root["identify"]["method"]) {
+    study.identify.methods = {fit::Method::torque};
+    study.identify.leaves_out_paper = true;
+  }
   study.emg.has_mvc = std::ranges::any_of(study.trials, [](const TrialSpec& t) { return t.use == Use::mvc; });
   check_references(study);
   return study;

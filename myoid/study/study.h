@@ -269,7 +269,9 @@ inline constexpr std::string_view kMuscleLawNames[] = {"automatic", "paper", "mo
 constexpr ChoiceNames choice_names(MuscleLaw) { return kMuscleLawNames; }
 
 struct IdentifySpec {
+  /// Without the setting of a study in which a muscle has no EMG: `torque` alone.
   std::vector<fit::Method> methods{fit::Method::paper, fit::Method::torque};
+  bool leaves_out_paper = false;     ///< `methods` is the default of such a study.
   std::vector<std::string> muscles;  ///< Empty: all.
   int posterior_draws = 0;           ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
   bool gain = true;                  ///< EMG gain per channel as a nuisance with a tight prior.

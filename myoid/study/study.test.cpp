@@ -52,7 +52,14 @@ TEST(ParseStudy, AMuscleWithoutEmgHasNoChannel) {
   const Study study = parse_study(bic + bra + "\"synergies\"\n" + trial, "s.toml");
   EXPECT_EQ(study.muscles.at(1).without_emg, fit::WithoutEmg::synergies);
   EXPECT_EQ(study.muscles.at(1).emg, "");
-  EXPECT_EQ(parse_study(study_toml(study), "s.toml"), study);
+  EXPECT_EQ(study.identify.methods, std::vector{fit::Method::torque});
+  EXPECT_TRUE(study.identify.leaves_out_paper);
+  const std::string paper = "[identify]\nmethod = [\"paper\"]\n";
+  EXPECT_EQ(parse_study(paper + bic + bra + "\"unseen\"\n" + trial, "s.toml").identify.methods,
+            std::vector{fit::Method::paper});
+  Study again = parse_study(study_toml(study), "s.toml");
+  again.identify.leaves_out_paper = true;  // the text states the method
+  EXPECT_EQ(again, study);
   EXPECT_NE(study_message(bic + bra + "\"synergy\"\n" + trial).find("synergies"), std::string::npos);
   EXPECT_NE(study_message(bic + bra + "\"unseen\"\nemg = \"biceps\"\n" + trial), "");
   EXPECT_NE(study_message(bra + "\"unseen\"\n" + trial).find("without_emg"), std::string::npos);

@@ -139,7 +139,7 @@ void require_torques(const Study& study) {
   if (other == study.identify.methods.end() || without == study.muscles.end()) return;
   throw InvalidInput(
       fmt::format("{}: [[muscle]] {}: found without_emg and method = \"{}\", which needs the EMG of every muscle; "
-                  "expected [identify] method = \"torque\"",
+                  "expected [identify] method = \"torque\", or no method, which takes it",
                   study.file.string(), without->name, fit::name(*other)));
 }
 
@@ -181,6 +181,16 @@ body::BodyModel prepared(const Study& study, body::BodyModel model) {
 }
 
 }  // namespace
+
+std::optional<Remark> without_paper(const Study& study) {
+  if (!study.identify.leaves_out_paper) return std::nullopt;
+  const auto without =
+      std::ranges::find_if(study.muscles, [](const MuscleSpec& m) { return m.without_emg.has_value(); });
+  return Remark{.severity = Severity::note,
+                .where = "study",
+                .says = fmt::format("method paper is left out: it takes each muscle by its EMG, and {} has none",
+                                    without == study.muscles.end() ? "a muscle" : without->name)};
+}
 
 std::string assumed_starts(const Study& study) {
   if (!study.model.is_none()) return "";

@@ -7,6 +7,7 @@
 #include "myoid/body/kinematics/lumped_muscles.h"
 #include "myoid/body/model/body_model.h"
 #include "myoid/fit/measurement/study_data.h"
+#include "myoid/ground/core/remark.h"
 #include "myoid/ground/files/marker_series.h"
 #include "myoid/study/study.h"
 
@@ -46,6 +47,9 @@ namespace myoid::study {
 /// Describes the starting values that a study without a body does not state and takes from the literature, in a
 /// sentence; empty: none.
 [[nodiscard]] std::string assumed_starts(const Study& study);
+
+/// Returns the note that the default methods leave `paper` out, because a muscle has no EMG; empty: they do not.
+[[nodiscard]] std::optional<Remark> without_paper(const Study& study);
 
 /// Returns the model's muscles that make up each [[muscle]], weighted by their F_max.
 [[nodiscard]] std::vector<body::MuscleGroup> muscle_groups(const Study& study, const body::BodyModel& model);

@@ -241,7 +241,9 @@ constexpr std::pair<std::string_view, std::string_view> kRetired[] = {
 /// Visits [identify]: the fit itself.
 void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
   static constexpr std::string_view kTendons[] = {"rigid", "elastic"};
-  v.choices("method", identify.methods, {.says = "The methods, one or several."});
+  v.choices("method", identify.methods,
+            {.says = "The methods, one or several. Without the setting, a study in which a muscle has `without_emg` "
+                     "takes `torque` alone."});
   v.texts("muscles", identify.muscles, {.says = "The muscles whose parameters are found.", .word = "all"});
   v.count("posterior_draws", identify.posterior_draws,
           {.says = "So many draws by Hamiltonian Monte Carlo make the intervals, in place of an "

@@ -89,7 +89,10 @@ void visit(RunOptions& o, study::SettingVisitor& v) {
 
 RunResult run(const RunOptions& o) {
   study::Study study = study::read_filmed_study(o.study, o.video);
-  if (!o.methods.empty()) study.identify.methods = o.methods;
+  if (!o.methods.empty()) {
+    study.identify.methods = o.methods;
+    study.identify.leaves_out_paper = false;
+  }
   return run(study, o);
 }
 
@@ -97,6 +100,7 @@ RunResult run(const study::Study& study, const RunOptions& o) {
   Remarks remarks(o.call);
   RunResult result;
   for (const std::string& text : study.identify.without_effect) remarks.warn(text);
+  if (const auto left_out = study::without_paper(study)) remarks.add(*left_out);
   if (const std::string idle = seed_without_effect(study, o.call); !idle.empty()) remarks.warn(idle);
   if (const std::string assumed = study::assumed_starts(study); !assumed.empty()) remarks.warn(assumed);
   result.study = run::run_study(study, {.start_s = o.call.start_s,

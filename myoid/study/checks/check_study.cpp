@@ -50,6 +50,7 @@ class StudyCheck {
           "[subject] mass_kg is not given: the built-in arm has the segments of a person of 73 kg");
     for (const std::string& text : study_.identify.without_effect)
       add(RemarkCode::general, Severity::warning, "study", text);
+    if (auto left_out = without_paper(study_)) remarks_.push_back(std::move(*left_out));
     check_todos();
     if (study_.truth) {
       attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });
