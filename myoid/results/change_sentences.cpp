@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,12 +17,24 @@
 namespace myoid::results {
 namespace {
 
-/// Returns "stronger", "optimal fiber length larger".
+bool is_torque(const std::string& parameter) {
+  return fit::is_voluntary(parameter) && !parameter.starts_with(fit::kVoluntaryAngle);
+}
+
+/// Returns "F_max", "greatest voluntary torque", "optimal fiber length".
+std::string quantity(const std::string& parameter) {
+  if (parameter == "max_isometric_force") return "F_max";
+  return is_torque(parameter) ? "greatest voluntary torque" : page::spelled(parameter);
+}
+
+/// Returns "stronger: F_max larger", "optimal fiber length larger".
 std::string direction(const std::string& parameter, double difference) {
-  const bool more = difference > 0.0;
-  const bool torque = fit::is_voluntary(parameter) && !parameter.starts_with(fit::kVoluntaryAngle);
-  if (parameter == "max_isometric_force" || torque) return more ? "stronger" : "weaker";
-  return fmt::format("{} {}", page::spelled(parameter), more ? "larger" : "smaller");
+  const bool more = difference > 0.0, strength = parameter == "max_isometric_force" || is_torque(parameter);
+  return fmt::format("{}{} {}",
+                     !strength ? ""
+                     : more    ? "stronger: "
+                               : "weaker: ",
+                     quantity(parameter), more ? "larger" : "smaller");
 }
 
 std::string with_unit(double value, Unit unit) {
@@ -65,6 +79,11 @@ std::vector<const ComparedParameter*> counted_parameters(const RunComparison& co
 }
 
 std::string change_text(const ComparedParameter& p) {
+  const double size = std::abs(p.difference);
+  if (p.change == Change::treatment)
+    return fmt::format("{}, {}: {}{} {} by the second treatment", owner_of(p), quantity(p.first.parameter),
+                       with_unit(size, p.first.unit), has_scale(p) ? fmt::format(" ({})", share_or_size(p, size)) : "",
+                       p.difference > 0.0 ? "more" : "less");
   if (p.change == Change::cannot_tell) {
     if (!rests_on_measurement(p.first.method))
       return fmt::format("{}: not compared: method {} fits forces that nobody measured", owner_of(p),
@@ -78,7 +97,7 @@ std::string change_text(const ComparedParameter& p) {
     return fmt::format("{}: not compared: {} in the first session, {} in the second", owner_of(p),
                        name(p.first.verdict), name(p.second.verdict));
   }
-  const double seen = *p.smallest_detectable, size = std::abs(p.difference);
+  const double seen = *p.smallest_detectable;
   const std::string unseen = fmt::format("a change below {} would not have been seen", share_or_size(p, seen));
   if (p.differs_alone_only())
     return fmt::format(
@@ -86,7 +105,7 @@ std::string change_text(const ComparedParameter& p) {
         owner_of(p), direction(p.first.parameter, p.difference), with_unit(size, p.first.unit), *p.p_alone, p.tested,
         *p.p_value);
   if (p.change == Change::no_change)
-    return fmt::format("{}: no change of {} shows; {}", owner_of(p), page::spelled(p.first.parameter), unseen);
+    return fmt::format("{}: no change of {} shows; {}", owner_of(p), quantity(p.first.parameter), unseen);
   const std::string share = has_scale(p) ? share_or_size(p, size) + ", " : "";
   return fmt::format("{} {} by {} ({}95 % {} to {}); {}", owner_of(p), direction(p.first.parameter, p.difference),
                      with_unit(size, p.first.unit), share,
@@ -111,11 +130,33 @@ std::string reading_sentence(const RunComparison& comparison) {
          "session shows the person's numbers first, which allow for such errors and so may differ.";
 }
 
+namespace {
+
+constexpr std::size_t kNamedChanges = 4;
+
+/// Says that the differences of one recording are of its treatment, and names the largest of strengths, else of the
+/// other numbers.
+std::string treatment_sentence(const RunComparison& comparison, const std::vector<const ComparedParameter*>& counted) {
+  std::vector<const ComparedParameter*> found;
+  std::ranges::copy_if(counted, std::back_inserter(found),
+                       [](const ComparedParameter* p) { return p->change == Change::treatment && has_scale(*p); });
+  const auto share = [](const ComparedParameter* p) { return std::abs(p->difference / p->of_first.value); };
+  std::ranges::stable_sort(found, [&](const ComparedParameter* a, const ComparedParameter* b) {
+    return std::pair(rank(a->first), -share(a)) < std::pair(rank(b->first), -share(b));
+  });
+  std::vector<std::string> largest;
+  for (std::size_t i = 0; i < std::min(found.size(), kNamedChanges); ++i) largest.push_back(change_text(*found[i]));
+  return fmt::format("{}: differences are of the treatment, not of the person{}{}.", comparison.one_recording,
+                     largest.empty() ? "" : ". ", fmt::join(largest, ". "));
+}
+
+}  // namespace
+
 std::string changes_sentence(const RunComparison& comparison) {
-  constexpr std::size_t kNamed = 4;
   if (!comparison.failed.empty())
     return fmt::format("No number is compared: {}. Mend that first.", fmt::join(comparison.failed, "; "));
   std::vector<const ComparedParameter*> counted = counted_parameters(comparison);
+  if (!comparison.one_recording.empty()) return treatment_sentence(comparison, counted);
   std::ranges::stable_sort(counted, {}, [](const ComparedParameter* p) { return rank(p->first); });
   std::vector<std::string> found;
   std::size_t same = 0, untold = 0, alone = 0;
@@ -133,7 +174,7 @@ std::string changes_sentence(const RunComparison& comparison) {
     rest += fmt::format(". {} by itself, but {} numbers were tested, of which one in 20 does so by chance (Holm)",
                         alone == 1 ? "1 of them differs" : fmt::format("{} of them differ", alone), tested);
   if (found.empty()) return fmt::format("No number changed by more than chance explains: {}.", rest);
-  const std::size_t more = found.size() - std::min(found.size(), kNamed);
+  const std::size_t more = found.size() - std::min(found.size(), kNamedChanges);
   found.resize(found.size() - more);
   return fmt::format("{}{}. {}.", fmt::join(found, ". "), more > 0 ? fmt::format(". And {} more", more) : "", rest);
 }

@@ -16,8 +16,9 @@ namespace myoid::results {
 /// the other methods that rest on measurements.
 [[nodiscard]] std::vector<const ComparedParameter*> counted_parameters(const RunComparison& comparison);
 
-/// Returns "BIC stronger by 264 N (25 %, 95 % 180 to 348 N); a change below 8 % would not have been seen" of a number
-/// that both sessions tell, and why a number is not compared otherwise.
+/// Returns "Biceps stronger: F_max larger by 264 N (25 %, 95 % 180 to 348 N); a change below 8 % would not have been
+/// seen" of a number that both sessions tell, "Biceps, F_max: 264 N (25 %) more by the second treatment" of one
+/// recording, and why a number is not compared otherwise.
 [[nodiscard]] std::string change_text(const ComparedParameter& parameter);
 
 /// Returns two digits of a share in percent, three from 100 on: "8", "-63", "105".
@@ -36,8 +37,8 @@ namespace myoid::results {
 /// does. `compare` and its page both print it.
 [[nodiscard]] std::string unlike_sentence(const RunComparison& comparison);
 
-/// Returns the sentences of all counted numbers that differ, "No number changed ..." if none does. `compare` and the
-/// group's page both print it.
+/// Returns the sentences of all counted numbers that differ, "No number changed ..." if none does; of one recording
+/// that differences are of its treatment. `compare` and the group's page both print it.
 [[nodiscard]] std::string changes_sentence(const RunComparison& comparison);
 
 }  // namespace myoid::results

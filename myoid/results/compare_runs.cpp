@@ -233,9 +233,11 @@ std::string day_of(const std::filesystem::path& folder) {
   return day_text(floor<days>(file_clock::to_sys(written)));
 }
 
-/// Returns a number of both sessions with its difference, before the adjustment; without one if a session is not
-/// `usable`.
-ComparedParameter compared(const Run& run, const Key& key, const ParameterEstimate& second, bool usable) {
+/// How two runs tell a number of each other: by a test, by its difference alone, or not.
+enum class Test { of_sessions, of_treatments, none };
+
+/// Returns a number of both sessions with its difference, before the adjustment.
+ComparedParameter compared(const Run& run, const Key& key, const ParameterEstimate& second, Test test) {
   ComparedParameter p{.muscle = std::get<0>(key), .first = run.estimates.at(key), .second = second};
   if (const auto sharers = run.sharers.find(key); sharers != run.sharers.end())
     p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
@@ -243,13 +245,30 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
   p.of_first = one.shown;
   p.of_second = other.shown;
   p.difference = other.shown.value - one.shown.value;
-  if (usable && told(p.first) && told(p.second)) {
+  const bool both_tell = told(p.first) && told(p.second);
+  if (both_tell && test == Test::of_treatments) p.change = Change::treatment;
+  if (both_tell && test == Test::of_sessions) {
     const double se = std::hypot(one.sd, other.sd);
     p.smallest_detectable = kNormal95 * se;
     p.p_alone = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
     p.p_value = p.p_alone;
   }
   return p;
+}
+
+/// Returns the sentence about the recording that both runs rest on; empty: they rest on two.
+std::string one_recording(const study::RunIdentity& first, const study::RunIdentity& second) {
+  if (!study::of_one_recording(first, second)) return "";
+  const std::vector<std::string> common = study::common_recordings(first, second);
+  constexpr std::size_t kNamed = 4;
+  std::vector<std::string> settings = study::differing_settings(first, second);
+  const std::size_t more = settings.size() - std::min(settings.size(), kNamed);
+  settings.resize(settings.size() - more);
+  const std::string by = settings.empty() ? std::string("their settings are the same")
+                                          : fmt::format("they differ in the settings {}{}", fmt::join(settings, ", "),
+                                                        more > 0 ? fmt::format(" and {} more", more) : "");
+  return fmt::format("Both runs rest on the same recording ({} of {} files, such as {}), and {}", common.size(),
+                     first.recordings.size(), common.front(), by);
 }
 
 std::vector<ComparedTrial> compared_trials(const Run& a, const Run& b) {
@@ -268,7 +287,7 @@ std::vector<ComparedTrial> compared_trials(const Run& a, const Run& b) {
 }  // namespace
 
 std::string_view name(Change change) {
-  static constexpr std::array<std::string_view, 3> kNames{"differs", "no_change", "cannot_tell"};
+  static constexpr std::array<std::string_view, 4> kNames{"differs", "no_change", "cannot_tell", "treatment"};
   return kNames[static_cast<std::size_t>(change)];
 }
 
@@ -285,8 +304,9 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   const Run b = read_run(second);
   RunComparison comparison{
       .first = first, .second = second, .first_date = day_of(first), .second_date = day_of(second)};
-  study::IdentityDifferences unlike =
-      study::differences(study::read_run_identity(first), study::read_run_identity(second));
+  const study::RunIdentity one = study::read_run_identity(first), other = study::read_run_identity(second);
+  comparison.one_recording = one_recording(one, other);
+  study::IdentityDifferences unlike = study::differences(one, other);
   comparison.unlike = std::move(unlike.grave);
   std::ranges::move(unlike.other, std::back_inserter(comparison.unlike));
   const auto add_failed = [&](std::string_view which, const std::filesystem::path& folder) {
@@ -307,12 +327,15 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
         "at full effort, and are not compared",
         *a.maximal ? "second" : "first"));
   for (const Key& key : a.order) {
-    const auto other = b.estimates.find(key);
-    if (other == b.estimates.end())
+    const auto same = b.estimates.find(key);
+    const bool usable = comparison.failed.empty() && alike.holds(std::get<1>(key));
+    if (same == b.estimates.end())
       comparison.remarks.push_back(in_one_session(text_of(key), "first"));
     else
-      comparison.parameters.push_back(
-          compared(a, key, other->second, comparison.failed.empty() && alike.holds(std::get<1>(key))));
+      comparison.parameters.push_back(compared(a, key, same->second,
+                                               !usable                            ? Test::none
+                                               : comparison.one_recording.empty() ? Test::of_sessions
+                                                                                  : Test::of_treatments));
   }
   for (const Key& key : b.order) {
     if (!a.estimates.contains(key)) comparison.remarks.push_back(in_one_session(text_of(key), "second"));

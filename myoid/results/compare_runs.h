@@ -16,6 +16,7 @@ enum class Change {
   differs,      ///< By more than chance explains.
   no_change,    ///< Both recordings determine the number, and no difference shows.
   cannot_tell,  ///< A recording does not determine the number, so equality would mean nothing.
+  treatment,    ///< Both runs rest on one recording: a difference is of its treatment, not of the person.
 };
 [[nodiscard]] std::string_view name(Change change);
 
@@ -55,13 +56,15 @@ struct RunComparison {
   std::vector<ComparedTrial> trials;
   std::vector<std::string> failed;  ///< Sessions with a failed gate, in sentences: their numbers are not compared.
   std::vector<std::string> unlike;  ///< Differences of model, person, muscles or estimator.
-  std::vector<Remark> remarks;      ///< Numbers that only one session has; `about` names them.
+  /// "Both runs rest on the same recording ...", and the settings in which they differ; empty: on two recordings.
+  std::string one_recording;
+  std::vector<Remark> remarks;  ///< Numbers that only one session has; `about` names them.
 };
 
 /// Returns the methods of the compared numbers, in order of appearance.
 [[nodiscard]] std::vector<fit::Method> methods_of(const RunComparison& comparison);
 
-/// Compares two finished runs number by number, of one person on two days or of one recording by two studies: z =
+/// Compares two finished runs number by number, of one person on two days or of one recording treated differently: z =
 /// (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, with p-values adjusted for their number by
 /// Holm's method, the greatest voluntary torques by themselves: they have 3 of the 5 % of false alarms. If both runs
 /// have a second reading, numbers and standard errors are those of the reading given geometry and sensors, because
@@ -69,8 +72,9 @@ struct RunComparison {
 /// prior_dominated, not_identifiable or non_physical is not compared: both may agree on the prior alone; nor is a
 /// number of method `paper`, whose forces nobody measured, nor any number of a run with a failed gate, nor a strength
 /// at full effort with one at the largest EMG, nor a number of all muscles of a joint where the muscles differ. The
-/// sessions count as independent; a shared prior makes the test cautious. Throws ReadError if a folder holds no
-/// parameters.json of a run.
+/// sessions count as independent; a shared prior makes the test cautious. Numbers of one recording are not tested: they
+/// share its errors, and no difference is a change of the person. Throws ReadError if a folder holds no parameters.json
+/// of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second);
 
 }  // namespace myoid::results

@@ -83,6 +83,28 @@ TEST(CompareRuns, ASessionWithAFailedGateTellsNoChange) {
               ::testing::HasSubstr("the second session failed: Predicts"));
 }
 
+TEST(CompareRuns, OneRecordingTellsNoChangeOfThePerson) {
+  const test::TemporaryFolder folder;
+  const auto of_recording = [&](const char* name, double strength, const char* hash) {
+    const auto run_folder = run(folder.path() / name, {{"BIC", strength, 5, "identified"}}, 1.0);
+    std::string text = read_text_file(run_folder / "parameters.json");
+    text.insert(1, fmt::format(R"("provenance": {{"options": {{"model": {{"builtin": "arm4"}}}},
+                                 "inputs": [{{"path": "a.trc", "sha256": "{}"}}]}}, )",
+                               hash));
+    write_file(run_folder / "parameters.json", text);
+    return run_folder;
+  };
+  const auto first = of_recording("one", 600, "1");
+  const RunComparison other = compare_runs(first, of_recording("two", 900, "2"));
+  EXPECT_EQ(other.parameters.at(0).change, Change::differs);
+  EXPECT_EQ(other.one_recording, "");
+  const RunComparison same = compare_runs(first, of_recording("same", 900, "1"));
+  EXPECT_EQ(same.parameters.at(0).change, Change::treatment);
+  EXPECT_FALSE(same.parameters[0].p_value);
+  EXPECT_NE(same.one_recording, "");
+  EXPECT_EQ(changes_sentence(same).find("stronger"), std::string::npos);
+}
+
 TEST(CompareRuns, WhatErrsAlikeInBothSessionsHidesNoChange) {
   const test::TemporaryFolder folder;
   const auto session = [&](const char* name, double strength) {

@@ -23,6 +23,7 @@ using page::PlainUnit;
 page::Badge badge(Change change) {
   return change == Change::differs     ? page::Badge::info
          : change == Change::no_change ? page::Badge::good
+         : change == Change::treatment ? page::Badge::none
                                        : page::Badge::weak;
 }
 
@@ -140,11 +141,13 @@ page::Table compared_table(const RunComparison& comparison, fit::Method of, bool
 
 page::Report comparison_report(const RunComparison& comparison) {
   page::Report page{
-      .title = "Two sessions compared",
+      .title = comparison.one_recording.empty() ? "Two sessions compared" : "Two treatments of one recording",
       .subtitle = comparison.first.string() + " and " + comparison.second.string(),
       .headline = headline(comparison),
       .assumptions = {
-          "The two sessions are independent; where both used the same prior, the test is cautious.",
+          comparison.one_recording.empty()
+              ? "The two sessions are independent; where both used the same prior, the test is cautious."
+              : "Both runs share the errors of one recording: no difference is tested.",
           "A number that a session calls prior_dominated, not_identifiable or non_physical is not compared.",
           "Method paper fits forces that the program shared among the muscles: its numbers are shown, not compared.",
           "The days are those on which the results were written."}};

@@ -25,6 +25,25 @@ std::string text(const json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+/// Adds the settings of a table by their names. Tables of a list go by their `name`, else by their number.
+void add_settings(const json& of, const std::string& name, std::map<std::string, std::string>& settings) {
+  const auto below = [&](const std::string& key) { return name.empty() ? key : fmt::format("{} {}", name, key); };
+  if (of.is_object()) {
+    for (const auto& [key, value] : of.items())
+      if (key != "name") add_settings(value, below(key), settings);
+    return;
+  }
+  const bool tables = of.is_array() && std::ranges::any_of(of, [](const json& entry) { return entry.is_object(); });
+  if (!tables) {
+    settings[name] = of.dump();
+    return;
+  }
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const std::string own = of[i].is_object() ? text(of[i], "name") : "";
+    add_settings(of[i], below(own.empty() ? std::to_string(i + 1) : own), settings);
+  }
+}
+
 /// Reads the identity from the options that study_json writes.
 RunIdentity identity_of(const json& options) {
   RunIdentity identity;
@@ -44,6 +63,7 @@ RunIdentity identity_of(const json& options) {
   if (const auto muscles = options.find("muscle"); muscles != options.end()) {
     for (const json& muscle : *muscles) identity.muscles.push_back(text(muscle, "name"));
   }
+  add_settings(options, "", identity.settings);
   return identity;
 }
 
@@ -58,12 +78,7 @@ bool same_model(const RunIdentity& a, const RunIdentity& b) {
 
 /// Returns a sentence on recordings that two results both rest on; empty if there are none.
 std::string shared_recordings(const RunIdentity& here, const RunIdentity& there) {
-  std::vector<std::string> both;
-  for (const RecordedFile& file : here.recordings) {
-    if (std::any_of(there.recordings.begin(), there.recordings.end(),
-                    [&](const RecordedFile& other) { return other.sha256 == file.sha256; }))
-      both.push_back(file.name);
-  }
+  const std::vector<std::string> both = common_recordings(here, there);
   if (both.empty()) return "";
   return fmt::format("both rest on the recording {}{}: is one person there twice?", both.front(),
                      both.size() > 1 ? fmt::format(" and {} more", both.size() - 1) : "");
@@ -111,6 +126,37 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
         fmt::format("is not the result of a run: {}; run the study (myoid run) and give the folder of its result",
                     json_error_text(error)));
   }
+}
+
+std::vector<std::string> common_recordings(const RunIdentity& here, const RunIdentity& there) {
+  std::vector<std::string> both;
+  for (const RecordedFile& file : here.recordings)
+    if (std::ranges::find(there.recordings, file.sha256, &RecordedFile::sha256) != there.recordings.end())
+      both.push_back(file.name);
+  return both;
+}
+
+bool of_one_recording(const RunIdentity& here, const RunIdentity& there) {
+  const std::size_t fewer = std::min(here.recordings.size(), there.recordings.size());
+  return 2 * std::min(common_recordings(here, there).size(), common_recordings(there, here).size()) > fewer;
+}
+
+std::vector<std::string> differing_settings(const RunIdentity& here, const RunIdentity& there) {
+  const auto is_path = [](const std::string& text) {
+    return text.find('/') != std::string::npos || text.find('\\') != std::string::npos;
+  };
+  std::vector<std::string> names;
+  const auto compare = [&](const RunIdentity& a, const RunIdentity& b, bool both) {
+    for (const auto& [name, value] : a.settings) {
+      const auto other = b.settings.find(name);
+      if (other == b.settings.end() || (both && value != other->second && !(is_path(value) && is_path(other->second))))
+        names.push_back(name);
+    }
+  };
+  compare(here, there, true);
+  compare(there, here, false);
+  std::ranges::sort(names);
+  return names;
 }
 
 IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there, Whose whose) {

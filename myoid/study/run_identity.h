@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,18 @@ struct RunIdentity {
   std::string model_sha256;  ///< Hash of the file; empty without a file.
   std::vector<std::string> coordinates, muscles;
   std::vector<RecordedFile> recordings;  ///< Of a run; a study alone has none.
+  /// Settings by their names, "muscle BRA emg", as text.
+  std::map<std::string, std::string> settings;
 };
+
+/// Returns the names of the recordings of `here` whose content `there` has, too.
+[[nodiscard]] std::vector<std::string> common_recordings(const RunIdentity& here, const RunIdentity& there);
+
+/// Returns true if both runs rest on one recording: more than half of the files of the run with fewer are common.
+[[nodiscard]] bool of_one_recording(const RunIdentity& here, const RunIdentity& there);
+
+/// Returns the names of the settings in which two runs differ, but for paths of files.
+[[nodiscard]] std::vector<std::string> differing_settings(const RunIdentity& here, const RunIdentity& there);
 
 /// Returns the identity of a study. Throws ReadError if its model's file cannot be read.
 [[nodiscard]] RunIdentity identity_of(const Study& study);

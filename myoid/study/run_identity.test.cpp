@@ -1,5 +1,7 @@
 #include "myoid/study/run_identity.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,6 +51,28 @@ TEST(RunIdentity, OfAStudyIsThatOfItsRun) {
   const IdentityDifferences same = differences(identity_of(study), of_run);
   EXPECT_TRUE(same.grave.empty());
   EXPECT_TRUE(same.other.empty());
+}
+
+TEST(RunIdentity, OneRecordingIsKnownByMostOfItsFiles) {
+  RunIdentity first, second;
+  first.recordings = {{"a.trc", "1"}, {"b.trc", "2"}, {"mvc.sto", "3"}};
+  second.recordings = {{"renamed.trc", "1"}, {"other.trc", "4"}, {"later.trc", "5"}};
+  EXPECT_EQ(common_recordings(first, second), std::vector<std::string>{"a.trc"});
+  EXPECT_FALSE(of_one_recording(first, second));
+  second.recordings[1].sha256 = "2";
+  EXPECT_TRUE(of_one_recording(first, second));
+  EXPECT_FALSE(of_one_recording({}, second));
+}
+
+TEST(RunIdentity, SettingsThatDifferHaveTheirNames) {
+  const Study study = study_of({"BIC", "TRI"});
+  Study other = study;
+  other.muscles[1].without_emg = fit::WithoutEmg::unseen;
+  other.identify.cross_validate = false;
+  const std::vector<std::string> names = differing_settings(identity_of(study), identity_of(other));
+  EXPECT_EQ(std::ranges::count(names, "identify cross_validate"), 1);
+  EXPECT_EQ(std::ranges::count(names, "muscle TRI without_emg"), 1);
+  EXPECT_TRUE(differing_settings(identity_of(study), identity_of(study)).empty());
 }
 
 TEST(RunIdentity, AnotherModelOrNoCommonMuscleIsGrave) {

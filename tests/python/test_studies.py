@@ -165,7 +165,7 @@ def test_check_compare_design(recording, result, tmp_path):
         warnings.simplefilter("ignore", myoid.MyoidWarning)
         other = myoid.run(recording, out=tmp_path / "other")
         compared = myoid.compare(result, other, out=tmp_path / "compared")
-    assert {row["change"] for row in compared.parameters} <= {"no_change", "cannot_tell"}
+    assert {row["change"] for row in compared.parameters} <= {"treatment", "cannot_tell"}
     assert all(row["difference"] == 0 for row in compared.parameters)
     assert (tmp_path / "compared/report.html").is_file()
     planned = myoid.design(model="arm4", targets="max_isometric_force", movements=2, persons=2)

@@ -93,6 +93,10 @@ void add_row(const page::StripGrid& grid, std::size_t column, page::Table& table
 page::Section change_section(const std::vector<PersonChange>& changes) {
   page::Section section{.id = "changes", .heading = "From the first session to the second"};
   for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (!changes[i].comparison.one_recording.empty()) {
+      section.paragraphs.push_back(fmt::format("{}: {}", changes[i].person, changes_sentence(changes[i].comparison)));
+      continue;
+    }
     for (const ComparedParameter* p : counted_parameters(changes[i].comparison))
       place(section.grids, changes, i, *p) = change_cell(*p);
     if (!changes[i].comparison.unlike.empty())

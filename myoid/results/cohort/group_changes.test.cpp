@@ -42,6 +42,15 @@ TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
   EXPECT_EQ(row[7].text, "-");  // a standard deviation of two is no number
 }
 
+TEST(ChangeSection, TwoTreatmentsOfOneRecordingAreNoChange) {
+  PersonChange treated = person("A", {compared(Method::torque, 80.0, Change::treatment)});
+  treated.comparison.one_recording = "Both runs rest on the same recording";
+  const page::Section section = change_section({treated});
+  EXPECT_TRUE(section.grids.empty());
+  EXPECT_TRUE(section.tables.empty());
+  EXPECT_EQ(section.paragraphs.size(), 1U);
+}
+
 TEST(ChangeSection, AnglesAreInDegrees) {
   ComparedParameter angle = compared(Method::torque, 0.5235987755982988, Change::differs);  // pi / 6
   angle.first.unit = angle.second.unit = Unit::radian;

@@ -36,11 +36,15 @@ std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
 /// Returns the persons' changes: "P7: Biceps stronger by 150 N (25 %, ...)."
 std::string change_sentence(const std::vector<PersonChange>& changes) {
   constexpr std::size_t kNamed = 4;
-  std::vector<std::string> found;
+  std::vector<std::string> found, treated;
   for (const PersonChange& person : changes) {
+    if (!person.comparison.one_recording.empty()) treated.push_back(person.person);
     for (const ComparedParameter* p : counted_parameters(person.comparison))
       if (p->change == Change::differs) found.push_back(fmt::format("{}: {}", person.person, change_text(*p)));
   }
+  if (!treated.empty())
+    found.insert(found.begin(), fmt::format("Differences of {} are of the treatment: both runs rest on one recording",
+                                            fmt::join(treated, ", ")));
   if (found.empty()) return "No number of any person changed by more than chance explains.";
   const std::size_t more = found.size() - std::min(found.size(), kNamed);
   found.resize(found.size() - more);
