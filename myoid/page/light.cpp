@@ -30,8 +30,12 @@ std::string_view shape(GateStatus status) {
 Light light_of(const std::vector<Gate>& gates) {
   const auto count = [&](GateStatus status) { return std::ranges::count(gates, status, &Gate::status); };
   Light light;
-  light.answered = fmt::format("{} of {} questions about the recording and the fit are answered well",
-                               count(GateStatus::pass), std::ssize(gates) - count(GateStatus::info));
+  std::vector<std::string> unasked;
+  for (const Gate& gate : gates)
+    if (!gate.asked) unasked.push_back(gate.name);
+  light.answered = fmt::format("{} of {} questions about the recording and the fit are answered well{}",
+                               count(GateStatus::pass), std::ssize(gates) - count(GateStatus::info),
+                               unasked.empty() ? "" : fmt::format(" (not asked: {})", fmt::join(unasked, "; ")));
   if (count(GateStatus::fail) > 0) {
     light.status = GateStatus::fail;
     light.head = "Do not use the numbers";
@@ -41,7 +45,8 @@ Light light_of(const std::vector<Gate>& gates) {
     light.head = "Use the numbers with caution";
     light.leads_to = "; these ask for caution:";
   } else {
-    light.head = "The recording passed every question";
+    light.head =
+        unasked.empty() ? "The recording passed every question" : "The recording passed the questions that were asked";
     light.leads_to = ".";
     return light;
   }

@@ -21,6 +21,13 @@ TEST(Light, HasTheColorAndTheShapeOfTheWorstAnswer) {
   EXPECT_EQ(light_of({good, doubtful}).besides, "");
 }
 
+TEST(Light, CountsNoQuestionThatWasNotAsked) {
+  const Gate good{.name = "Markers fit", .status = GateStatus::pass};
+  const Gate unasked{.name = "Predicts", .status = GateStatus::info, .asked = false};
+  EXPECT_NE(light_of({good}).head, light_of({good, unasked}).head);
+  EXPECT_THAT(light_of({good, unasked}).answered, testing::AllOf(HasSubstr("1 of 1"), HasSubstr(unasked.name)));
+}
+
 TEST(Light, NamesWhatExplainsTheOthersFirst) {
   const Gate bad{.name = "Fit converged", .status = GateStatus::fail};
   const Gate cause{.name = "Electrodes", .status = GateStatus::warn, .explains = true};

@@ -88,6 +88,7 @@ struct Gate {
   std::string threshold;  ///< "below 10 mm"
   std::string why;        ///< Consequence of the answer, one sentence.
   bool explains = false;  ///< A mistake that explains other answers: it is named first and in full.
+  bool asked = true;      ///< False: the question counts neither as answered nor as open.
 };
 
 /// One estimated number beside the knowledge before the recording: a row of the forest plot.

@@ -17,6 +17,7 @@
 #include "myoid/fit/methods/cross_validation.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/posterior/exploration.h"
+#include "myoid/ground/core/progress_part.h"
 #include "myoid/ground/math/statistics.h"
 
 namespace myoid::run {
@@ -218,12 +219,12 @@ class Mistakes {
  private:
   /// Fits the data without the mistake, and keeps it if the evidence is the greatest so far.
   void consider(const MistakenEmg& mistake, const StudyData& without, const EstimatorOptions& options) {
-    const auto log_evidence = [](const StudyData& of, const EstimatorOptions& how) {
+    const auto log_evidence = [&](const StudyData& of, EstimatorOptions how) {
+      how.progress = next_part();
       return fit::explore(of, how).modes.front().mode.log_evidence;
     };
     if (!as_it_is_) as_it_is_ = log_evidence(data_, fit::beginning_at(fit_, plain_));
     const double odds = log_evidence(without, options) - *as_it_is_;
-    progress_.tell(1.0 - std::pow(0.7, ++considered_), "looks for mistaken EMG");  // nobody knows how many follow
     if (odds <= (best_ ? best_->log_odds : least_odds_)) return;
     best_ = mistake;
     best_->log_odds = odds;
@@ -236,11 +237,13 @@ class Mistakes {
     fit::Recorded session;
   };
   /// Fits without a trial; empty if it is the only one.
-  [[nodiscard]] std::optional<ByOthers> without(std::size_t trial) const {
+  [[nodiscard]] std::optional<ByOthers> without(std::size_t trial) {
     StudyData others = data_;
     others.trials[trial].calibration = false;
     if (std::ranges::none_of(others.trials, &TrialData::calibration)) return {};
-    const fit::Exploration found = fit::explore(others, fit::beginning_at(fit_, plain_));
+    EstimatorOptions how = fit::beginning_at(fit_, plain_);
+    how.progress = next_part();
+    const fit::Exploration found = fit::explore(others, how);
     const Density& density = *found.modes.front().density;
     const Eigen::VectorXd& x = found.modes.front().mode.x;
     FittedUnknowns told;
@@ -270,6 +273,17 @@ class Mistakes {
     for (std::size_t i = 0; i < found.size(); ++i)
       found[i] -= 0.5 * std::pow(noises[i][kNoiseFieldCount] / fit::beliefs::kTrialTorqueNoise.sd, 2);
     return *std::ranges::max_element(found);
+  }
+
+  /// Returns the progress of the next fit. Nobody knows how many follow.
+  Progress next_part() {
+    const double from = 1.0 - std::pow(0.7, considered_), to = 1.0 - std::pow(0.7, ++considered_);
+    Progress part = part_of(progress_, from, to);
+    if (part.report)
+      part.report = [in = part.report](double share, std::string_view /*what*/) {
+        in(share, "looks for mistaken EMG");
+      };
+    return part;
   }
 
   const StudyData& data_;
@@ -304,6 +318,8 @@ std::string MistakenEmg::finding() const {
 std::string MistakenEmg::sentence() const {
   return fmt::format("{}: 10^{:.0f} times as probable as the EMG as it is", finding(), log_odds / std::numbers::ln10);
 }
+
+std::string MistakenEmg::remedy() const { return finding() + ": mend that first"; }
 
 std::optional<MistakenEmg> mistaken_emg(const StudyData& data,
                                         const EstimatorOptions& options,

@@ -21,12 +21,14 @@ struct MistakenEmg {
   double r2 = 0.0;            ///< Of the fit with the EMG as it is.
   [[nodiscard]] bool is_exchange() const { return !first.empty(); }
   [[nodiscard]] bool is_clock() const { return late_s != 0.0; }
+  [[nodiscard]] bool is_gain() const { return !is_exchange() && !is_clock(); }
   /// Returns true where no number of the fit is to be used: it explains less than `least_r2` of the torque, or the
   /// trial's gain or clock is another by kSureOdds.
   [[nodiscard]] bool spoils_all(double least_r2) const;
   [[nodiscard]] std::string about_trial() const;  ///< "electrodes of BIC and TRI exchanged"
   [[nodiscard]] std::string finding() const;      ///< "electrodes of BIC and TRI exchanged in trial 'slow'"
   [[nodiscard]] std::string sentence() const;     ///< The finding and its odds.
+  [[nodiscard]] std::string remedy() const;  ///< "electrodes of BIC and TRI exchanged in trial 'slow': mend that first"
 };
 
 /// Fits the study again without a mistake, and returns that which makes it the most probable, by kMistakenOdds at least

@@ -232,9 +232,16 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   return gates;
 }
 
-std::vector<Gate> fold_gates(const std::vector<Fold>& folds, bool other_gain) {
+std::vector<Gate> fold_gates(const std::vector<Fold>& folds, bool wanted, const std::string& remedy) {
+  constexpr const char* kName = "Predicts torque it has not seen";
+  if (folds.empty())
+    return {{.name = kName,
+             .status = GateStatus::info,
+             .value = wanted ? "not asked: no part of the data could be left out" : "not asked: cross_validate = false",
+             .threshold = "R2 above 0.5 and better than the literature's parameters",
+             .why = "Without it nothing tells whether the numbers hold beyond the data of the fit.",
+             .asked = false}};
   std::vector<Gate> gates;
-  if (folds.empty()) return gates;
   const Explained all = explained(folds);
   // The errors are not smoothed, because the literature's prediction has no score below 1.5 Hz.
   double literature = 0.0, identified = 0.0, count = 0.0;
@@ -247,12 +254,10 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds, bool other_gain) {
   }
   std::string hint = fmt::format("Better in {} of the {} left out.", better, folds.size());
   if (const std::string beyond = beyond_what_was_fitted(folds); !beyond.empty())
-    hint += fmt::format(" EMG beyond all that was fitted ({}): that prediction extrapolates. {}", beyond,
-                        other_gain ? "Correct the gain that the recordings' faults name first."
-                                   : "Record a maximal contraction, or trials of like effort.");
+    hint += fmt::format(" EMG beyond all that was fitted ({}): that prediction extrapolates. {}", beyond, remedy);
   const bool beats = identified < literature && 2 * better > static_cast<int>(folds.size());
   gates.push_back(
-      {"Predicts torque it has not seen", status_of(all, beats),
+      {kName, status_of(all, beats),
        fmt::format("{}; unfiltered {:.2f} N m, the literature with its best gain {:.2f} N m", all.text(),
                    std::sqrt(identified / std::max(count, 1.0)), std::sqrt(literature / std::max(count, 1.0))),
        "R2 above 0.5 and better than the literature's parameters, over all and in most trials; " + when_wrong(),

@@ -55,8 +55,13 @@ struct OutlyingFold {
 /// the muscles agree with the literature.
 [[nodiscard]] std::vector<page::Gate> fit_gates(const fit::IdentificationResult& fit);
 
+inline constexpr std::string_view kRecordMore = "Record a maximal contraction, or trials of like effort.";
+
 /// Tests whether the fit predicts left-out trials, better than the literature, and all of them equally well.
-/// `other_gain`: a trial's EMG has another gain, which explains efforts beyond those that were fitted.
-[[nodiscard]] std::vector<page::Gate> fold_gates(const std::vector<fit::Fold>& folds, bool other_gain = false);
+/// Without folds the question was not asked; `wanted`: the study asks it. `remedy`: what to do about efforts beyond
+/// those that were fitted.
+[[nodiscard]] std::vector<page::Gate> fold_gates(const std::vector<fit::Fold>& folds,
+                                                 bool wanted = true,
+                                                 const std::string& remedy = std::string(kRecordMore));
 
 }  // namespace myoid::run

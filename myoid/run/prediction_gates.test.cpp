@@ -220,6 +220,15 @@ TEST(FoldGates, DoNotPassWhereTheLiteraturePredictsBetterOverAll) {
   EXPECT_EQ(status_of(fold_gates(folds), name), GateStatus::pass);
 }
 
+TEST(FoldGates, WithoutFoldsTheQuestionWasNotAsked) {
+  for (const bool wanted : {true, false}) {
+    const std::vector<Gate> gates = fold_gates({}, wanted);
+    ASSERT_EQ(gates.size(), 1U);
+    EXPECT_FALSE(gates[0].asked);
+    EXPECT_EQ(gates[0].status, GateStatus::info);
+  }
+}
+
 TEST(FoldGates, SayWhichPredictionGoesBeyondTheEffortsThatWereFitted) {
   std::vector<Fold> folds{fold("light", 1.0, 1.8), fold("heavy", 1.0, 1.8), fold("well", 1.0, 0.1)};
   folds[1].unseen = {"biceps", 2.84};
@@ -227,7 +236,7 @@ TEST(FoldGates, SayWhichPredictionGoesBeyondTheEffortsThatWereFitted) {
   const std::string hint = fold_gates(folds)[0].why;
   EXPECT_NE(hint.find("beyond all that was fitted ('heavy': biceps 2.8 times)"), std::string::npos) << hint;
   EXPECT_NE(hint.find("Record a maximal contraction"), std::string::npos) << hint;
-  const std::string gain = fold_gates(folds, true)[0].why;
+  const std::string gain = fold_gates(folds, true, "Correct the gain.")[0].why;
   EXPECT_EQ(gain.find("Record a maximal contraction"), std::string::npos) << gain;
   EXPECT_NE(gain.find("Correct the gain"), std::string::npos) << gain;
   folds[1].unseen.ratio = 1.4;

@@ -283,7 +283,7 @@ std::vector<Gate> sharing_gates(const study::Study& study, const std::vector<Tri
 }
 
 /// Tests whether activation 1 is a maximal contraction. Empty for EMG that is given as activation.
-std::vector<Gate> reference_gates(const study::Study& study, const study::EmgScale& emg) {
+std::vector<Gate> reference_gates(const study::Study& study, const study::EmgScale& emg, const MistakenEmg* mistaken) {
   if (emg.normalisation.empty()) return {};
   const bool mvc = std::ranges::all_of(emg.normalisation, [](const auto& n) { return n.from_mvc; });
   std::map<std::string, std::vector<std::string>> channels;  // by the trial of their largest effort
@@ -292,7 +292,9 @@ std::vector<Gate> reference_gates(const study::Study& study, const study::EmgSca
   for (const auto& [trial, names] : channels) sources.push_back(fmt::format("{}: {}", trial, fmt::join(names, ", ")));
   return {{"EMG relative to a maximal contraction", mvc ? GateStatus::pass : GateStatus::warn,
            fmt::format("largest effort in {}", fmt::join(sources, "; in ")), "every channel from an MVC trial",
-           mvc ? "F_max means the maximal force." : meaning_of_strength(study, false)}};
+           mistaken != nullptr && mistaken->is_gain() ? mistaken->remedy() + "."
+           : mvc                                      ? "F_max means the maximal force."
+                                                      : meaning_of_strength(study, false)}};
 }
 
 /// Tests whether the search of method torque converged, and how many parameters it determines.
@@ -322,21 +324,26 @@ std::optional<Gate> question_gate(const StudyResult& result) {
   const std::optional<Remark>& asked = result.source.unanswered;
   if (!asked) return std::nullopt;
   return Gate{"Questions of the study file answered", GateStatus::warn, asked->says, "every line with TODO",
-              "Write the answer, and delete the line with TODO: myoid check lists them."};
+              "Change the line below each, or delete the TODO: myoid check lists them."};
 }
 
 /// Returns a gate for the unit of a joint's angle or torque that its numbers contradict; empty if there is none. A
 /// joint that hardly moves besides is a second witness.
-std::optional<Gate> unit_gate(const StudyResult& result) {
-  const std::vector<const Remark*> doubts = doubtful_units(result);
+std::optional<Gate> unit_gate(const StudyResult& result, const MistakenEmg* mistaken) {
+  const std::vector<Remark> doubts = doubtful_units(result);
   if (doubts.empty()) return std::nullopt;
   const bool still =
       largest_range_deg(result.source.study, result.trials).value_or(360.0) < study::kGateLimits.least_range_deg;
   return Gate{"Units as the headers state", still ? GateStatus::fail : GateStatus::warn,
-              doubts.size() == 1 ? sentence(*doubts[0])
-                                 : fmt::format("{} (and {} more)", sentence(*doubts[0]), doubts.size() - 1),
+              doubts.size() == 1 ? sentence(doubts[0])
+                                 : fmt::format("{} (and {} more)", sentence(doubts[0]), doubts.size() - 1),
               "numbers that people reach, and that fit the other trials'",
-              "Every number of the fit rests on angles and torques: correct the unit first."};
+              mistaken != nullptr ? mistaken->remedy() + "."
+                                  : "Every number of the fit rests on angles and torques: correct the unit first."};
+}
+
+bool is_doubtful_unit(const Remark& remark) {
+  return remark.code == RemarkCode::unit_doubtful && remark.severity == Severity::warning && !remark.about.empty();
 }
 
 constexpr const char* kOneClock = "EMG and torque on one clock";
@@ -384,9 +391,10 @@ Gate choice_gate(const OtherChoice& choice) {
 
 std::vector<page::Gate> quality_gates(const StudyResult& result) {
   std::vector<Gate> list;
-  if (const MistakenEmg* mistaken = named_mistake(result)) list.push_back(emg_gate(*mistaken));
+  const MistakenEmg* const mistaken = named_mistake(result);
+  if (mistaken != nullptr) list.push_back(emg_gate(*mistaken));
   if (auto gate = question_gate(result)) list.push_back(std::move(*gate));
-  if (auto gate = unit_gate(result)) list.push_back(std::move(*gate));
+  if (auto gate = unit_gate(result, mistaken)) list.push_back(std::move(*gate));
   if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
   if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
   if (const int failed = failed_trials(result.trials); failed > 0) {
@@ -403,11 +411,15 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));
   add(sharing_gates(result.source.study, result.trials));
-  add(reference_gates(result.source.study, result.emg));
+  add(reference_gates(result.source.study, result.emg, mistaken));
   if (const IdentificationResult* torque = torque_of(result.fit)) {
     add(parameter_gates(*torque));
-    add(fold_gates(result.folds, std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) !=
-                                     result.level_faults.end()));
+    const bool other_gain =
+        std::ranges::find(result.level_faults, RemarkCode::emg_gain, &Remark::code) != result.level_faults.end();
+    add(fold_gates(result.folds, result.source.study.identify.cross_validate,
+                   mistaken != nullptr && mistaken->is_gain() ? mistaken->remedy() + "."
+                   : other_gain ? "Correct the gain that the recordings' faults name first."
+                                : std::string(kRecordMore)));
   }
   return list;
 }
@@ -415,16 +427,34 @@ std::vector<page::Gate> quality_gates(const StudyResult& result) {
 const MistakenEmg* named_mistake(const StudyResult& result) {
   if (!result.fit.mistaken) return nullptr;
   const MistakenEmg& mistaken = *result.fit.mistaken;
-  const bool of_one_trial = mistaken.is_exchange() && !mistaken.trial.empty();
-  return of_one_trial || doubtful_units(result).empty() ? &mistaken : nullptr;
+  if (mistaken.is_exchange() && !mistaken.trial.empty()) return &mistaken;
+  const std::vector<Remark> doubts = doubtful_units(result);
+  const bool explained = std::ranges::any_of(
+      doubts, [&](const Remark& doubt) { return mistaken.trial.empty() || doubt.where == mistaken.trial; });
+  return explained ? nullptr : &mistaken;
 }
 
-std::vector<const Remark*> doubtful_units(const StudyResult& result) {
-  std::vector<const Remark*> found;
+void yield_to_mistake(StudyResult& result) {
+  const MistakenEmg* mistaken = named_mistake(result);
+  if (mistaken == nullptr || !mistaken->is_gain()) return;
+  const auto wrong = std::ranges::find(result.trials, mistaken->trial,
+                                       [](const TrialResult& trial) -> const std::string& { return trial.spec.name; });
+  const bool of_reference = wrong != result.trials.end() && wrong->spec.use == study::Use::mvc;
+  for (Remark& fault : result.level_faults)
+    if (fault.code == RemarkCode::emg_over_reference && (of_reference || fault.where == mistaken->trial))
+      fault.remedy = mistaken->remedy();
+  for (TrialResult& trial : result.trials)
+    for (Remark& remark : trial.remarks)
+      if (of_reference && is_doubtful_unit(remark)) remark.remedy = mistaken->remedy();
+}
+
+std::vector<Remark> doubtful_units(const StudyResult& result) {
+  std::vector<Remark> found;
   for (const TrialResult& trial : result.trials) {
     for (const Remark& remark : trial.remarks) {
-      if (remark.code == RemarkCode::unit_doubtful && remark.severity == Severity::warning && !remark.about.empty())
-        found.push_back(&remark);
+      if (!is_doubtful_unit(remark)) continue;
+      found.push_back(remark);
+      found.back().where = trial.spec.name;
     }
   }
   return found;

@@ -19,12 +19,16 @@ namespace myoid::run {
 /// report begins with this section.
 [[nodiscard]] page::Section recordings_section(const StudyResult& result);
 
-/// Returns the mistake with the EMG that is named; nullptr: none. Units in doubt explain a poor fit: what else might,
-/// is no finding, unless it is an exchange in one trial, which puts the torque's unit in doubt itself.
+/// Returns the mistake with the EMG that is named; nullptr: none. A unit in doubt explains another gain of its own
+/// trial, and a poor fit to all trials: these are no finding beside it.
 [[nodiscard]] const MistakenEmg* named_mistake(const StudyResult& result);
 
-/// Returns the warnings of a trial that the unit of a joint's angle or torque is another than its header says.
-[[nodiscard]] std::vector<const Remark*> doubtful_units(const StudyResult& result);
+/// Gives the warnings that follow from the named gain of a trial the remedy to mend it: efforts above the maximal
+/// contractions, and torques' units where the gain is that of a maximal contraction.
+void yield_to_mistake(StudyResult& result);
+
+/// Returns the warnings, with their trials, that the unit of a joint's angle or torque is another than its header says.
+[[nodiscard]] std::vector<Remark> doubtful_units(const StudyResult& result);
 
 /// Returns the warnings of the trials beside the faults of their channels, each once with the trials that it is about.
 [[nodiscard]] std::vector<Remark> trial_warnings(const StudyResult& result);

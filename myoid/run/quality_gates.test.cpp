@@ -140,6 +140,39 @@ TEST(QualityGates, AUnitInDoubtComesBeforeAllThatItExplains) {
   EXPECT_EQ(quality_gates(still).front().status, GateStatus::fail);
 }
 
+TEST(QualityGates, AUnitInDoubtInAnotherTrialHidesNoGain) {
+  StudyResult result = some_result(0.01, 0, 90.0);
+  result.trials[0].remarks = {{.code = RemarkCode::unit_doubtful, .about = "elbow_flexion", .says = "N cm?"}};
+  result.fit.mistaken = {.trial = result.trials[0].spec.name, .gain = 3.0, .log_odds = 30.0, .r2 = 0.9};
+  EXPECT_EQ(named_mistake(result), nullptr);
+  result.fit.mistaken->trial = "mvc";
+  EXPECT_EQ(named_mistake(result), &*result.fit.mistaken);
+}
+
+TEST(YieldToMistake, NoWarningContradictsAGainThatIsNamed) {
+  StudyResult result = some_result(0.01, 0, 90.0);
+  const auto level = [](const char* trial) {
+    return Remark{.code = RemarkCode::emg_over_reference, .where = trial, .about = "BIC", .remedy = "no maximum"};
+  };
+  result.level_faults = {level("slow"), level("fast")};
+  result.trials[0].remarks = {{.code = RemarkCode::unit_doubtful, .about = "elbow_flexion", .remedy = "other unit"}};
+  yield_to_mistake(result);
+  EXPECT_EQ(result.level_faults[0].remedy, "no maximum");
+  result.fit.mistaken = {.trial = "slow", .gain = 3.0, .log_odds = 30.0, .r2 = 0.9};
+  yield_to_mistake(result);
+  EXPECT_EQ(result.level_faults[0].remedy, result.fit.mistaken->remedy());
+  EXPECT_EQ(result.level_faults[1].remedy, "no maximum");
+  EXPECT_EQ(result.trials[0].remarks[0].remedy, "other unit");
+  // The gain of a maximal contraction is in the activation of all trials.
+  result.trials.push_back(result.trials[0]);
+  result.trials[1].spec.name = result.fit.mistaken->trial = "mvc";
+  result.trials[1].spec.use = study::Use::mvc;
+  result.trials[1].remarks.clear();
+  yield_to_mistake(result);
+  EXPECT_EQ(result.level_faults[1].remedy, result.fit.mistaken->remedy());
+  EXPECT_EQ(result.trials[0].remarks[0].remedy, result.fit.mistaken->remedy());
+}
+
 TEST(TrialWarnings, OneTextOfSeveralTrialsIsOneRemarkWithTheirNames) {
   StudyResult result = some_result(0.01, 0, 90.0);
   result.trials[0].remarks = {{.says = "the EMG is short"}, {.severity = Severity::note, .says = "a comma"}};

@@ -174,6 +174,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   };
   result.folds = std::move(validation.folds);
   warn(std::move(validation.remarks));
+  yield_to_mistake(result);
   // Movements that are planned on numbers that failed may tell nothing.
   const std::vector<page::Gate> gates = quality_gates(result);
   const bool failed = std::ranges::find(gates, page::GateStatus::fail, &page::Gate::status) != gates.end();

@@ -262,14 +262,20 @@ void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count)
 void apply(const std::vector<VerdictCap>& caps, IdentificationResult& result) {
   for (ParameterEstimate& e : result.estimates) {
     const std::vector<std::string> owners = owners_of(e, result);
-    const auto cap = std::ranges::find_if(caps, [&](const VerdictCap& c) {
-      return severity(e.verdict) < severity(verdict_of(c.finding)) &&
-             c.method.value_or(result.method) == result.method && is_of(c, e.parameter) &&
+    const auto touches = [&](const VerdictCap& c) {
+      return c.method.value_or(result.method) == result.method && is_of(c, e.parameter) &&
              std::ranges::any_of(owners, [&](const std::string& owner) { return covers(c.owners, owner); });
-    });
-    if (cap == caps.end()) continue;
-    e.verdict = verdict_of(cap->finding);
-    e.reason = cap->reason;
+    };
+    const auto cap = std::ranges::find_if(
+        caps, [&](const VerdictCap& c) { return severity(e.verdict) < severity(verdict_of(c.finding)) && touches(c); });
+    if (cap != caps.end()) {
+      e.verdict = verdict_of(cap->finding);
+      e.reason = cap->reason;
+      continue;
+    }
+    const auto first = std::ranges::find_if(caps, [&](const VerdictCap& c) { return c.comes_first && touches(c); });
+    if (first != caps.end() && !e.reason.starts_with(first->reason))
+      e.reason = fmt::format("{} {}", first->reason, e.reason);
   }
 }
 

@@ -113,10 +113,11 @@ struct VerdictCap {
   std::vector<std::string> parameters = {};  ///< Their parameters that rest on it; empty: all.
   std::optional<Method> method = {};         ///< Empty: all.
   Finding finding = Finding::fault;
+  bool comes_first = false;  ///< A mistake that explains other reasons: it stands before them.
 };
 
-/// Gives the estimates that the caps name the verdict of their first cap and its reason, if their own is better. The
-/// same for every method.
+/// Gives the estimates that the caps name the verdict of their first cap and its reason, if their own is better. Else
+/// the reason of the first cap that comes first stands before their own. The same for every method.
 void apply(const std::vector<VerdictCap>& caps, IdentificationResult& result);
 
 }  // namespace myoid::fit

@@ -115,18 +115,22 @@ Remark above_reference(const std::string& channel,
   return {
       .code = RemarkCode::emg_over_reference,
       .severity = Severity::warning,
+      .where = movement_trial,
       .about = channel,
       .when = Stretch{movement.greatest_s, movement.greatest_s},
       .value = movement.greatest / mvc.greatest,
       .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in {} at {:.6g} s", channel,
                           movement.greatest / mvc.greatest, mvc_trial, movement_trial, movement.greatest_s),
-      .remedy = "the contraction was not maximal: the larger effort counts as 1, and F_max means the force there"};
+      .remedy =
+          "the contraction was not maximal, or a trial has another gain, which the fit of myoid run tells: the "
+          "larger effort counts as 1, and F_max means the force there"};
 }
 
 Remark unconfirmed(const std::string& channel, const LonePeak& peak, const std::string& trial) {
   Remark remark{
       .code = RemarkCode::emg_over_reference,
       .severity = Severity::warning,
+      .where = trial,
       .about = channel,
       .when = Stretch{peak.begin_s, peak.end_s},
       .value = peak.ratio,
