@@ -10,6 +10,7 @@
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/posterior/exploration.h"
 #include "myoid/fit/posterior/voluntary_torque.h"
+#include "myoid/ground/core/progress_part.h"
 
 namespace myoid::run {
 namespace {
@@ -74,9 +75,11 @@ std::optional<OtherChoice> other_choice(const fit::StudyData& data,
   const auto hidden =
       std::ranges::find_if(data.muscles, [](const fit::MuscleSetup& m) { return m.unseen.has_value(); });
   if (hidden == data.muscles.end() || torque.exact) return std::nullopt;
-  const fit::EstimatorOptions plain = fit::beginning_at(torque, fit::of_a_fold(options));
-  const std::vector<ParameterEstimate> here = numbers_at_mode(data, plain, torque),
-                                       there = numbers_at_mode(with_other_choice(data), plain, torque);
+  fit::EstimatorOptions plain = fit::beginning_at(torque, fit::of_a_fold(options));
+  plain.progress = part_of(options.progress, 0.0, 0.5);
+  const std::vector<ParameterEstimate> here = numbers_at_mode(data, plain, torque);
+  plain.progress = part_of(options.progress, 0.5, 1.0);
+  const std::vector<ParameterEstimate> there = numbers_at_mode(with_other_choice(data), plain, torque);
   OtherChoice found{.other = hidden->unseen->by == WithoutEmg::unseen
                                  ? "activations without EMG that follow synergies of the EMG"
                                  : "activations without EMG about a constant"};

@@ -6,6 +6,7 @@
 
 #include "myoid/fit/methods/paper_case.h"
 #include "myoid/ground/core/error.h"
+#include "myoid/ground/core/progress_part.h"
 #include "myoid/ground/math/direct_search.h"
 #include "myoid/ground/math/nelder_mead.h"
 #include "myoid/ground/math/simulated_annealing.h"
@@ -127,10 +128,8 @@ std::vector<SolverContest> solver_contests(const fit::StudyData& data, const Con
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     for (const bool shortening : {true, false}) {
       ContestOptions how = options;
-      if (options.progress.report)
-        how.progress.report = [&, done = static_cast<double>(contests.size())](double share, std::string_view what) {
-          options.progress.report((done + share) / total, what);
-        };
+      const auto done = static_cast<double>(contests.size());
+      how.progress = part_of(options.progress, done / total, (done + 1.0) / total);
       contests.push_back(compare_paper_solvers(data, k, shortening, how));
     }
   }

@@ -11,6 +11,7 @@
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/fit/methods/torque.h"
 #include "myoid/ground/core/parallel.h"
+#include "myoid/ground/core/progress_part.h"
 #include "myoid/recording/signals/quality_limits.h"
 
 namespace myoid::run {
@@ -42,13 +43,12 @@ bool wants_torque(const study::Study& study) {
 
 namespace {
 
-constexpr double kShareOfFit = 0.6;  // of the stage's time; the rest looks for mistakes
+// Shares of the stage's time at which the fit, the search for mistakes and the fit of the other choice end.
+constexpr double kFitEnds = 0.6, kMistakesEnd = 0.9, kChoiceEnds = 0.98;
 
 /// Returns the options of a fit that tells its progress as this part of the stage's.
 fit::EstimatorOptions telling(fit::EstimatorOptions options, const Progress& progress, double from, double to) {
-  options.progress.report = [&progress, from, to](double share, std::string_view what) {
-    progress.tell(from + (to - from) * share, what);
-  };
+  options.progress = part_of(progress, from, to);
   return options;
 }
 
@@ -75,6 +75,7 @@ bool shares_forces(const study::Study& study) {
 StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64_t seed, const Progress& progress) {
   StudyFit found;
   if (wants_torque(study)) {
+    progress.tell(0.0, "compares the clocks of EMG and torque");
     found.shifted = fit::shifted_emg(
         input.data, {recording::kLimits.clocks.earliest_offset_s, recording::kLimits.clocks.latest_offset_s});
   }
@@ -82,6 +83,7 @@ StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64
   for (const fit::Method method : study.identify.methods) {
     progress.check();
     if (method == fit::Method::paper) {
+      progress.tell(0.0, "fits the forces by method paper");
       found.methods.push_back(fit::identify_paper(input.data, {.multistart = study.identify.starts.value_or(1),
                                                                .muscles = study.identify.muscles,
                                                                .shared_forces = shared}));
@@ -92,12 +94,14 @@ StudyFit study_fit(const study::Study& study, const FitInput& input, std::uint64
     } else {
       // EMG that is given as activation may be that of a simulation, without noise.
       std::optional<IdentificationResult> exact;
-      const fit::EstimatorOptions fits = telling(input.options, progress, 0.0, kShareOfFit);
+      const fit::EstimatorOptions fits = telling(input.options, progress, 0.0, kFitEnds);
       if (study.emg.kind == study::EmgKind::activation) exact = fit::identify_exactly(input.data, input.options);
       found.methods.push_back(exact ? std::move(*exact) : fit::identify_torque(input.data, fits));
       found.mistaken =
-          mistaken_emg(input.data, telling(input.options, progress, kShareOfFit, 1.0), found.methods.back());
-      found.other_choice = other_choice(input.data, input.options, found.methods.back());
+          mistaken_emg(input.data, telling(input.options, progress, kFitEnds, kMistakesEnd), found.methods.back());
+      found.other_choice =
+          other_choice(input.data, telling(input.options, progress, kMistakesEnd, kChoiceEnds), found.methods.back());
+      progress.tell(kChoiceEnds, "compares dynamometer and masses");
       found.scales = torque_scales(input.data, input.options, found.methods.back());
     }
   }

@@ -341,7 +341,9 @@ std::vector<Fold> cross_validate(const StudyData& data,
   std::atomic<std::size_t> done{0};
   parallel_each(all.size(), [&](std::size_t f) {
     of_split[f] = score_split(std::move(all[f]), fit, shared);
-    options.progress.tell(static_cast<double>(++done) / static_cast<double>(all.size()), "predicts parts left out");
+    const std::size_t ended = ++done;
+    options.progress.tell(static_cast<double>(ended) / static_cast<double>(all.size()),
+                          fmt::format("predicts parts left out, {} of {} done", ended, all.size()));
   });
   std::vector<Fold> folds;
   for (std::vector<Fold>& of_one : of_split) std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));

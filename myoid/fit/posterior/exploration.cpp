@@ -6,6 +6,7 @@
 
 #include "myoid/fit/posterior/marginals.h"
 #include "myoid/fit/posterior/sampler.h"
+#include "myoid/ground/core/progress_part.h"
 #include "myoid/ground/math/draws.h"
 
 namespace myoid::fit {
@@ -51,15 +52,15 @@ class Basin {
 /// Finds a mode, takes the unseen quantities there, and repeats until the mode stays. Gives up
 /// where the first mode lies far below `floor`.
 Mode settle(Density& density, const Eigen::VectorXd& start, double floor, const Progress& progress) {
-  Mode mode = find_mode(density, {.x = start}, progress, kRoughPromise);
+  Mode mode = find_mode(density, {.x = start}, part_of(progress, 0.0, 0.5), kRoughPromise);
   if (mode.log_density < floor - kMayRise) return mode;
   for (int pass = 0; pass < kMostReferences; ++pass) {
     density.refer_to(mode.x);
     const Basin before(density, mode.x);
-    mode = find_mode(density, mode, progress, kRoughPromise);
+    mode = find_mode(density, mode, part_of(progress, 0.5, 0.75), kRoughPromise);
     if (before.holds(mode.x)) break;
   }
-  return find_mode(density, mode, progress);
+  return find_mode(density, mode, part_of(progress, 0.75, 1.0));
 }
 
 /// Returns the modes of a density, the best first; at least one. Takes the unseen quantities at the
@@ -68,18 +69,22 @@ std::vector<Candidate> modes_of(Density& density,
                                 const std::vector<Eigen::VectorXd>& starts,
                                 double floor,
                                 const EstimatorOptions& options) {
+  const auto progress_of = [&](std::size_t i) {
+    const double each = kShareOfModes / static_cast<double>(starts.size());
+    return part_of(options.progress, each * static_cast<double>(i), each * static_cast<double>(i + 1));
+  };
   std::vector<Candidate> found{
-      {.density = &density, .lag = options.law, .mode = settle(density, starts.front(), floor, options.progress)}};
+      {.density = &density, .lag = options.law, .mode = settle(density, starts.front(), floor, progress_of(0))}};
   std::vector<Basin> basins{Basin(density, found.front().mode.x)};
   const auto is_known = [&](const Eigen::VectorXd& x) {
     return std::any_of(basins.begin(), basins.end(), [&](const Basin& b) { return b.holds(x); });
   };
   for (std::size_t i = 1; i < starts.size(); ++i) {
-    options.progress.tell(kShareOfModes * static_cast<double>(i) / static_cast<double>(starts.size()), kFits);
-    const Mode rough = find_mode(density, {.x = starts[i]}, options.progress, kRoughPromise, is_known);
+    const Progress progress = progress_of(i);
+    const Mode rough = find_mode(density, {.x = starts[i]}, part_of(progress, 0.0, 0.7), kRoughPromise, is_known);
     if (!rough.converged || is_known(rough.x) || rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
       continue;
-    Mode mode = find_mode(density, rough, options.progress);
+    Mode mode = find_mode(density, rough, part_of(progress, 0.7, 1.0));
     if (!mode.converged || is_known(mode.x)) continue;
     basins.emplace_back(density, mode.x);
     found.push_back({.density = &density, .lag = options.law, .mode = std::move(mode)});

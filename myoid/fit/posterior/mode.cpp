@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMostIterations = 300;
 constexpr double kOfFresh = 10.0;          // a promise by Gauss and Newton's curvature over the search's
+constexpr double kStillToGo = 0.95;        // of the search behind an iteration
 constexpr double kLonger = 2.6;            // the first share of a step over the share of the step before
 constexpr double kDifference = 1.0 / 3.0;  // standard deviations
 constexpr double kLeastCurvature = 0.1;    // over Gauss and Newton's curvature
@@ -45,6 +46,7 @@ Mode find_mode(const Density& density,
   Eigen::VectorXd at_trial;
   for (mode.iterations = 0; mode.iterations < kMostIterations; ++mode.iterations) {
     progress.check();
+    progress.tell(1.0 - std::pow(kStillToGo, mode.iterations), "fits the muscles");
     Eigen::VectorXd step = inverse * gradient;
     double promise = 0.5 * gradient.dot(step);
     if (promise >= 0.0 && promise < (fresh && !rough ? kOfFresh : 1.0) * least_promise) {

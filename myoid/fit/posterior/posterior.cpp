@@ -18,6 +18,7 @@
 #include "myoid/fit/posterior/exploration.h"
 #include "myoid/fit/posterior/learned_sizes.h"
 #include "myoid/fit/posterior/voluntary_torque.h"
+#include "myoid/ground/core/progress_part.h"
 #include "myoid/ground/math/bounded.h"
 #include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/draws.h"
@@ -91,7 +92,8 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   const Eigen::VectorXd of_person =
       math::inverse_of_positive(density.gauss_newton(best.mode.x)).diagonal().cwiseMax(0.0).cwiseSqrt();
   density.believe(Believed::geometry_and_sensors_exact);
-  const Mode mode = find_mode(density, {.x = with_tendons_of_the_model(density, best.mode.x)}, progress, kRoughPromise);
+  const Mode mode = find_mode(density, {.x = with_tendons_of_the_model(density, best.mode.x)},
+                              part_of(progress, 0.7, 0.8), kRoughPromise);
   const Eigen::MatrixXd covariance = math::inverse_of_positive(density.gauss_newton(mode.x));
   const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const std::vector<Unknown>& free = density.parameters().free();
