@@ -1,5 +1,6 @@
 #include "myoid/program/commands/check.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -43,15 +44,19 @@ nlohmann::ordered_json findings_json(const std::vector<Remark>& findings) {
 void print_findings(const program::CheckResult& result, const std::string& input) {
   // The first of several faults that ask for the same remedy names the remedy.
   std::set<std::string> said;
-  for (const Remark& f : named_together(result.findings)) {
+  const std::vector<Remark> lines = named_together(result.findings);
+  for (const Remark& f : lines) {
     const bool again = !f.remedy.empty() && !said.insert(f.remedy).second;
     say("{:<8} {}: {}\n", name(f.severity), f.where, again ? f.says : sentence(f));
   }
   const std::string subject =
       result.of_study ? fmt::format("{}, {}", counted(result.trials, "trial"), counted(result.muscles, "muscle"))
                       : input;
-  say("{}: {}, {}\n", subject, counted(result.errors, "error"),
-      counted(result.findings.size() - result.errors, "remark"));
+  const auto errors = static_cast<std::size_t>(std::ranges::count(lines, Severity::error, &Remark::severity));
+  say("{}: {}, {}\n", subject, counted(errors, "error"), counted(lines.size() - errors, "remark"));
+  if (result.of_study && errors == 0)
+    say("left to the fit of myoid run: exchanged electrodes that no dynamometer shows, and another gain of one "
+        "trial\n");
 }
 
 /// Returns the name of a table of study.toml without brackets.

@@ -27,17 +27,19 @@ std::optional<double> median_of_others(const std::vector<double>& values, std::s
 
 Remark of_torque(const TrialSpec& trial, const std::string& coordinate, double factor) {
   const bool certain = factor > kLike.torque_unit || factor * kLike.torque_unit < 1.0;
-  return {.code = RemarkCode::unit_doubtful,
-          .severity = certain ? Severity::error : Severity::warning,
-          .where = trial.name,
-          .about = coordinate,
-          .value = factor,
-          .says = fmt::format(
-              "{}: by the EMG the torque on {} is {:.3g} times as large as in the other trials, expected "
-              "{:.2g} to {:g} times: {}",
-              trial.external_torque->filename().string(), coordinate, factor, 1.0 / kLike.torque_less,
-              kLike.torque_more, certain ? "its numbers are in another unit" : "are its numbers in another unit?"),
-          .remedy = "write the unit of the numbers in the header, as in '" + coordinate + "_moment [N m]'"};
+  return {
+      .code = RemarkCode::unit_doubtful,
+      .severity = certain ? Severity::error : Severity::warning,
+      .where = trial.name,
+      .about = coordinate,
+      .value = factor,
+      .says = fmt::format(
+          "{}: by the EMG the torque on {} is {:.3g} times as large as in the other trials, expected "
+          "{:.2g} to {:g} times: {}",
+          trial.external_torque->filename().string(), coordinate, factor, 1.0 / kLike.torque_less, kLike.torque_more,
+          certain ? "its numbers are in another unit"
+                  : "are its numbers in another unit, or has its EMG or a maximal contraction another gain?"),
+      .remedy = "write the unit of the numbers in the header, as in '" + coordinate + "_moment [N m]'"};
 }
 
 double range_rad(const AngleSpan& span) { return span.greatest_rad - span.least_rad; }
