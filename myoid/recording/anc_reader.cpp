@@ -1,5 +1,6 @@
 #include "myoid/recording/anc_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -113,6 +114,7 @@ void compare_clock(const std::vector<std::string_view>& lines,
     note(repairs, "the header says {} s, the rows cover {:.6g} s: the file may be cut off", *said,
          static_cast<double>(count) / rate);
     repairs.back().lost = *said > static_cast<double>(count) / rate;
+    std::rotate(repairs.begin(), repairs.end() - 1, repairs.end());  // before the last row
   }
 }
 

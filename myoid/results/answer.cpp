@@ -163,17 +163,14 @@ std::string truth_sentence(const run::StudyResult& result, const IdentificationR
 
 std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
 
-/// Returns a reason in at most `most` lines, with the expected value where there is room; what explains others in full.
+/// Returns a reason whole, with the expected value where both fit into `most` lines.
 std::string reason_lines(const page::Gate& gate, std::size_t width, std::size_t most) {
   const std::string found = with_short_words(fmt::format("- {}: {}", gate.name, gate.value), width);
-  if (gate.explains) return wrapped(found, width);
-  std::string text = wrapped(fmt::format("{} (expected: {})", found, gate.threshold), width);
-  for (std::size_t room = most * width; line_count(text) > most; room -= width / 8)
-    text = wrapped(elided(found, room), width);
-  return text;
+  const std::string text = wrapped(fmt::format("{} (expected: {})", found, gate.threshold), width);
+  return gate.explains || line_count(text) > most ? wrapped(found, width) : text;
 }
 
-/// Returns the light with its reasons, each in at most `most` lines.
+/// Returns the light with its reasons, with what was expected where a reason stays within `most` lines.
 std::string light_lines(const std::vector<page::Gate>& gates, std::size_t width, std::size_t most) {
   if (gates.empty()) return "";
   const page::Light light = page::light_of(gates);
@@ -331,7 +328,7 @@ std::string answer_text(const run::StudyResult& result, const std::vector<page::
   };
   std::string light = light_lines(gates, width, 2);
   if (room(light) < std::min(rows.size(), kFewestRows)) light = light_lines(gates, width, 1);
-  rows.resize(std::min(rows.size(), room(light)));
+  rows.resize(std::min(rows.size(), std::max(room(light), kFewestRows)));
   if (!light.empty()) light += "\n";
   return light + row_lines(rows, width) + (rows.empty() ? "" : "\n") + rest;
 }

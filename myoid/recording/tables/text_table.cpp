@@ -523,9 +523,11 @@ void compare_count(std::optional<double> said,
                    std::vector<Repair>& repairs,
                    std::size_t line) {
   if (!said || *said == static_cast<double>(found)) return;
-  repairs.push_back({.line = line,
-                     .message = fmt::format("the header says {} {}, there are {}", *said, kind, found),
-                     .lost = (kind == "rows" || kind == "frames") && *said > static_cast<double>(found)});
+  const bool lost = (kind == "rows" || kind == "frames") && *said > static_cast<double>(found);
+  // A large loss stands before that of the last row.
+  repairs.insert(
+      lost ? repairs.begin() : repairs.end(),
+      {.line = line, .message = fmt::format("the header says {} {}, there are {}", *said, kind, found), .lost = lost});
 }
 
 TableNumbers read_rows(const TableText& text, const TableRows& rows, const std::filesystem::path& path) {

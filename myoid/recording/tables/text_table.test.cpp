@@ -86,6 +86,11 @@ TEST(ReadRows, ALastRowWithoutALineEndIsKeptIfItIsComplete) {
   EXPECT_EQ(cut.values.rows(), 2);
   EXPECT_THAT(test::repair_lines(cut.repairs), HasSubstr("3 rows"));
   EXPECT_TRUE(cut.repairs.back().lost);
+  // A larger loss comes first.
+  rows.rows_said = 300.0;
+  const std::vector<Repair> repairs = read_rows(TableText("0,1,2\n1,3,4\n2,5\n"), rows, "f.csv").repairs;
+  ASSERT_EQ(repairs.size(), 2U);
+  EXPECT_NE(repairs[0].message.find("300"), std::string::npos);
   rows.rows_said = 1.0;
   EXPECT_FALSE(read_rows(TableText("0,1,2\n1,3,4\n"), rows, "f.csv").repairs.back().lost);
 }
