@@ -41,14 +41,15 @@ std::optional<Remark> open_questions(std::string_view text, const std::filesyste
   std::vector<std::string> questions;
   for (const auto& [what, at] : asked)
     questions.push_back(fmt::format("line{} {}: {}", at.size() == 1 ? "" : "s", fmt::join(at, ", "), what));
-  return Remark{.code = RemarkCode::unanswered,
-                .severity = Severity::warning,
-                .where = file.filename().string(),
-                .value = static_cast<double>(open.size()),
-                .says = fmt::format("{} still for an answer (TODO): {}",
-                                    open.size() == 1 ? "1 line asks" : fmt::format("{} lines ask", open.size()),
-                                    fmt::join(questions, "; ")),
-                .remedy = "change the line below each, or delete the TODO where nothing is to change"};
+  return Remark{
+      .code = RemarkCode::unanswered,
+      .severity = Severity::warning,
+      .where = file.filename().string(),
+      .value = static_cast<double>(open.size()),
+      .says = fmt::format("{} for an answer (TODO): {}",
+                          open.size() == 1 ? "1 line still asks" : fmt::format("{} lines still ask", open.size()),
+                          fmt::join(questions, "; ")),
+      .remedy = "change the line below each, or delete the TODO where nothing is to change"};
 }
 
 }  // namespace myoid::study

@@ -154,14 +154,17 @@ class Draft {
     guessed_coordinate_ = names.empty() || !is_usual(names[0]) || !channels.empty();
   }
 
-  /// Returns the angles of all recordings that have any; without one, those of a few frames of the first markers.
+  /// Returns the angles of all recordings that have any; without one, those of a few frames of the first
+  /// markers, of a file with EMG where there is one.
   [[nodiscard]] std::vector<TimeSeries> recorded_angles() const {
     std::vector<TimeSeries> angles;
     for (const FoundRecording& f : found_)
       if (!f.angles.empty()) angles.push_back(f.motion);
     if (!angles.empty()) return angles;
-    const auto marked =
-        std::ranges::find_if(found_, [](const FoundRecording& f) { return f.markers.frame_count() > 0; });
+    const auto has_markers = [](const FoundRecording& f) { return f.markers.frame_count() > 0; };
+    auto marked =
+        std::ranges::find_if(found_, [&](const FoundRecording& f) { return has_markers(f) && !f.channels.empty(); });
+    if (marked == found_.end()) marked = std::ranges::find_if(found_, has_markers);
     if (marked == found_.end()) return angles;
     if (std::optional<body::IkResult> quick = quick_motion(model_, marked->markers))
       angles.push_back(std::move(quick->q));
