@@ -163,22 +163,22 @@ std::string truth_sentence(const run::StudyResult& result, const IdentificationR
 
 std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
 
-/// Returns a reason whole, with the expected value where both fit into `most` lines.
-std::string reason_lines(const page::Gate& gate, std::size_t width, std::size_t most) {
+/// Returns a reason whole, with the expected value where both fit into two lines.
+std::string reason_lines(const page::Gate& gate, std::size_t width) {
+  constexpr std::size_t kFew = 2;
   const std::string found = with_short_words(fmt::format("- {}: {}", gate.name, gate.value), width);
   const std::string text = wrapped(fmt::format("{} (expected: {})", found, gate.threshold), width);
-  return gate.explains || line_count(text) > most ? wrapped(found, width) : text;
+  return gate.explains || line_count(text) > kFew ? wrapped(found, width) : text;
 }
 
-/// Returns the light with its reasons, with what was expected where a reason stays within `most` lines.
-std::string light_lines(const std::vector<page::Gate>& gates, std::size_t width, std::size_t most) {
+/// Returns the light with its reasons: the first `whole` ones with their text, the others by their names.
+std::string light_lines(const std::vector<page::Gate>& gates, std::size_t width, std::size_t whole) {
   if (gates.empty()) return "";
   const page::Light light = page::light_of(gates);
   std::string text = wrapped(fmt::format("{}. {}{}", light.head, light.answered, light.leads_to), width);
-  for (std::size_t i = 0; i < std::min(light.reasons.size(), kMostReasons); ++i)
-    text += reason_lines(light.reasons[i], width, most);
+  for (std::size_t i = 0; i < std::min(light.reasons.size(), whole); ++i) text += reason_lines(light.reasons[i], width);
   std::vector<std::string> others;  // by name, so that nothing that colors the page is hidden
-  for (std::size_t i = kMostReasons; i < light.reasons.size(); ++i) others.push_back(light.reasons[i].name);
+  for (std::size_t i = whole; i < light.reasons.size(); ++i) others.push_back(light.reasons[i].name);
   if (!others.empty()) text += wrapped(fmt::format("- and {}", fmt::join(others, "; ")), width);
   return light.besides.empty() ? text : text + wrapped(light.besides, width);
 }
@@ -326,9 +326,10 @@ std::string answer_text(const run::StudyResult& result, const std::vector<page::
   const auto room = [&](const std::string& light) {  // a heading, a legend, a line between
     return kMostLines - std::min(kMostLines, line_count(light) + line_count(rest) + 5);
   };
-  std::string light = light_lines(gates, width, 2);
-  if (room(light) < std::min(rows.size(), kFewestRows)) light = light_lines(gates, width, 1);
-  rows.resize(std::min(rows.size(), std::max(room(light), kFewestRows)));
+  std::size_t whole = kMostReasons;
+  std::string light = light_lines(gates, width, whole);
+  while (whole > 1 && room(light) < std::min(rows.size(), kFewestRows)) light = light_lines(gates, width, --whole);
+  rows.resize(std::min(rows.size(), room(light)));
   if (!light.empty()) light += "\n";
   return light + row_lines(rows, width) + (rows.empty() ? "" : "\n") + rest;
 }

@@ -217,11 +217,12 @@ TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
   // 180 N of 600 N, 1.96 standard errors 98 N; 11 % are 1.96 * sqrt(40^2 + 40^2) of 900 N.
   EXPECT_EQ(
       changes_sentence(c),
-      "Biceps stronger by 180 N (30 %, 95 % 82 to 278 N); a change below 16 % would not have been seen. 2 numbers "
+      "Biceps stronger: F_max larger by 180 N (30 %, 95 % 82 to 278 N); a change below 16 % would not have been seen. "
+      "2 numbers "
       "show no change, and of 1 a recording does not tell enough. 1 of them differs by itself, but 3 numbers were "
       "tested, of which one in 20 does so by chance (Holm).");
   EXPECT_EQ(change_text(c.parameters[1]),
-            "Brachialis: no change of max isometric force shows; a change below 12 % would not have been seen");
+            "Brachialis: no change of F_max shows; a change below 12 % would not have been seen");
   ComparedParameter angle = c.parameters[0];
   angle.first.unit = Unit::radian;
   EXPECT_FALSE(has_scale(angle));

@@ -96,7 +96,7 @@ TEST(GroupReport, OfTwoSessionsHasTheChangeAndTheSmallestThatShows) {
   EXPECT_EQ(row[7].text, "156");  // 1.96 times their standard deviation, 79.4
   EXPECT_TRUE(page.headline.starts_with("P150: ")) << page.headline;
   // 1.96 standard errors of the difference of two times 20 N are 55.4 N, 9.2 % of 600 N.
-  EXPECT_NE(page.headline.find("Biceps stronger by 150 N (25 %, 95 % 94.6 to 205 N); a change below 9.2 % would not"),
+  EXPECT_NE(page.headline.find("Biceps stronger: F_max larger by 150 N (25 %, 95 % 94.6 to 205 N); a change below"),
             std::string::npos)
       << page.headline;
   EXPECT_EQ(page.headline.find("P30: "), std::string::npos) << page.headline;
