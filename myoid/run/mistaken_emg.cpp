@@ -319,8 +319,6 @@ std::string MistakenEmg::sentence() const {
   return fmt::format("{}: 10^{:.0f} times as probable as the EMG as it is", finding(), log_odds / std::numbers::ln10);
 }
 
-std::string MistakenEmg::remedy() const { return finding() + ": mend that first"; }
-
 std::optional<MistakenEmg> mistaken_emg(const StudyData& data,
                                         const EstimatorOptions& options,
                                         const IdentificationResult& fit) {

@@ -28,7 +28,7 @@ struct MistakenEmg {
   [[nodiscard]] std::string about_trial() const;  ///< "electrodes of BIC and TRI exchanged"
   [[nodiscard]] std::string finding() const;      ///< "electrodes of BIC and TRI exchanged in trial 'slow'"
   [[nodiscard]] std::string sentence() const;     ///< The finding and its odds.
-  [[nodiscard]] std::string remedy() const;  ///< "electrodes of BIC and TRI exchanged in trial 'slow': mend that first"
+  [[nodiscard]] std::string remedy() const { return finding() + ": mend that first"; }
 };
 
 /// Fits the study again without a mistake, and returns that which makes it the most probable, by kMistakenOdds at least

@@ -238,7 +238,6 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds, bool wanted, const 
     return {{.name = kName,
              .status = GateStatus::info,
              .value = wanted ? "not asked: no part of the data could be left out" : "not asked: cross_validate = false",
-             .threshold = "R2 above 0.5 and better than the literature's parameters",
              .why = "Without it nothing tells whether the numbers hold beyond the data of the fit.",
              .asked = false}};
   std::vector<Gate> gates;

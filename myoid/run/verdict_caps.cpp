@@ -17,6 +17,7 @@ namespace {
 using fit::VerdictCap;
 
 VerdictCap of_all(std::string reason) { return {.reason = std::move(reason)}; }
+VerdictCap of_first(std::string reason) { return {.reason = std::move(reason), .comes_first = true}; }
 
 /// Faults of an EMG channel that no processing mends.
 bool spoils_emg(RemarkCode code) {
@@ -98,16 +99,12 @@ void add_gates(const std::vector<page::Gate>& gates, std::vector<VerdictCap>& ca
 
 std::vector<VerdictCap> verdict_caps(const StudyResult& result, const std::vector<page::Gate>& gates) {
   std::vector<VerdictCap> caps;
-  const auto add_first = [&](std::string reason) {
-    caps.push_back(of_all(std::move(reason)));
-    caps.back().comes_first = true;
-  };
   if (motion_is_unreliable(result.source.study, result.trials))
-    add_first("The motion it rests on failed its quality gate: mend that first.");
+    caps.push_back(of_first("The motion it rests on failed its quality gate: mend that first."));
   const MistakenEmg* const mistaken = named_mistake(result);
-  if (mistaken != nullptr) add_first(mistaken->remedy() + ".");
+  if (mistaken != nullptr) caps.push_back(of_first(mistaken->remedy() + "."));
   if (mistaken == nullptr && !doubtful_units(result).empty())
-    add_first("A unit of an angle or a torque seems to be another: mend that first.");
+    caps.push_back(of_first("A unit of an angle or a torque seems to be another: mend that first."));
   if (result.fit.shifted) caps.push_back(of_all("EMG and torque seem to be on different clocks: mend that first."));
   if (result.fit.scales && result.fit.scales->differ())
     caps.push_back({.reason = "Dynamometer and masses disagree about the torque's scale: mend that first.",

@@ -35,7 +35,7 @@ void add_settings(const json& of, const std::string& name, std::map<std::string,
   }
   const bool tables = of.is_array() && std::ranges::any_of(of, [](const json& entry) { return entry.is_object(); });
   if (!tables) {
-    settings[name] = of.dump();
+    settings[name] = json_text(nlohmann::ordered_json(of));
     return;
   }
   for (std::size_t i = 0; i < of.size(); ++i) {

@@ -65,7 +65,7 @@ class Draft {
       person_ = keep_one_person(found_);
     raw_emg_ = takes_raw_emg(found_);
     note_other_kind();
-    if (coordinate_.empty()) choose_coordinate();
+    if (joint_.name.empty()) choose_coordinate();
     if (std::ranges::none_of(found_, [](const FoundRecording& f) {
           return f.markers.frame_count() > 0 || !f.angles.empty() || !f.channels.empty();
         })) {
@@ -81,7 +81,7 @@ class Draft {
     markers_table();
     emg_table();
     muscle_tables();
-    if (!torques_.of_no_joint.empty()) out_.todo(question_of_torques(torques_.of_no_joint, coordinate_));
+    if (!torques_.of_no_joint.empty()) out_.todo(question_of_torques(torques_.of_no_joint, joint_.name));
     draft_trials(found_,
                  {.external_loads = beside.external_loads,
                   .torques = torques_.of_joints,
@@ -137,8 +137,8 @@ class Draft {
       }
     }
     model_ = model_file_ ? body::read_osim(*model_file_) : body::parse_osim(body::arm4_osim(), "arm4.osim");
-    coordinate_ = options_.coordinate;
-    if (!coordinate_.empty()) (void)model_.coordinate_index(coordinate_);
+    joint_.name = options_.coordinate;
+    if (!joint_.name.empty()) (void)model_.coordinate_index(joint_.name);
   }
 
   void choose_coordinate() {
@@ -147,10 +147,9 @@ class Draft {
     CoordinateOfChannels chosen =
         coordinate_of_channels(model_, moved_coordinates(model_, names, recorded_angles()), channels);
     if (chosen.name.empty()) chosen = coordinate_of_channels(model_, names, channels);
-    coordinate_ = chosen.name;
-    more_channels_ = chosen.more;
-    if (!coordinate_.empty()) return;
-    coordinate_ = names.empty() ? "TODO" : names[0];
+    joint_ = chosen;
+    if (!joint_.name.empty()) return;
+    joint_.name = names.empty() ? "TODO" : names[0];
     guessed_coordinate_ = names.empty() || !is_usual(names[0]) || !channels.empty();
   }
 
@@ -338,24 +337,23 @@ class Draft {
                        list_of(other_models_)),
            model);
     line(model);
-    const std::string coordinate = "coordinate = " + toml_text(coordinate_);
+    const std::string coordinate = "coordinate = " + toml_text(joint_.name);
     if (guessed_coordinate_ && !wants_a_leg())
       todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")), coordinate);
-    if (!more_channels_.empty())
-      todo(fmt::format("which joint? More electrodes are on muscles of {}", fmt::join(more_channels_, ", ")),
-           coordinate);
+    if (!joint_.more.empty())
+      todo(fmt::format("which joint? More electrodes are on muscles of {}", fmt::join(joint_.more, ", ")), coordinate);
     if (options_.coordinate.empty()) ask_for_the_side(coordinate);
     line(coordinate);
     line("");
   }
 
   void ask_for_the_side(const std::string& answer) {
-    const std::string other = same_on_the_other_side(model_, coordinate_, all_channels());
+    const std::string other = same_on_the_other_side(model_, joint_.name, all_channels());
     if (other.empty()) return;
     todo(
         fmt::format("which side? No electrode's name states it, and this draft takes {} with the muscles of that side; "
                     "`myoid init --coordinate {}` drafts the other",
-                    coordinate_, other),
+                    joint_.name, other),
         answer);
   }
 
@@ -451,7 +449,7 @@ class Draft {
           "no EMG was found, and a study identifies muscles from EMG; for motion and joint torque alone see `myoid ik` "
           "and `myoid id`");
     const std::vector<std::string> able =
-        coordinate_ == "TODO" ? std::vector<std::string>{} : movers(model_, coordinate_);
+        joint_.name == "TODO" ? std::vector<std::string>{} : movers(model_, joint_.name);
     std::set<std::string> covered, names;
     std::vector<std::string> unused;
     std::vector<std::string> drafted;
@@ -482,7 +480,7 @@ class Draft {
                          [&](const std::string& muscle) { return !covered.contains(muscle); });
     if (!left.empty()) without_electrode(left, drafted);
     if (!unused.empty()) {
-      line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_, fmt::join(unused, ", ")));
+      line(fmt::format("# Channels that no muscle about {} takes: {}", joint_.name, fmt::join(unused, ", ")));
       line("");
     }
   }
@@ -492,7 +490,7 @@ class Draft {
     line("[[muscle]]");
     const std::string osim = fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", "));
     if (!wants_a_leg())
-      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", coordinate_), osim);
+      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", joint_.name), osim);
     line("name = \"TODO\"");
     line(osim);
     line(fmt::format("emg = \"TODO\"      # of {}", fmt::join(channels, ", ")));
@@ -505,7 +503,7 @@ class Draft {
                                         fmt::join(drafted, ", "));
     todo(fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a group, or let them "
                      "act as another muscle does:",
-                     coordinate_, fmt::join(left, ", ")),
+                     joint_.name, fmt::join(left, ", ")),
          emg);
     line("# [[muscle]]");
     line("# name = " + toml_text(left[0]));
@@ -539,9 +537,8 @@ class Draft {
   std::optional<fs::path> model_file_;
   std::vector<std::string> other_models_;
   body::BodyModel model_;
-  std::string coordinate_;
+  CoordinateOfChannels joint_;
   bool guessed_coordinate_ = false;
-  std::vector<std::string> more_channels_;  ///< Coordinates with more electrodes than the chosen one.
   std::set<fs::path> loads_data_;
   TorqueTables torques_;
   std::vector<FoundRecording> found_;
