@@ -25,7 +25,7 @@ TEST(Light, CountsNoQuestionThatWasNotAsked) {
   const Gate good{.name = "Markers fit", .status = GateStatus::pass};
   const Gate unasked{.name = "Predicts", .status = GateStatus::info, .asked = false};
   EXPECT_NE(light_of({good}).head, light_of({good, unasked}).head);
-  EXPECT_THAT(light_of({good, unasked}).answered, testing::AllOf(HasSubstr("1 of 1"), HasSubstr(unasked.name)));
+  EXPECT_TRUE(light_of({good, unasked}).answered.starts_with(light_of({good}).answered));
 }
 
 TEST(Light, NamesWhatExplainsTheOthersFirst) {
