@@ -14,8 +14,8 @@
 #include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/recording/signals/emg_levels.h"
-#include "myoid/run/torque_sign.h"
 #include "myoid/study/checks/fiber_room.h"
+#include "myoid/study/checks/torque_sign.h"
 #include "myoid/study/checks/trial_plausibility.h"
 
 namespace myoid::run {
@@ -417,7 +417,7 @@ class TrialCheck {
       const double r = size > 0.0 ? torque(j).dot(p) / size : 0.0;
       if (r >= -kDoubtful) continue;
       // Muscles of other strengths may make this torque with its sign.
-      const SignsExplained signs = signs_explained(arms(j).cwiseProduct(force_n), torque(j));
+      const study::SignsExplained signs = study::signs_explained(arms(j).cwiseProduct(force_n), torque(j));
       if (signs.reversed < kDoubtful || signs.reversed < signs.as_given + kClearly) continue;
       const std::string found = fmt::format(
           "with the starting values the muscles' torque goes against that of {} (r = {:.2f}); are the signs of the "

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "myoid/fit/measurement/unlikeness.h"
 #include "myoid/fit/posterior/likelihood.h"
-#include "myoid/fit/posterior/unlikeness.h"
 
 namespace myoid::fit {
 

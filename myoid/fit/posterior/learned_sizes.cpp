@@ -43,10 +43,6 @@ class DensityOfSizes {
     information_.topLeftCorner(unknowns_, unknowns_) += density.precision();
   }
 
-  [[nodiscard]] bool has(int field) const {
-    return std::ranges::find(size_of_, std::optional<NoiseField>(static_cast<NoiseField>(field))) != size_of_.end();
-  }
-
   /// Returns ln p of these sizes, over a constant.
   [[nodiscard]] double operator()(const NoiseValues& noise) const {
     Eigen::VectorXd d = Eigen::VectorXd::Ones(unknowns_ + unseen_);
@@ -82,7 +78,6 @@ LearnedSizes learned_sizes(const Candidate& best) {
   LearnedSizes found{.noise = at_mode, .wider = {}};
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (int field = kModelErrorSize; field < kNoiseFieldCount; ++field) {
-      if (!of_sizes.has(field)) continue;
       Eigen::ArrayXd ln_size(kStepsBelow + kStepsAbove + 1), ln_p(ln_size.size());
       NoiseValues noise = found.noise;
       for (int k = 0; k < ln_size.size(); ++k) {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "myoid/fit/intervals/verdicts.h"
-#include "myoid/fit/posterior/unlikeness.h"
+#include "myoid/fit/measurement/unlikeness.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/names.h"
 #include "myoid/ground/core/nearest_word.h"

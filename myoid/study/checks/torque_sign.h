@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace myoid::run {
+namespace myoid::study {
 
 /// Shares of a torque's mean square that muscles explain if each may have another strength, and of the torque with the
 /// other sign. Strengths are never negative.
@@ -15,4 +15,4 @@ struct SignsExplained {
 /// a torque that muscles of other strengths make.
 [[nodiscard]] SignsExplained signs_explained(const Eigen::MatrixXd& muscle_torque_nm, const Eigen::VectorXd& torque_nm);
 
-}  // namespace myoid::run
+}  // namespace myoid::study

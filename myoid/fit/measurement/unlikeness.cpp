@@ -1,4 +1,4 @@
-#include "myoid/fit/posterior/unlikeness.h"
+#include "myoid/fit/measurement/unlikeness.h"
 
 #include <algorithm>
 #include <cmath>

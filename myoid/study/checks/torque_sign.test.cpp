@@ -1,10 +1,10 @@
-#include "myoid/run/torque_sign.h"
+#include "myoid/study/checks/torque_sign.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace myoid::run {
+namespace myoid::study {
 namespace {
 
 /// A flexor that works in the first half of a movement and an extensor in the second, by hand.
@@ -48,4 +48,4 @@ TEST(SignsExplained, AgreesWithEveryPairOfStrengthsOnAGrid) {
 }
 
 }  // namespace
-}  // namespace myoid::run
+}  // namespace myoid::study

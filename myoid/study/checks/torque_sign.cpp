@@ -1,9 +1,9 @@
-#include "myoid/run/torque_sign.h"
+#include "myoid/study/checks/torque_sign.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace myoid::run {
+namespace myoid::study {
 namespace {
 
 /// Returns 1 - min |A g - b|^2 / |b|^2 over g >= 0, by coordinate descent on A'A, which falls at every step.
@@ -39,4 +39,4 @@ SignsExplained signs_explained(const Eigen::MatrixXd& muscle_torque_nm, const Ei
   return {share_of(square, projected, total), share_of(square, -projected, total)};
 }
 
-}  // namespace myoid::run
+}  // namespace myoid::study
