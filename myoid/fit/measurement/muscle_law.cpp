@@ -311,9 +311,9 @@ const Tension& Tensions::next(double activation, double length_m, double velocit
   const double a = values_[kShare] * activation;
   if (is_elastic(values_)) {
     const double rise = kTendonRise / values_[kTendonStrain];
-    // A long tendon may balance a narrow muscle at several strains, where shortening makes it stronger. There the
-    // answer must not depend on the sample before. The pull p of an active muscle up to 2 F_max changes with its length
-    // by at most 1.7 (0.2 F_max + p) over its width.
+    // Several strains balance where a long tendon's muscle gains more by its shortening than the tendon loses. With z
+    // over the width, no active muscle up to 2 F_max gains more than 1.7 / width of 0.2 F_max + its pull. Elsewhere
+    // the strain must not depend on the sample before.
     constexpr double kSteepest = 1.7;
     const bool one_balance = kSteepest * values_[kSlack] < values_[kWidth] * rise;
     if (begun_ && one_balance) {
