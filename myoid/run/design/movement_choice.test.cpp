@@ -87,7 +87,7 @@ TEST(ChooseMovements, TheCriterionIsThatOfTheInverse) {
     problem.prior_precision += 0.1 * first;
     const Eigen::MatrixXd prior = problem.prior_precision.inverse();
     for (const DesignCriterion criterion : {DesignCriterion::d_optimal, DesignCriterion::a_optimal}) {
-      const DesignResult result = choose_movements(problem, {.criterion = criterion, .movements = 1});
+      const DesignResult result = choose_movements(problem, {.movements = 1, .criterion = criterion});
       double expected = 0.0;
       for (const Eigen::MatrixXd& m : problem.catalogue[result.steps.front().movement].per_person) {
         const Eigen::MatrixXd s = (problem.prior_precision + m).inverse();
