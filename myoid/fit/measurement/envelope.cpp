@@ -264,15 +264,11 @@ std::vector<Envelope::Value> Envelope::at(const Eigen::Ref<const Eigen::VectorXd
   return values;
 }
 
-Envelope Envelope::moved(double factor, double later_s) const {
+Envelope Envelope::times(double factor) const {
   Envelope product = *this;
   product.samples_ *= factor;
-  product.time_s_.array() += later_s;
-  for (Piece& piece : product.pieces_) {
+  for (Piece& piece : product.pieces_)
     for (double& power : piece.power) power *= factor;
-    piece.left_s += later_s;
-    piece.right_s += later_s;
-  }
   return product;
 }
 

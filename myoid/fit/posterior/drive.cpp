@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -327,10 +328,9 @@ Drive drive_of_clean(
   return {clean, std::move(left)};
 }
 
-std::shared_ptr<const Drive> DriveMemory::Known::of(double other, double other_begin_s) const {
-  if (other == size && other_begin_s == begin_s) return drive;
-  return std::make_shared<const Drive>(
-      Drive{drive->envelope.moved(other / size, other_begin_s - begin_s), drive->left});
+std::shared_ptr<const Drive> DriveMemory::Known::of(double other) const {
+  if (other == size) return drive;
+  return std::make_shared<const Drive>(Drive{drive->envelope.times(other / size), drive->left});
 }
 
 std::optional<DriveMemory::Known> DriveMemory::known(const Key& key) const {
@@ -350,21 +350,18 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
   const Eigen::VectorXd values = recorded.column(channel);
   const double greatest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0,
                size = greatest > 0.0 ? greatest : 1.0;
-  const double begin_s = recorded.time_s().size() > 0 ? recorded.time_s()[0] : 0.0;
-  const auto add_single = [](const auto& x, Key& to) {
-    for (const double value : x) to.push_back(static_cast<double>(static_cast<float>(value)));
-  };
-  Key key{noise_sd, static_cast<double>(static_cast<float>(rest / size)), cutoff_hz};
+  const auto single = [size](double value) { return static_cast<double>(static_cast<float>(value / size)); };
+  Key key{noise_sd, single(rest), cutoff_hz};
   // Trials share times, so that their values differ sooner.
-  add_single(Eigen::VectorXd(values / size), key);
-  add_single(Eigen::VectorXd(recorded.time_s().array() - begin_s), key);
-  if (const std::optional<Known> found = known(key)) return found->of(size, begin_s);
+  std::ranges::transform(values, std::back_inserter(key), single);
+  key.insert(key.end(), recorded.time_s().begin(), recorded.time_s().end());
+  if (const std::optional<Known> found = known(key)) return found->of(size);
   const Envelope envelope(recorded.time_s(), values);
   auto found = std::make_shared<const Drive>(
       level_of_clean_ ? drive_of_clean(envelope, noise_sd, rest, error, cutoff_hz, *level_of_clean_)
                       : drive_behind(envelope, noise_sd, rest, error, cutoff_hz));
   const std::lock_guard lock(mutex_);
-  return drives_.emplace(std::move(key), Known{size, begin_s, std::move(found)}).first->second.of(size, begin_s);
+  return drives_.emplace(std::move(key), Known{size, std::move(found)}).first->second.of(size);
 }
 
 }  // namespace myoid::fit
