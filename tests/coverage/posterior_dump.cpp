@@ -91,7 +91,7 @@ void write(std::uint64_t seed, int draws) {
       "],\"weight\":{},\"size\":{},\"growth\":{},\"slopes\":{},\"reference\":{},"
       "\"torque_size\":{:.17g},"
       "\"runs\":[",
-      json(weight), json(size), json(Eigen::MatrixXd(unseen.growth)), json(slopes), json(likelihood.reference()),
+      json(weight), json(size), json(unseen.growth), json(slopes), json(likelihood.reference()),
       likelihood.torque_size_nm());
   for (std::size_t r = 0; r < likelihood.runs().size(); ++r) {
     fmt::print("{}", r ? "," : "");

@@ -186,19 +186,17 @@ struct Collector {
 
   Unseen take() {
     Unseen unseen{std::move(quantities_), {}, std::move(slopes_), {}, {}};
-    unseen.growth.resize(static_cast<Eigen::Index>(unseen.quantities.size()), map_.size());
-    std::vector<Eigen::Triplet<double>> growth;
+    unseen.growth.setZero(static_cast<Eigen::Index>(unseen.quantities.size()), map_.size());
     for (Eigen::Index i = 0; i < unseen.growth.rows(); ++i) {
       const std::vector<std::size_t>& muscles = unseen.quantities[static_cast<std::size_t>(i)].strength_of;
       for (const std::size_t k : muscles) {
         for (Eigen::Index j = 0; j < map_.size(); ++j) {
           const Unknown& of = map_.free()[static_cast<std::size_t>(j)];
           if (of.is(Scope::muscle, kMaxForce) && of.acts_on(static_cast<int>(k)))
-            growth.emplace_back(i, j, 0.5 / static_cast<double>(muscles.size()));
+            unseen.growth(i, j) += 0.5 / static_cast<double>(muscles.size());
         }
       }
     }
-    unseen.growth.setFromTriplets(growth.begin(), growth.end());
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       unseen.columns.push_back(joined(columns_[r], runs_[r].all_rows()));
       unseen.by_slope.push_back(joined(by_slope_[r], runs_[r].all_rows()));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 
 #include "myoid/fit/intervals/result.h"
 #include "myoid/fit/measurement/parameters.h"
@@ -71,7 +71,7 @@ struct Unseen {
   /// d ln S / dz of each column, quantities x unknowns. A column that multiplies the strength of
   /// muscles grows with the root of their F_max (geometric mean), because F + x sqrt(F F_ref) is an
   /// error that is symmetric in ln F, as a factor of F is. F + x F_ref is symmetric in newtons.
-  Eigen::SparseMatrix<double> growth;
+  Eigen::MatrixXd growth;
 };
 
 /// The runs where every unknown of one field of the muscles is larger by a step than the reference.
