@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -78,12 +79,6 @@ StudyData with_exchanged_names(StudyData data, const std::string& one, const std
   return data;
 }
 
-/// Returns the level that counts as 1 of the first exchanged channel over that of the second.
-double ratio_of_levels(const fit::ActivationSource& source, const MistakenEmg& exchange) {
-  const double first_v = source.of(exchange.first).full_v, second_v = source.of(exchange.second).full_v;
-  return first_v > 0.0 && second_v > 0.0 ? first_v / second_v : 1.0;
-}
-
 /// Returns the trial's EMG without the mistake. An exchanged channel counts by the level of its own muscle.
 TimeSeries undone(const StudyData& data,
                   const fit::ActivationSource& source,
@@ -91,7 +86,8 @@ TimeSeries undone(const StudyData& data,
                   const MistakenEmg& mistake) {
   Eigen::MatrixXd values = emg.values();
   if (mistake.is_exchange()) {
-    const double ratio = ratio_of_levels(source, mistake);
+    const double first_v = source.of(mistake.first).full_v, second_v = source.of(mistake.second).full_v;
+    const double ratio = first_v > 0.0 && second_v > 0.0 ? first_v / second_v : 1.0;
     const Eigen::Index first = emg.index(mistake.first), second = emg.index(mistake.second);
     values.col(first).swap(values.col(second));
     values.col(first) /= ratio;
@@ -100,22 +96,6 @@ TimeSeries undone(const StudyData& data,
     for (const std::string& channel : fit::measured_channels(data)) values.col(emg.index(channel)) /= mistake.gain;
   }
   return {emg.time_s().array() - mistake.late_s, emg.channels(), std::move(values)};
-}
-
-/// Returns the options of a trial whose EMG is `undone`: bandwidth and noise of an electrode go with its EMG, so that
-/// its drive is known (DriveMemory).
-EstimatorOptions options_of_undone(const StudyData& data, EstimatorOptions options, const MistakenEmg& mistake) {
-  if (mistake.is_exchange()) {
-    const double ratio = ratio_of_levels(options, mistake);
-    const fit::ChannelSource first = options.of(mistake.first), second = options.of(mistake.second);
-    options.state(mistake.first).rest = second.rest / ratio;
-    options.state(mistake.first).bandwidth_hz = second.bandwidth_hz;
-    options.state(mistake.second).rest = first.rest * ratio;
-    options.state(mistake.second).bandwidth_hz = first.bandwidth_hz;
-  } else {
-    for (const std::string& channel : fit::measured_channels(data)) options.state(channel).rest /= mistake.gain;
-  }
-  return options;
 }
 
 /// Returns the exchanges that one trial may have.
@@ -182,11 +162,9 @@ class Mistakes {
     const std::optional<ByOthers> others = without(trial);
     if (!others) return;
     const TimeSeries& emg = data_.trials[trial].activation;
-    const double as_it_is = of_one_trial(trial, emg, others->options, others->session);
+    const double as_it_is = of_one_trial(trial, emg, *others);
     const auto gained = [&](const MistakenEmg& mistake) {
-      return of_one_trial(trial, undone(data_, plain_, emg, mistake),
-                          options_of_undone(data_, others->options, mistake), others->session) -
-             as_it_is;
+      return of_one_trial(trial, undone(data_, plain_, emg, mistake), *others) - as_it_is;
     };
     MistakenEmg likeliest{.trial = data_.trials[trial].name, .log_odds = kMistakenOdds};
     for (MistakenEmg& exchange : exchanges_in(data_, likeliest.trial)) {
@@ -257,22 +235,20 @@ class Mistakes {
   }
 
   /// Returns ln p of one trial with this EMG and the muscles that the other trials tell, at the best size of its error.
-  [[nodiscard]] double of_one_trial(std::size_t trial,
-                                    TimeSeries emg,
-                                    const EstimatorOptions& options,
-                                    const fit::Recorded& session) const {
-    StudyData alone{.muscles = data_.muscles, .trials = {data_.trials[trial]}, .rules = data_.rules};
-    alone.trials.front().activation = std::move(emg);
-    const fit::Likelihood likelihood(alone, options, fit::Columns::at_reference, &session);
-    fit::NoiseValues noise = options.begin_at->noise;
+  [[nodiscard]] double of_one_trial(std::size_t trial, TimeSeries emg, const ByOthers& others) const {
+    StudyData alone = data_;
+    for (TrialData& other : alone.trials) other.calibration = false;
+    alone.trials[trial].calibration = true;
+    alone.trials[trial].activation = std::move(emg);
+    const fit::Likelihood likelihood(alone, others.options, fit::Columns::at_reference, &others.session);
+    fit::NoiseValues noise = others.options.begin_at->noise;
     noise.conservativeResize(kNoiseFieldCount + 1);
-    std::vector<fit::NoiseValues> noises;
-    for (double& log_share = noise[kNoiseFieldCount] = -0.5; log_share <= 3.0; log_share += 0.5)
-      noises.push_back(noise);
-    std::vector<double> found = likelihood.values(likelihood.reference(), noises);
-    for (std::size_t i = 0; i < found.size(); ++i)
-      found[i] -= 0.5 * std::pow(noises[i][kNoiseFieldCount] / fit::beliefs::kTrialTorqueNoise.sd, 2);
-    return *std::ranges::max_element(found);
+    double best = -std::numeric_limits<double>::infinity();
+    for (double& log_share = noise[kNoiseFieldCount] = -0.5; log_share <= 3.0; log_share += 0.5) {
+      const double off = log_share / fit::beliefs::kTrialTorqueNoise.sd;
+      best = std::max(best, likelihood.value(likelihood.reference(), noise) - 0.5 * off * off);
+    }
+    return best;
   }
 
   /// Returns the progress of the next fit. Nobody knows how many follow.

@@ -264,14 +264,6 @@ std::vector<Envelope::Value> Envelope::at(const Eigen::Ref<const Eigen::VectorXd
   return values;
 }
 
-Envelope Envelope::times(double factor) const {
-  Envelope product = *this;
-  product.samples_ *= factor;
-  for (Piece& piece : product.pieces_)
-    for (double& power : piece.power) power *= factor;
-  return product;
-}
-
 std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag) {
   if (lag == EmgLag::delay) return {};
   const ChannelValues c = lag == EmgLag::shared ? shared(channel) : channel;

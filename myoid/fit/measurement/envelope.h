@@ -31,8 +31,6 @@ class Envelope {
 
   /// Returns the envelope of the samples from `first_s` to `last_s` alone, four of them at least.
   [[nodiscard]] Envelope within(double first_s, double last_s) const;
-  /// Returns the envelope times a factor of 0 or more.
-  [[nodiscard]] Envelope times(double factor) const;
 
   [[nodiscard]] double first_s() const { return time_s_[0]; }
   [[nodiscard]] double last_s() const { return time_s_[time_s_.size() - 1]; }

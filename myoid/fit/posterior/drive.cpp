@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -328,17 +327,12 @@ Drive drive_of_clean(
   return {clean, std::move(left)};
 }
 
-std::shared_ptr<const Drive> DriveMemory::Known::of(double other) const {
-  if (other == size) return drive;
-  return std::make_shared<const Drive>(Drive{drive->envelope.times(other / size), drive->left});
-}
-
-std::optional<DriveMemory::Known> DriveMemory::known(const Key& key) const {
+std::shared_ptr<const Drive> DriveMemory::known(const Key& key) const {
   {
     const std::lock_guard lock(mutex_);
     if (const auto found = drives_.find(key); found != drives_.end()) return found->second;
   }
-  return whole_ ? whole_->known(key) : std::nullopt;
+  return whole_ ? whole_->known(key) : nullptr;
 }
 
 std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
@@ -348,20 +342,17 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
                                                  const EnvelopeError& error,
                                                  double cutoff_hz) {
   const Eigen::VectorXd values = recorded.column(channel);
-  const double greatest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0,
-               size = greatest > 0.0 ? greatest : 1.0;
-  const auto single = [size](double value) { return static_cast<double>(static_cast<float>(value / size)); };
-  Key key{noise_sd, single(rest), cutoff_hz};
+  Key key{noise_sd, rest, cutoff_hz};
   // Trials share times, so that their values differ sooner.
-  std::ranges::transform(values, std::back_inserter(key), single);
+  key.insert(key.end(), values.begin(), values.end());
   key.insert(key.end(), recorded.time_s().begin(), recorded.time_s().end());
-  if (const std::optional<Known> found = known(key)) return found->of(size);
+  if (std::shared_ptr<const Drive> drive = known(key)) return drive;
   const Envelope envelope(recorded.time_s(), values);
   auto found = std::make_shared<const Drive>(
       level_of_clean_ ? drive_of_clean(envelope, noise_sd, rest, error, cutoff_hz, *level_of_clean_)
                       : drive_behind(envelope, noise_sd, rest, error, cutoff_hz));
   const std::lock_guard lock(mutex_);
-  return drives_.emplace(std::move(key), Known{size, std::move(found)}).first->second.of(size);
+  return drives_.emplace(std::move(key), std::move(found)).first->second;
 }
 
 }  // namespace myoid::fit

@@ -58,9 +58,8 @@ struct Drive {
 [[nodiscard]] Drive drive_of_clean(
     const Envelope& clean, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz, double level);
 
-/// The drives that fits of one recording have found: its folds and predictions need the same ones. That of an envelope
-/// times a factor, with `rest` times this factor, is the drive times the factor: electrodes that are exchanged, and
-/// another gain, need no other search. Several threads may ask at once.
+/// The drives that fits of one recording have found: its folds and predictions need the same ones.
+/// Several threads may ask at once.
 class DriveMemory {
  public:
   DriveMemory() = default;
@@ -69,7 +68,7 @@ class DriveMemory {
   /// A memory of a fold, which knows the drives of `whole` and keeps its own.
   explicit DriveMemory(std::shared_ptr<const DriveMemory> whole) : whole_(std::move(whole)) {}
 
-  /// Returns drive_behind of the channel, found once for each envelope and noise, whatever its size.
+  /// Returns drive_behind of the channel, found once for each envelope and noise.
   [[nodiscard]] std::shared_ptr<const Drive> behind(const TimeSeries& recorded,
                                                     const std::string& channel,
                                                     double noise_sd,
@@ -78,20 +77,14 @@ class DriveMemory {
                                                     double cutoff_hz);
 
  private:
-  using Key = std::vector<double>;  ///< All that the drive depends on, of an envelope of size 1, to single precision.
-  struct Known {
-    double size = 0.0;  ///< Greatest value of the envelope.
-    std::shared_ptr<const Drive> drive = nullptr;
-    /// Returns the drive of an envelope of this size.
-    [[nodiscard]] std::shared_ptr<const Drive> of(double other) const;
-  };
-  /// Returns the drive; empty if neither this memory nor that of the whole knows it.
-  [[nodiscard]] std::optional<Known> known(const Key& key) const;
+  using Key = std::vector<double>;  ///< All that the drive depends on.
+  /// Returns the drive, or nullptr if neither this memory nor that of the whole knows it.
+  [[nodiscard]] std::shared_ptr<const Drive> known(const Key& key) const;
 
   std::optional<double> level_of_clean_;
   std::shared_ptr<const DriveMemory> whole_;
   mutable std::mutex mutex_;
-  std::map<Key, Known> drives_;
+  std::map<Key, std::shared_ptr<const Drive>> drives_;
 };
 
 }  // namespace myoid::fit

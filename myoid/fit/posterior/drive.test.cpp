@@ -134,25 +134,6 @@ TEST(Drive, OfACleanEnvelopeIsTheEnvelopeAndItsErrorThatOfARecording) {
   }
 }
 
-TEST(DriveMemory, KnowsTheDriveOfAnEnvelopeTimesAFactor) {
-  const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
-  const MadeEnvelope of = made_envelope(0.15);
-  const auto recording = [&](double factor) {
-    return TimeSeries(of.time, {{"BIC", Unit::dimensionless}}, factor * of.values);
-  };
-  constexpr double kRest = 0.02;
-  DriveMemory memory;
-  const auto once = memory.behind(recording(1.0), "BIC", 0.15, kRest, error, kCutoff_hz);
-  EXPECT_EQ(memory.behind(recording(1.0), "BIC", 0.15, kRest, error, kCutoff_hz), once);
-  for (const double factor : {0.3, 2.0}) {
-    const auto larger = memory.behind(recording(factor), "BIC", 0.15, factor * kRest, error, kCutoff_hz);
-    const Drive found = drive_behind(Envelope(of.time, factor * of.values), 0.15, factor * kRest, error, kCutoff_hz);
-    for (const double t : of.time)
-      EXPECT_NEAR(larger->envelope.at(t).value, found.envelope.at(t).value, 1e-9 * factor) << factor << " " << t;
-    EXPECT_LT((larger->left - found.left).norm(), 1e-9) << factor;
-  }
-}
-
 TEST(Drive, ASmoothEnvelopeIsLeftAlone) {
   // The noise is believed to be there, and is not: it is lowered to what is recorded.
   const MadeEnvelope of = made_envelope(0.0);

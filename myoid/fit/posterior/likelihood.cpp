@@ -215,7 +215,7 @@ Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
 }
 
 Eigen::VectorXd Likelihood::grown(const Eigen::VectorXd& z) const {
-  return Eigen::VectorXd(unseen_.growth * (z - reference_)).array().exp();
+  return (unseen_.growth * (z - reference_)).array().exp();
 }
 
 Eigen::VectorXd Likelihood::envelope_scale(const TrialRun& run, const NoiseValues& noise) {
@@ -382,22 +382,14 @@ void Likelihood::add_gradient_of_columns(std::size_t r,
   }
 }
 
-Likelihood::Evaluations Likelihood::evaluated(const ModelValues& values, const ChainsByOwner* chains) const {
-  Evaluations at(runs_.size());
-  parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
-    for (std::size_t r = range.begin(); r < range.end(); ++r)
-      at[r] = std::make_shared<const RunEvaluation>(runs_[r], map_, options_.law, values, chains);
-  });
-  return at;
-}
-
-std::vector<Likelihood::Block> Likelihood::filled(const Evaluations& at,
+std::vector<Likelihood::Block> Likelihood::filled(const ModelValues& values,
+                                                  const ChainsByOwner* chains,
                                                   const AllRuns& all,
                                                   const NoiseValues& noise) const {
   std::vector<Block> blocks(runs_.size());
   parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
     for (std::size_t r = range.begin(); r < range.end(); ++r) {
-      blocks[r].evaluation = at[r];
+      blocks[r].evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.law, values, chains);
       blocks[r].positive = fill(r, all, noise, blocks[r]);
     }
   });
@@ -408,22 +400,8 @@ double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gra
   std::vector<ParameterMap::Chain> chains;
   const ModelValues values = map_.values(z, gradient != nullptr ? &chains : nullptr);
   const ChainsByOwner by_owner(map_, chains);
-  return value_of(evaluated(values, gradient != nullptr ? &by_owner : nullptr), z, noise, gradient);
-}
-
-std::vector<double> Likelihood::values(const Eigen::VectorXd& z, const std::vector<NoiseValues>& noises) const {
-  const Evaluations at = evaluated(map_.values(z), nullptr);
-  std::vector<double> found;
-  for (const NoiseValues& noise : noises) found.push_back(value_of(at, z, noise, nullptr));
-  return found;
-}
-
-double Likelihood::value_of(const Evaluations& at,
-                            const Eigen::VectorXd& z,
-                            const NoiseValues& noise,
-                            Gradient* gradient) const {
   AllRuns all = all_runs(z, noise);
-  const std::vector<Block> blocks = filled(at, all, noise);
+  const std::vector<Block> blocks = filled(values, gradient != nullptr ? &by_owner : nullptr, all, noise);
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   double result = 0.0;
   std::vector<Eigen::MatrixXd> white;

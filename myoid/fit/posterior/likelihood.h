@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -94,9 +93,6 @@ class Likelihood {
   /// the number of threads. Returns -infinity where Sigma is not numerically positive definite.
   [[nodiscard]] double value(const Eigen::VectorXd& z, const NoiseValues& noise, Gradient* gradient = nullptr) const;
 
-  /// Returns ln p at the same z for each of these errors.
-  [[nodiscard]] std::vector<double> values(const Eigen::VectorXd& z, const std::vector<NoiseValues>& noises) const;
-
   /// Fisher's information about z in the mean, J' Sigma^-1 J, and each source's part of it,
   /// `by_source`[s] = J' Sigma^-1 Sigma_s Sigma^-1 J. The parts add to `information`.
   struct Information {
@@ -183,15 +179,11 @@ class Likelihood {
   [[nodiscard]] double fascicle_variance(const NoiseValues& noise) const;
   /// Returns L S of the run at the unknowns of `all`.
   [[nodiscard]] Eigen::MatrixXd turned_columns(std::size_t run, const AllRuns& all) const;
-  using Evaluations = std::vector<std::shared_ptr<const RunEvaluation>>;
-  /// Evaluates all runs, in parallel.
-  [[nodiscard]] Evaluations evaluated(const ModelValues& values, const ChainsByOwner* chains) const;
   /// Returns the blocks of all runs, in parallel.
-  [[nodiscard]] std::vector<Block> filled(const Evaluations& at, const AllRuns& all, const NoiseValues& noise) const;
-  [[nodiscard]] double value_of(const Evaluations& at,
-                                const Eigen::VectorXd& z,
-                                const NoiseValues& noise,
-                                Gradient* gradient) const;
+  [[nodiscard]] std::vector<Block> filled(const ModelValues& values,
+                                          const ChainsByOwner* chains,
+                                          const AllRuns& all,
+                                          const NoiseValues& noise) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
   [[nodiscard]] bool fill(std::size_t run, const AllRuns& all, const NoiseValues& noise, Block& block) const;
   /// `half_left` is C^-1 L S W G^-1.

@@ -21,7 +21,7 @@ struct Likelihood::Point {
 
 /// One run at one point. A is divided by the weight w of the run's rows.
 struct Likelihood::Block {
-  std::shared_ptr<const RunEvaluation> evaluation;
+  std::unique_ptr<RunEvaluation> evaluation;
   Eigen::LLT<Eigen::MatrixXd> factor;  ///< Cholesky factor of A.
   Eigen::MatrixXd whitening;           ///< C^-1, A = C C'
   Eigen::VectorXd solved;              ///< A^-1 r

@@ -11,7 +11,7 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z, const 
   const Eigen::Index p = map_.size();
   Information result{Eigen::MatrixXd::Zero(p, p),
                      std::vector<Eigen::MatrixXd>(kSourceCount, Eigen::MatrixXd::Zero(p, p))};
-  const std::vector<Block> blocks = filled(evaluated(point.values, &point.by_owner), all, noise);
+  const std::vector<Block> blocks = filled(point.values, &point.by_owner, all, noise);
   std::vector<Eigen::MatrixXd> white(runs_.size());  // C^-1 L J
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     if (!blocks[r].positive) return result;
@@ -44,7 +44,7 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
   const AllRuns all = all_runs(z, noise);
   const Eigen::VectorXd& w = all.weights;
   const Eigen::Index p = map_.size();
-  const std::vector<Block> blocks = filled(evaluated(point.values, &point.by_owner), all, noise);
+  const std::vector<Block> blocks = filled(point.values, &point.by_owner, all, noise);
   std::vector<Eigen::MatrixXd> found;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     if (r == 0 || runs_[r].trial != runs_[r - 1].trial)
@@ -60,7 +60,7 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
 Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   const Point point(map_, z);
   const AllRuns all = all_runs(z, noise);
-  std::vector<Block> blocks = filled(evaluated(point.values, &point.by_owner), all, noise);
+  std::vector<Block> blocks = filled(point.values, &point.by_owner, all, noise);
   std::vector<Eigen::MatrixXd> white(runs_.size());  // C^-1 [r, L J]
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     white[r].setZero(runs_[r].measured_count(), 1 + map_.size());
