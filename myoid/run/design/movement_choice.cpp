@@ -41,15 +41,12 @@ class Designer {
     if (std::none_of(feasible_.begin(), feasible_.end(), [](bool f) { return f; }))
       throw InvalidInput("design: no movement of the catalogue can be done by these persons");
     prior_ = covariance(problem.prior_precision);
-    for (Eigen::Index j = 0; j < p; ++j)
-      if (std::ranges::find(problem.targets, j) == problem.targets.end()) targets_last_.push_back(j);
-    targets_last_.insert(targets_last_.end(), problem.targets.begin(), problem.targets.end());
   }
 
   [[nodiscard]] DesignResult choose() {
     DesignResult result;
     result.prior_sd = prior_.diagonal().cwiseSqrt();
-    result.prior_criterion = criterion_of(problem_.prior_precision);
+    result.prior_criterion = criterion_of(prior_);
     for (std::size_t m = 0; m < feasible_.size(); ++m) {
       if (!feasible_[m]) result.infeasible.push_back(m);
     }
@@ -65,26 +62,20 @@ class Designer {
   }
 
  private:
-  [[nodiscard]] static Eigen::LLT<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& precision) {
-    Eigen::LLT<Eigen::MatrixXd> factor(precision);
-    if (factor.info() != Eigen::Success) throw InvalidInput("design: the prior's precision is not positive definite");
-    return factor;
-  }
-
   [[nodiscard]] static Eigen::MatrixXd covariance(const Eigen::MatrixXd& precision) {
-    return factor_of(precision).solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
+    const Eigen::LLT<Eigen::MatrixXd> factor(precision);
+    if (factor.info() != Eigen::Success) throw InvalidInput("design: the prior's precision is not positive definite");
+    return factor.solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
   }
 
-  /// Returns the criterion of S, the inverse of the precision. With the targets last in the precision and L L' its
-  /// Cholesky factors, S_tt^-1 = L_tt L_tt'.
-  [[nodiscard]] double criterion_of(const Eigen::MatrixXd& precision) const {
-    const Eigen::LLT<Eigen::MatrixXd> factor = factor_of(precision(targets_last_, targets_last_));
-    const auto count = static_cast<Eigen::Index>(problem_.targets.size());
-    const auto own = factor.matrixLLT().bottomRightCorner(count, count);
-    if (options_.criterion == DesignCriterion::d_optimal) return -2.0 * own.diagonal().array().log().sum();
-    const Eigen::VectorXd variance =
-        own.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(count, count)).colwise().squaredNorm();
-    return variance.cwiseQuotient(prior_.diagonal()(problem_.targets)).sum();
+  [[nodiscard]] double criterion_of(const Eigen::MatrixXd& s) const {
+    if (options_.criterion == DesignCriterion::a_optimal) {
+      double sum = 0.0;
+      for (const Eigen::Index j : problem_.targets) sum += s(j, j) / prior_(j, j);
+      return sum;
+    }
+    const Eigen::LLT<Eigen::MatrixXd> factor(s(problem_.targets, problem_.targets));
+    return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
   }
 
   [[nodiscard]] Gathered gathered(const std::vector<std::size_t>& chosen) const {
@@ -102,7 +93,7 @@ class Designer {
 
   [[nodiscard]] double mean_criterion(const Gathered& information) const {
     double sum = 0.0;
-    for (const Eigen::MatrixXd& precision : information) sum += criterion_of(precision);
+    for (const Eigen::MatrixXd& precision : information) sum += criterion_of(covariance(precision));
     return sum / static_cast<double>(persons_);
   }
 
@@ -186,7 +177,6 @@ class Designer {
   std::size_t persons_ = 0;
   std::vector<bool> feasible_;
   Eigen::MatrixXd prior_;
-  std::vector<Eigen::Index> targets_last_;  ///< All parameters.
 };
 
 }  // namespace

@@ -79,27 +79,6 @@ TEST(ChooseMovements, EveryStepShrinksTheIntervalsAndTheCriterion) {
   }
 }
 
-TEST(ChooseMovements, TheCriterionIsThatOfTheInverse) {
-  for (const std::vector<Eigen::Index>& targets : {std::vector<Eigen::Index>{0, 1}, {4, 2}}) {
-    DesignProblem problem = random_problem(5, 6, 4, 2);
-    problem.targets = targets;
-    const Eigen::MatrixXd first = problem.catalogue[0].per_person[0];
-    problem.prior_precision += 0.1 * first;
-    const Eigen::MatrixXd prior = problem.prior_precision.inverse();
-    for (const DesignCriterion criterion : {DesignCriterion::d_optimal, DesignCriterion::a_optimal}) {
-      const DesignResult result = choose_movements(problem, {.movements = 1, .criterion = criterion});
-      double expected = 0.0;
-      for (const Eigen::MatrixXd& m : problem.catalogue[result.steps.front().movement].per_person) {
-        const Eigen::MatrixXd s = (problem.prior_precision + m).inverse();
-        if (criterion == DesignCriterion::d_optimal) expected += 0.5 * std::log(s(targets, targets).determinant());
-        for (const Eigen::Index t : targets)
-          if (criterion == DesignCriterion::a_optimal) expected += 0.5 * s(t, t) / prior(t, t);
-      }
-      EXPECT_NEAR(result.steps.front().criterion, expected, 1e-12);
-    }
-  }
-}
-
 TEST(ChooseMovements, TellsApartWhatTheTargetsNeed) {
   // Movement 0 tells much of a parameter that nobody asks for, movement 1 little of the target.
   DesignProblem problem;
