@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace myoid::fit {
-namespace muscle_law_detail {
+namespace {
 
 /// f_v at one rate and its derivatives.
 struct ForceVelocity {
@@ -12,7 +12,7 @@ struct ForceVelocity {
 };
 
 /// Evaluates equation (4) of the source paper, v positive in lengthening [m/s]; 0 at -v_max and below.
-inline ForceVelocity velocity_factor(double v, const MuscleValues& p) {
+ForceVelocity velocity_factor(double v, const MuscleValues& p) {
   const double vm = p[kSpeed];
   ForceVelocity f;
   if (v > 0.0) {
@@ -35,6 +35,9 @@ inline ForceVelocity velocity_factor(double v, const MuscleValues& p) {
   return f;
 }
 
+constexpr double kTendonScale = 0.2;               // scale of De Groote's exponential tendon
+constexpr double kTendonRise = 1.791759469228055;  // ln(1 / 0.2 + 1): tension 1 at strain e0
+
 using Fields = std::array<double, kMuscleFieldCount>;
 
 /// Force over F_max and its derivatives.
@@ -43,20 +46,17 @@ struct Pull {
   double by_activation = 0.0, by_length = 0.0, by_velocity = 0.0;
 };
 
-/// A muscle without its tendon, at one activation and rate after the other.
+/// A muscle without its tendon at one activation and rate.
 class Contraction {
  public:
-  explicit Contraction(const MuscleValues& p)
+  Contraction(double a, double v_mt, const MuscleValues& p)
       : p_(p),
+        a_(a),
+        v_mt_(v_mt),
+        stretch_(1.0 + p[kLengthActivation] * (1.0 - a)),
         sine_(p[kPennation] == 0.0 ? 0.0 : std::sin(p[kPennation])),
-        cosine_(p[kPennation] == 0.0 ? 1.0 : std::cos(p[kPennation])),
-        passive_top_(std::exp(p[kPassiveShape]) - 1.0) {}
-
-  void set(double a, double v_mt) {
-    a_ = a;
-    v_mt_ = v_mt;
-    stretch_ = 1.0 + p_[kLengthActivation] * (1.0 - a);
-    if (p_[kPennation] == 0.0) of_velocity_ = velocity_factor(v_mt, p_);
+        passive_top_(std::exp(p[kPassiveShape]) - 1.0) {
+    if (p[kPennation] == 0.0) of_velocity_ = velocity_factor(v_mt, p);
   }
 
   /// Returns the pull along the tendon at the projected length l cos(alpha). Writes the derivatives
@@ -80,7 +80,7 @@ class Contraction {
     const double by_h = (f.by_length * h / l + f.by_velocity * v_mt_ * c_h) * c + f.force * c_h;
     for (double& d : *by_field) d *= c;
     (*by_field)[kFiberLength] += by_h * sine_;
-    (*by_field)[kPennation] = by_h * p_[kFiberLength] * cosine_;
+    (*by_field)[kPennation] = by_h * p_[kFiberLength] * std::cos(p_[kPennation]);
     return r;
   }
 
@@ -130,64 +130,37 @@ class Contraction {
   }
 
   const MuscleValues& p_;
-  double sine_, cosine_, passive_top_;
-  double a_ = 0.0, v_mt_ = 0.0, stretch_ = 1.0;
+  double a_, v_mt_, stretch_, sine_, passive_top_;
   ForceVelocity of_velocity_;  ///< without pennation the same at every length
 };
 
-}  // namespace muscle_law_detail
-
-namespace {
-
-using muscle_law_detail::Contraction;
-using muscle_law_detail::Pull;
-using muscle_law_detail::velocity_factor;
-
-constexpr double kTendonScale = 0.2;               // scale of De Groote's exponential tendon
-constexpr double kTendonRise = 1.791759469228055;  // ln(1 / 0.2 + 1): tension 1 at strain e0
-
-/// A muscle's pull over F_max and the strain of its tendon where both pull equally.
-struct Balance {
-  Pull pull;
-  double strain = 0.0;
-};
-
-/// Returns the balance at the root of
+/// Returns the strain at which tendon and muscle pull equally, the root of
 ///
 ///   u(s) = ln(1 + m(s) / 0.2) / rise - s
 ///
 /// where m is the muscle's pull, by Newton's steps within a bracket. u is nearly a line, because the logarithm cancels
-/// the tendon's exponential and the remaining slope of m is small beside 1. The last step is at most 3e-9. By it the
-/// strain errs by less than 1e-16, the force, which follows it by its slope, by 1e-15 and the slopes by some 1e-8.
-/// `muscle`(x, last) is the muscle's Pull at the projected length x; it computes all slopes if this may be the `last`.
+/// the tendon's exponential and the remaining slope of m is small beside 1. A step of 3e-9 leaves an error below 1e-16.
+/// `muscle` is the muscle's Pull over the projected length l cos(alpha).
 template <typename Muscle>
-Balance balance(const Muscle& muscle, double start, double l_mt, double slack, double rise) {
-  constexpr double kLastStep = 3e-9, kNear = 1e-4, kLongest = 10.0;
+double tendon_strain(const Muscle& muscle, double start, double l_mt, double slack, double rise) {
+  constexpr double kLastStep = 3e-9, kLongest = 10.0;
   double low = -1.0, high = kLongest;                             // the tendon does not push: low is 0 once 0 was tried
   double strain = start > 0.0 ? std::min(start, kLongest) : 0.0;  // also where the sample before had none
-  double step = kLongest;
-  const auto at = [&](bool last) { return muscle(l_mt - slack * (1.0 + strain), last); };
   for (int i = 0; i < 200; ++i) {
-    const bool last = std::abs(step) <= kNear;
-    Pull m = at(last);
-    if (strain == 0.0 && m.force <= 0.0) return {last ? m : at(true), 0.0};
+    const Pull m = muscle(l_mt - slack * (1.0 + strain));
+    if (strain == 0.0 && m.force <= 0.0) return 0.0;
     const double u = std::log(1.0 + m.force / kTendonScale) / rise - strain;
     const double slope = -m.by_length * slack / (rise * (kTendonScale + m.force)) - 1.0;
     (u > 0.0 ? low : high) = strain;
     double next = slope < 0.0 ? std::max(strain - u / slope, 0.0) : high;
-    step = next - strain;
-    if (std::abs(step) <= kLastStep) {
-      if (!last) m = at(true);
-      m.force -= m.by_length * slack * step;
-      return {m, next};
-    }
+    if (std::abs(next - strain) <= kLastStep) return next;
     if (!(next > low && next < high)) {
       const double from = std::max(low, 0.0);
       next = 0.5 * (from + std::min(high, 2.0 * from + 0.1));
     }
     strain = next;
   }
-  return {at(true), strain};
+  return strain;
 }
 
 bool is_elastic(const MuscleValues& p) { return p[kTendonStrain] > 0.0 && p[kSlack] > 0.0; }
@@ -215,26 +188,27 @@ muscle::HillParameters<double> hill_parameters(const MuscleValues& values) {
   return hill;
 }
 
-namespace {
-
-/// Computes `tension` of a contraction that is set. The search for the strain begins at that of `t`.
-void general_tension(const Contraction& muscle, double activation, double length_m, const MuscleValues& p, Tension& t) {
+Tension tension(double activation, double length_m, double velocity_mps, const MuscleValues& p) {
+  const double a = p[kShare] * activation;
   const double greatest = p[kMaxForce];
   const double slack = p[kSlack];
+  const Contraction muscle(a, velocity_mps, p);
   const bool elastic = is_elastic(p);
   const double rise = elastic ? kTendonRise / p[kTendonStrain] : 0.0;
-  const auto alone = [&](double along, bool last) { return muscle.at(along, last ? &t.by_field : nullptr); };
-  const auto [m, strain] =
-      elastic ? balance(alone, t.strain, length_m, slack, rise) : Balance{alone(length_m - slack, true), 0.0};
-  const double force = elastic ? std::max(m.force, 0.0) : m.force;  // a tendon cannot push
+  const auto alone = [&](double along) { return muscle.at(along, nullptr); };
+  const auto guess = [&] { return 0.6 * std::log(1.0 + std::max(a, 0.0) / kTendonScale) / rise; };
+  const double strain = elastic ? tendon_strain(alone, guess(), length_m, slack, rise) : 0.0;
+  Tension t;
   t.strain = strain;
+  Pull m = muscle.at(length_m - slack * (1.0 + strain), &t.by_field);
+  if (elastic) m.force = std::max(m.force, 0.0);  // a tendon cannot push
   // G = muscle - tendon = 0 gives d strain / d x = G_x / (m_length l_ts + pull').
-  const double grown = kTendonScale + force;
+  const double grown = kTendonScale + m.force;
   const double stiff = elastic ? rise * grown / (m.by_length * slack + rise * grown) : 1.0;
   const double scale = greatest * stiff;
   for (double& d : t.by_field) d *= scale;
-  t.force_n = greatest * force;
-  t.by_field[kMaxForce] = force;
+  t.force_n = greatest * m.force;
+  t.by_field[kMaxForce] = m.force;
   t.by_field[kSlack] = -scale * m.by_length * (1.0 + strain);
   if (elastic) {
     const double by_e0 = -grown * strain * rise / p[kTendonStrain];
@@ -245,12 +219,7 @@ void general_tension(const Contraction& muscle, double activation, double length
   t.by_activation = scale * m.by_activation;
   t.by_field[kShare] = t.by_activation * activation;
   t.by_activation *= p[kShare];
-}
-
-}  // namespace
-
-Tension tension(double activation, double length_m, double velocity_mps, const MuscleValues& p) {
-  return Tensions(p, false).next(activation, length_m, velocity_mps);
+  return t;
 }
 
 bool is_plain(const MuscleValues& p) { return p[kPennation] == 0.0 && p[kPassiveForce] == 0.0; }
@@ -265,12 +234,12 @@ void plain_tension(double activation, double length_m, double velocity_mps, cons
   const bool elastic = is_elastic(p);
   const double rise = elastic ? kTendonRise / p[kTendonStrain] : 0.0;
   if (elastic) {
-    const auto alone = [&, fv = fv](double along, bool) {
+    const auto alone = [&, fv = fv](double along) {
       const double z = (along - l0 * stretch) * inverse_width;
       const double force = a * fv * std::exp(-z * z);
       return Pull{.force = force, .by_length = -2.0 * z * inverse_width * force};
     };
-    t.strain = balance(alone, t.strain, length_m, slack, rise).strain;
+    t.strain = tendon_strain(alone, t.strain, length_m, slack, rise);
   } else {
     t.strain = 0.0;
   }
@@ -298,35 +267,6 @@ void plain_tension(double activation, double length_m, double velocity_mps, cons
   t.by_field[kLengthActivation] = -t.by_length * l0 * (1.0 - a);
   t.by_field[kTendonStrain] = elastic ? -greatest * grown * t.strain * rise / p[kTendonStrain] * (1.0 - stiff) : 0.0;
   t.by_field[kShare] = by_own_activation * activation;
-}
-
-Tensions::Tensions(const MuscleValues& values, bool plain)
-    : values_(values), plain_(plain), muscle_(std::make_unique<Contraction>(values)) {}
-Tensions::~Tensions() = default;
-
-const Tension& Tensions::next(double activation, double length_m, double velocity_mps) {
-  const double a = values_[kShare] * activation;
-  if (is_elastic(values_)) {
-    const double rise = kTendonRise / values_[kTendonStrain];
-    if (begun_) {
-      const double moved_n = t_.by_activation * (activation - activation_) + t_.by_length * (length_m - length_m_) +
-                             t_.by_velocity * (velocity_mps - velocity_mps_);
-      t_.strain += moved_n / (rise * (kTendonScale * values_[kMaxForce] + t_.force_n));
-    } else {
-      t_.strain = 0.6 * std::log(1.0 + std::max(a, 0.0) / kTendonScale) / rise;
-    }
-  }
-  if (plain_) {
-    plain_tension(activation, length_m, velocity_mps, values_, t_);
-  } else {
-    muscle_->set(a, velocity_mps);
-    general_tension(*muscle_, activation, length_m, values_, t_);
-  }
-  begun_ = true;
-  activation_ = activation;
-  length_m_ = length_m;
-  velocity_mps_ = velocity_mps;
-  return t_;
 }
 
 double tension_n(double activation, double length_m, double velocity_mps, const MuscleValues& p) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 
 #include "myoid/muscle/hill_parameters.h"
 
@@ -63,7 +62,7 @@ struct Tension {
 ///
 ///   F / F_max = 0.2 (exp(ln(6) strain / e0) - 1),   l cos(alpha) = l_mt - l_ts (1 + strain),
 ///
-/// solved to round-off; v leaves out the rate at which the tendon stretches. Derivatives are exact
+/// solved to round-off for every sample; v leaves out the rate at which the tendon stretches. Derivatives are exact
 /// (implicit function theorem). Where the tendon is slack (l_mt <= l_ts with pennation) the tension is 0.
 [[nodiscard]] Tension tension(double activation, double length_m, double velocity_mps, const MuscleValues& values);
 
@@ -79,30 +78,6 @@ struct Tension {
 /// Computes `tension` where `is_plain`; leaves the derivatives by other fields as they are. `out.strain` is where the
 /// search for an elastic tendon's strain begins: that of the sample before saves steps.
 void plain_tension(double activation, double length_m, double velocity_mps, const MuscleValues& values, Tension& out);
-
-namespace muscle_law_detail {
-class Contraction;
-}
-
-/// The tensions of one muscle at the samples of a recording, one after the other. The search for an elastic tendon's
-/// strain begins where the slopes of the sample before lead to: at 100 Hz one step and a look at its end are enough.
-class Tensions {
- public:
-  /// `plain`: by `plain_tension`. `values` must outlive the object.
-  Tensions(const MuscleValues& values, bool plain);
-  ~Tensions();
-  Tensions(const Tensions&) = delete;
-  Tensions& operator=(const Tensions&) = delete;
-  /// Returns `tension` of the next sample, valid until the next call.
-  const Tension& next(double activation, double length_m, double velocity_mps);
-
- private:
-  const MuscleValues& values_;
-  bool plain_, begun_ = false;
-  std::unique_ptr<muscle_law_detail::Contraction> muscle_;  ///< Without its tendon.
-  double activation_ = 0.0, length_m_ = 0.0, velocity_mps_ = 0.0;
-  Tension t_;
-};
 
 /// Returns `tension(...).force_n` alone, by `plain_tension` where `is_plain`.
 [[nodiscard]] double tension_n(double activation, double length_m, double velocity_mps, const MuscleValues& values);

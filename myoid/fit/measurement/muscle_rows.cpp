@@ -24,10 +24,14 @@ void evaluate_muscle(const std::vector<Activation>& activation,
   const bool plain =
       is_plain(values) && std::all_of(of_muscle.begin(), of_muscle.end(),
                                       [](const ParameterMap::Chain& chain) { return is_plain_field(chain.field); });
-  Tensions tensions(values, plain);
+  Tension t;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Activation& a = activation[static_cast<std::size_t>(i)];
-    const Tension& t = tensions.next(a.value, length_m[i], velocity_mps[i]);
+    if (plain) {
+      plain_tension(a.value, length_m[i], velocity_mps[i], values, t);
+    } else {
+      t = tension(a.value, length_m[i], velocity_mps[i], values);
+    }
     rows.force_n[i] = t.force_n;
     rows.by_envelope_n[i] = t.by_activation * a.by_log_envelope;
     rows.by_length[i] = t.by_length;
