@@ -224,7 +224,7 @@ TEST(ForeignEmg, DelsysColumnsWithTheirOwnClocksAreOne) {
 }
 
 TEST(ForeignEmg, ASensorWithoutAFixedRateBesideOthersHasItsOwnTimes) {
-  // Where the rates of the others stand, a heart-rate strap has -1 Hz.
+  // A heart-rate strap has the rate -1 Hz in the row of rates.
   const CsvSeries s = parse_emg_table(
       "Application:, Discover\nEMG 01 (5), , Strap  (6)\nsensor mode: 45, , sensor mode: 0\n"
       "EMG 1 Time Series (s), EMG 1 (mV), Heart Rate Time Series (s), Heart Rate (BPM)\n"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,7 +10,6 @@
 #include "myoid/fit/intervals/verdict_rules.h"
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/ground/core/numbers.h"
-#include "myoid/ground/math/statistics.h"
 
 namespace myoid::fit {
 namespace {

@@ -46,7 +46,7 @@ TEST(ShiftedEmg, OfAllTrialsIsFoundToATenthOfASecond) {
       const auto found = shifted_emg(data, kUsual);
       ASSERT_TRUE(found) << seed;
       EXPECT_NEAR(found->lead_s + late_s, 0.05, 0.11) << seed;
-      // Of one trial it is no matter of the muscles of literature.
+      // The clock of one trial does not move the error of all.
       StudyData single = four_trials(seed);
       test::delay_emg(single.trials[1], late_s);
       EXPECT_FALSE(shifted_emg(single, kUsual)) << seed;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
@@ -59,11 +58,6 @@ class Density {
   [[nodiscard]] NoiseValues noise_of(const Eigen::VectorXd& x) const;
   /// Returns ln of the size that is believed (NoiseField, from kModelErrorSize on).
   [[nodiscard]] double believed_size(Eigen::Index field) const { return noise_mean_[field]; }
-  /// Returns ln p of the logarithm of a size, half normal about the belief.
-  [[nodiscard]] double log_prior_of_size(Eigen::Index field, const NoiseValues& noise) const {
-    const double ln_share = noise[field] - believed_size(field);
-    return ln_share - 0.5 * std::exp(2.0 * ln_share);
-  }
   /// Returns dz/dx for each entry of z.
   [[nodiscard]] Eigen::VectorXd slope(const Eigen::VectorXd& x) const;
   /// Returns the point at which a search begins: the study's starting values, with large errors.

@@ -22,7 +22,6 @@ constexpr Eigen::Index kApproximateDraws = 4000;
 constexpr int kOtherStarts = 3;  // of a fit that is reported
 constexpr std::uint64_t kSeed = 20;
 constexpr double kShareOfModes = 0.5;  // of the time of a fit that is reported
-constexpr const char* kFits = "fits the muscles";
 
 /// Returns the start moved by the prior's spread, up or down by a fixed pattern.
 Eigen::VectorXd moved_start(const Density& density, int number) {

@@ -13,9 +13,9 @@
 namespace myoid::fit {
 namespace {
 
-constexpr double kLnStep = 0.4;
-constexpr int kStepsBelow = 8, kStepsAbove = 3;  // of the believed size: from 4 % of it to 3.3 times
-constexpr int kSweeps = 2;                       // over the sizes, each given the others
+constexpr double kLeastLnShare = -4.0, kMostLnShare = 1.4;  // of the believed size: 2 % to 4 times
+constexpr int kSizes = 28;
+constexpr int kSweeps = 2;  // over the sizes, each given the others
 
 Eigen::VectorXd deviations(const Density& density, const Eigen::VectorXd& z, const NoiseValues& noise) {
   return math::inverse_of_positive(density.likelihood().information(z, noise).information + density.precision())
@@ -28,43 +28,50 @@ Eigen::VectorXd deviations(const Density& density, const Eigen::VectorXd& z, con
 class DensityOfSizes {
  public:
   DensityOfSizes(const Density& density, const Eigen::VectorXd& z, const NoiseValues& noise)
-      : density_(density), at_mode_(noise) {
+      : at_mode_(noise), size_of_(at(z.size())) {
     const Likelihood& likelihood = density.likelihood();
-    const std::vector<UnseenQuantity>& quantities = likelihood.unseen().quantities;
-    unknowns_ = z.size();
-    unseen_ = static_cast<Eigen::Index>(quantities.size());
-    for (const UnseenQuantity& each : quantities) size_of_.push_back(each.size);
-    information_.setZero(unknowns_ + unseen_, unknowns_ + unseen_);
+    for (const UnseenQuantity& each : likelihood.unseen().quantities) size_of_.push_back(each.size);
+    const auto both = static_cast<Eigen::Index>(size_of_.size()), unseen = both - z.size();
+    information_.setZero(both, both);
     for (const Eigen::MatrixXd& of_trial : likelihood.information_by_trial(z, noise)) information_ += of_trial;
     // Both gradients follow from the expectation of x at the mode of z.
     const Eigen::VectorXd mean = likelihood.unseen_given(z, noise).mean;
-    gradient_ = information_.rightCols(unseen_) * mean;
-    gradient_.tail(unseen_) += mean;
-    information_.topLeftCorner(unknowns_, unknowns_) += density.precision();
+    gradient_ = information_.rightCols(unseen) * mean;
+    gradient_.tail(unseen) += mean;
+    precision_.setIdentity(both, both);
+    precision_.topLeftCorner(z.size(), z.size()) = density.precision();
   }
 
-  /// Returns ln p of these sizes, over a constant.
-  [[nodiscard]] double operator()(const NoiseValues& noise) const {
-    Eigen::VectorXd d = Eigen::VectorXd::Ones(unknowns_ + unseen_);
-    for (Eigen::Index i = 0; i < unseen_; ++i)
-      if (const auto field = size_of_[at(i)]) d[unknowns_ + i] = std::exp(noise[*field] - at_mode_[*field]);
-    Eigen::MatrixXd both = d.asDiagonal() * information_ * d.asDiagonal();
-    both.diagonal().tail(unseen_).array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> factor(both);
-    if (factor.info() != Eigen::Success) return -kInfinity;
-    const Eigen::VectorXd half = factor.matrixL().solve(d.cwiseProduct(gradient_));
-    double prior = 0.0;
-    for (int field = kModelErrorSize; field < kNoiseFieldCount; ++field)
-      prior += density_.log_prior_of_size(field, noise);
-    return 0.5 * half.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum() + prior;
+  /// Returns ln p of one size at each y of `ln_size`, over a constant, without its prior. The others are those of
+  /// `noise`. With their quantities and z integrated out, the kind's own have the information y^2 K.
+  [[nodiscard]] Eigen::ArrayXd log_density(int field, const NoiseValues& noise, const Eigen::ArrayXd& ln_size) const {
+    std::vector<Eigen::Index> own, rest;
+    Eigen::VectorXd d = Eigen::VectorXd::Ones(information_.rows());
+    for (Eigen::Index i = 0; i < d.size(); ++i) {
+      const std::optional<NoiseField> size = size_of_[at(i)];
+      (size == field ? own : rest).push_back(i);
+      if (size && size != field) d[i] = std::exp(noise[*size] - at_mode_[*size]);
+    }
+    if (own.empty()) return Eigen::ArrayXd::Zero(ln_size.size());
+    const Eigen::MatrixXd scaled = d.asDiagonal() * information_ * d.asDiagonal();
+    const Eigen::VectorXd gradient = d.cwiseProduct(gradient_);
+    const Eigen::LLT<Eigen::MatrixXd> factor(scaled(rest, rest) + precision_(rest, rest));
+    const Eigen::MatrixXd half = factor.matrixL().solve(scaled(rest, own));
+    const math::SymmetricEigen k = math::symmetric_eigen(scaled(own, own) - half.transpose() * half);
+    const Eigen::VectorXd pull = gradient(own) - half.transpose() * factor.matrixL().solve(gradient(rest));
+    const Eigen::ArrayXd squares = (k.vectors.transpose() * pull).array().square(),
+                         information = k.values.cwiseMax(0.0);
+    return ln_size.unaryExpr([&](double ln_y) {
+      const double square = std::exp(2.0 * (ln_y - at_mode_[field]));
+      const Eigen::ArrayXd posterior = 1.0 + square * information;
+      return 0.5 * (square * squares / posterior - posterior.log()).sum();
+    });
   }
 
  private:
-  const Density& density_;
   NoiseValues at_mode_;
-  Eigen::Index unknowns_ = 0, unseen_ = 0;
-  std::vector<std::optional<NoiseField>> size_of_;
-  Eigen::MatrixXd information_;
+  std::vector<std::optional<NoiseField>> size_of_;  ///< Of z and of x.
+  Eigen::MatrixXd information_, precision_;
   Eigen::VectorXd gradient_;
 };
 
@@ -78,12 +85,10 @@ LearnedSizes learned_sizes(const Candidate& best) {
   LearnedSizes found{.noise = at_mode, .wider = {}};
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (int field = kModelErrorSize; field < kNoiseFieldCount; ++field) {
-      Eigen::ArrayXd ln_size(kStepsBelow + kStepsAbove + 1), ln_p(ln_size.size());
-      NoiseValues noise = found.noise;
-      for (int k = 0; k < ln_size.size(); ++k) {
-        noise[field] = ln_size[k] = density.believed_size(field) + kLnStep * (k - kStepsBelow);
-        ln_p[k] = of_sizes(noise);
-      }
+      const Eigen::ArrayXd ln_share = Eigen::ArrayXd::LinSpaced(kSizes, kLeastLnShare, kMostLnShare);
+      const Eigen::ArrayXd ln_size = ln_share + density.believed_size(field);
+      const Eigen::ArrayXd ln_p =
+          of_sizes.log_density(field, found.noise, ln_size) + ln_share - 0.5 * (2.0 * ln_share).exp();
       const Eigen::ArrayXd weight = (ln_p - ln_p.maxCoeff()).exp();
       if (weight.isFinite().all())
         found.noise[field] = 0.5 * std::log(((2.0 * ln_size).exp() * weight).sum() / weight.sum());

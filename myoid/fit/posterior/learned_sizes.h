@@ -14,7 +14,9 @@ namespace myoid::fit {
 /// the torque is linear about the mode: with information G of both, each over its believed spread, prior precision P =
 /// diag(P_z, 1), gradient g of both at the mode's z and x = 0, and D = diag(1, y / y_mode),
 ///
-///   ln p(y) = g' D (P + D G D)^-1 D g / 2 - ln |P + D G D| / 2 + ln p_prior(y).
+///   ln p(y) = g' D (P + D G D)^-1 D g / 2 - ln |P + D G D| / 2 + ln y - y^2 / 2,
+///
+/// y over the believed size, half normal by its prior.
 ///
 /// At the joint mode of z and y the sizes are too small: the muscles' numbers have taken the part of each error that
 /// looks like theirs (restricted maximum likelihood; Patterson & Thompson 1971).

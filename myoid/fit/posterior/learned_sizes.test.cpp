@@ -26,11 +26,14 @@ TEST(LearnedSizes, AreTheRootMeanSquaresOfTheSamplersDraws) {
   const LearnedSizes found = learned_sizes(sampled.modes.front());
   const Candidate& best = sampled.modes.front();
   const NoiseValues at_mode = best.density->noise_of(best.mode.x);
+  double farthest_mode = 0.0;
   for (int field = kModelErrorSize; field < kNoiseFieldCount; ++field) {
     const Eigen::ArrayXd ln_size = sampled.sample.noise.row(field).transpose();
     const double ln_rms = 0.5 * std::log(((2.0 * ln_size).exp() * sampled.sample.weight.array()).sum());
     EXPECT_NEAR(found.noise[field], ln_rms, 0.25) << field << ", at the mode " << at_mode[field];
+    farthest_mode = std::max(farthest_mode, std::abs(at_mode[field] - ln_rms));
   }
+  EXPECT_GT(farthest_mode, 0.5) << "the joint mode has other sizes";
   EXPECT_EQ(found.noise[kTorqueSd], at_mode[kTorqueSd]);
   EXPECT_GE(found.wider.minCoeff(), 1.0);
 }

@@ -46,7 +46,7 @@ Mode find_mode(const Density& density,
   Eigen::VectorXd at_trial;
   for (mode.iterations = 0; mode.iterations < kMostIterations; ++mode.iterations) {
     progress.check();
-    progress.tell(1.0 - std::pow(kStillToGo, mode.iterations), "fits the muscles");
+    progress.tell(1.0 - std::pow(kStillToGo, mode.iterations), kFits);
     Eigen::VectorXd step = inverse * gradient;
     double promise = 0.5 * gradient.dot(step);
     if (promise >= 0.0 && promise < (fresh && !rough ? kOfFresh : 1.0) * least_promise) {

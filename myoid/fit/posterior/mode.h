@@ -25,6 +25,8 @@ struct Mode {
   std::string message;
 };
 
+inline constexpr const char* kFits = "fits the muscles";  ///< The step that a search tells.
+
 /// Climbs from `start.x` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno. The first inverse of the
 /// second derivatives is `start.covariance`, or Gauss and Newton's where this is empty. Stops where a full step
 /// promises less than `promise` of ln density; kFinePromise is tried with Gauss and Newton's second derivatives, too,

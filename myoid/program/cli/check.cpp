@@ -55,8 +55,8 @@ void print_findings(const program::CheckResult& result, const std::string& input
   const auto errors = static_cast<std::size_t>(std::ranges::count(lines, Severity::error, &Remark::severity));
   say("{}: {}, {}\n", subject, counted(errors, "error"), counted(lines.size() - errors, "remark"));
   if (result.of_study && errors == 0)
-    say("left to the fit of myoid run: exchanged electrodes that no dynamometer shows, and another gain of one "
-        "trial\n");
+    say("left to the fit of myoid run: exchanged electrodes that no dynamometer shows, and another gain or clock of "
+        "one trial\n");
 }
 
 /// Returns the name of a table of study.toml without brackets.

@@ -10,6 +10,7 @@
 #include "myoid/ground/files/result_record.h"
 #include "myoid/opensim/projects/read_project.h"
 #include "myoid/program/commands/project_files.h"
+#include "myoid/study/open_question.h"
 
 namespace myoid::program {
 
@@ -41,8 +42,8 @@ std::optional<InitResult> draft_of_project(const InitOptions& o,
   InitResult result;
   result.draft.todo = {"a maximal contraction of each muscle, as a trial with use = \"mvc\", would tell F_max"};
   result.draft.toml =
-      fmt::format("# The project {} as a study. Next: myoid run study.toml --out results\n# TODO: {}\n\n{}",
-                  o.from.front(), result.draft.todo.front(), project_toml(of.study, folder));
+      fmt::format("# The project {} as a study. Next: myoid run study.toml --out results\n{}\n\n{}", o.from.front(),
+                  study::question_line(result.draft.todo.front()), project_toml(of.study, folder));
   result.mixed = std::move(of.study.mixed);
   return result;
 }
