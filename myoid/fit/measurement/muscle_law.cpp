@@ -38,6 +38,8 @@ ForceVelocity velocity_factor(double v, const MuscleValues& p) {
 constexpr double kTendonScale = 0.2;               // scale of De Groote's exponential tendon
 constexpr double kTendonRise = 1.791759469228055;  // ln(1 / 0.2 + 1): tension 1 at strain e0
 
+constexpr double kPassiveOnset = 0.05;  // of the optimal length, to either side of it
+
 using Fields = std::array<double, kMuscleFieldCount>;
 
 /// Force over F_max and its derivatives.
@@ -106,7 +108,7 @@ class Contraction {
       by[kSpeed] = a_ * fl * of_velocity.by_speed;
       by[kLengthActivation] = -a_ * fl_l * fv * l0 * (1.0 - a_);
     }
-    if (l > l0) add_passive(l, f, by_field);
+    if (l > (1.0 - kPassiveOnset) * l0) add_passive(l, f, by_field);
     return f;
   }
 
@@ -114,16 +116,19 @@ class Contraction {
     const double c = p_[kPassiveForce];
     if (c == 0.0 && by_field == nullptr) return;
     const double l0 = p_[kFiberLength], k = p_[kPassiveShape], e = p_[kPassiveStrain];
-    const double x = (l / l0 - 1.0) / e;
+    const double strain = l / l0 - 1.0, within = strain + kPassiveOnset;
+    const bool in_onset = strain < kPassiveOnset;
+    const double x = (in_onset ? within * within / (4.0 * kPassiveOnset) : strain) / e;
+    const double slope = (in_onset ? within / (2.0 * kPassiveOnset) : 1.0) / e;  // dx / d strain
     const double grown = std::exp(k * x) - 1.0;
     const double by_x = c * k * (grown + 1.0) / passive_top_;
     f.force += c * grown / passive_top_;
-    f.by_length += by_x / (l0 * e);
+    f.by_length += by_x * slope / l0;
     if (by_field == nullptr) return;
     Fields& by = *by_field;
     by[kPassiveForce] = grown / passive_top_;  // also where the amount c is 0
     if (c == 0.0) return;
-    by[kFiberLength] -= by_x * l / (l0 * l0 * e);
+    by[kFiberLength] -= by_x * slope * l / (l0 * l0);
     by[kPassiveStrain] = -by_x * x / e;
     by[kPassiveShape] =
         c * (x * (grown + 1.0) * passive_top_ - grown * (passive_top_ + 1.0)) / (passive_top_ * passive_top_);
