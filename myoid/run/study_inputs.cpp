@@ -11,6 +11,7 @@
 #include "myoid/recording/tables/csv_reader.h"
 #include "myoid/study/checks/open_questions.h"
 #include "myoid/study/checks/study_plausibility.h"
+#include "myoid/study/intake/emg_offset.h"
 #include "myoid/study/intake/read_trial.h"
 #include "myoid/study/study_model.h"
 
@@ -77,6 +78,10 @@ StudyInputs read_inputs(const study::Study& study) {
       source.study.trials.push_back(std::move(part.spec));
       inputs.trials.push_back(std::move(part.input));
     }
+  }
+  for (Remark& remark : study::take_off_emg_offsets(source.study, inputs.trials)) {
+    const auto at = std::ranges::find(source.study.trials, remark.where, &study::TrialSpec::name);
+    inputs.trials[static_cast<std::size_t>(at - source.study.trials.begin())].remarks.push_back(std::move(remark));
   }
   study::require_plausible(source.study, *source.model, inputs.trials);
   for (const study::TrialInput& trial : inputs.trials) {

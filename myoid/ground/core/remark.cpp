@@ -31,6 +31,7 @@ constexpr std::array kNames = {
     "emg_artifact",
     "emg_over_reference",
     "emg_gain",
+    "emg_offset",
     "clock_uneven",
     "clock_offset",
     "clock_drift",

@@ -38,6 +38,7 @@ enum class RemarkCode {
   emg_artifact,
   emg_over_reference,
   emg_gain,
+  emg_offset,
   clock_uneven,
   clock_offset,
   clock_drift,

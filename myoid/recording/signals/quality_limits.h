@@ -53,6 +53,7 @@ struct LevelLimits {
   double other_unit = 10.0;
   double gain = 2.5;        ///< The same ratio to the other trials: the gain of an amplifier.
   double gain_alone = 5.0;  ///< Of a single channel, whose muscle may be more tense in one trial.
+  double offset = 3.0;      ///< A constant of an envelope over the lowest level of another trial.
   double gain_alike = 3.0;  ///< Such ratios differ by less than this factor.
 };
 

@@ -49,6 +49,7 @@ std::vector<LimitRow> limit_rows(const QualityLimits& l) {
                    l.levels.other_unit, l.levels.lone_reference, l.levels.lone_reference_at_end)},
       {emg_gain, fmt::format("ratio {:g}, {:g} of one channel, alike within a factor of {:g}", l.levels.gain,
                              l.levels.gain_alone, l.levels.gain_alike)},
+      {emg_offset, fmt::format("ratio {:g}", l.levels.offset)},
       {clock_uneven, fmt::format("{:g} %", 100.0 * l.clocks.uneven_share)},
       {clock_offset, fmt::format("{} to {:g} s", l.clocks.earliest_offset_s, l.clocks.latest_offset_s)},
       {clock_drift, fmt::format("{} s", l.clocks.drift_s)},

@@ -297,6 +297,10 @@ page::Report review_report(const SecondOpinion& opinion) {
       "Envelopes have an unknown gain: the project does not say by which contraction they were normalized.",
       "Muscles that share their electrodes and act on the same joints are one muscle, where the model is there."};
   for (const Remark& remark : project.remarks) report.assumptions.push_back(remark.says);
+  for (const run::TrialResult& trial : opinion.study.trials)
+    for (const Remark& remark : trial.input.remarks)
+      if (remark.code == RemarkCode::emg_offset)
+        report.assumptions.push_back(fmt::format("{}: {}", trial.spec.name, remark.says));
   return report;
 }
 

@@ -19,6 +19,7 @@
 #include "myoid/study/checks/stated_loads.h"
 #include "myoid/study/checks/study_plausibility.h"
 #include "myoid/study/checks/unloaded_times.h"
+#include "myoid/study/intake/emg_offset.h"
 #include "myoid/study/intake/norm.h"
 #include "myoid/study/intake/read_trial.h"
 #include "myoid/study/intake/study_activation.h"
@@ -170,6 +171,7 @@ class StudyCheck {
   void check_recordings() {
     Study study = study_;
     study.trials = specs_;
+    add(take_off_emg_offsets(study, inputs_));
     const EmgOfTrials emg = emg_of(inputs_);
     StudyActivation activation;
     activation.trials.resize(inputs_.size());
