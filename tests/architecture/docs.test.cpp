@@ -40,6 +40,30 @@ TEST(Documentation, EveryLinkLeadsToAFile) {
   EXPECT_GT(seen, 20);  // that the pattern still finds them
 }
 
+/// Returns true for the path of a file or folder, from the root or from myoid/, with or without its ending.
+bool is_source(const std::string& path) {
+  for (const fs::path& from : {kRoot, kRoot / "myoid"})
+    for (const char* ending : {"", ".h", ".cpp", ".test.cpp"})
+      if (fs::exists(from / (path + ending))) return true;
+  return false;
+}
+
+TEST(Documentation, EverySourceThatAPageNamesIsThere) {
+  std::string folders = "myoid|tests|docs|cmake|examples|python|benchmarks";
+  for (const auto& entry : fs::directory_iterator(kRoot / "myoid"))
+    if (entry.is_directory()) folders += "|" + entry.path().filename().string();
+  const std::regex path("`((?:" + folders + ")/[a-z_0-9/.-]+)`");
+  int seen = 0;
+  for (const fs::path& page : pages()) {
+    const std::string text = content(page);
+    for (std::sregex_iterator it(text.begin(), text.end(), path), end; it != end; ++it) {
+      EXPECT_TRUE(is_source((*it)[1])) << page << " names " << (*it)[1];
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 40);
+}
+
 std::size_t word_count(const std::string& text) {
   std::istringstream stream(text);
   std::size_t count = 0;

@@ -40,7 +40,7 @@ inline const std::map<std::string, std::string>& wings() {
   return kWings;
 }
 
-/// The room of a file below myoid/ ("myoid/fit/posterior/mode.h": posterior; "myoid/run/stages.h": run).
+/// The room of a file below myoid/ ("myoid/fit/posterior/mode.h": posterior; "myoid/run/run_study.h": run).
 inline std::string room_of(const std::string& path) {
   static const std::regex kFolders(R"(^myoid/(\w+)/(?:(\w+)/)?)");
   std::smatch folders;

@@ -1,4 +1,4 @@
-// `identify` straight from files (interface.md 4): recordings that someone else made from equations
+// `identify` straight from files: recordings that someone else made from equations
 // (2)-(4) of the source paper, which are written here anew, give the parameters back.
 #include <algorithm>
 #include <array>
