@@ -9,7 +9,7 @@ set(MYOID_WING_fit beliefs measurement intervals posterior methods)
 set(MYOID_WING_opensim opensim projects)
 set(MYOID_WING_study phases study draft intake checks)
 set(MYOID_WING_run design run identify_files)
-set(MYOID_WING_results results review exports cohort mat realtime)
+set(MYOID_WING_results results comparison review exports cohort mat realtime)
 set(MYOID_WING_lab virtual_person twin)
 set(MYOID_WING_program contents steps commands cli)
 set(MYOID_WINGS ground recording muscle page body fit opensim study run results lab program)
@@ -27,8 +27,8 @@ endforeach()
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation beliefs measurement intervals posterior methods page phases study intake checks
-    design run scene opensim projects exports results draft contents identify_files review virtual_person twin cohort
-    realtime mat steps commands cli)
+    design run scene opensim projects exports results comparison draft contents identify_files review virtual_person
+    twin cohort realtime mat steps commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
 set(MYOID_LAYER_files core)
@@ -64,6 +64,7 @@ set(MYOID_LAYER_scene core files recording model osim page)
 set(MYOID_LAYER_exports core files muscle osim measurement intervals study run projects)
 set(MYOID_LAYER_results core math files muscle tables model kinematics forces simulation
     measurement intervals methods page phases study design run scene exports)
+set(MYOID_LAYER_comparison core files measurement intervals page study)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model projects)
 set(MYOID_LAYER_identify_files core files muscle tables measurement study)
@@ -75,20 +76,20 @@ set(MYOID_LAYER_virtual_person core math files muscle model osim arm beliefs
     measurement study)
 set(MYOID_LAYER_twin core math files muscle tables recording c3d arm beliefs intervals study run
     virtual_person)
-set(MYOID_LAYER_cohort core math files tables recording intervals page study design results)
+set(MYOID_LAYER_cohort core math files tables recording intervals page study design comparison)
 set(MYOID_LAYER_realtime core files measurement kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
 set(MYOID_LAYER_steps core math files muscle tables c3d recording signals model osim arm kinematics dynamics
     forces simulation intervals page study checks results)
 set(MYOID_LAYER_commands core files tables recording osim arm measurement intervals methods page study
-    checks design run scene opensim projects exports results draft contents identify_files review virtual_person
-    twin cohort steps)
-set(MYOID_LAYER_cli core math files methods page study design results contents review cohort mat commands
+    checks design run scene opensim projects exports results comparison draft contents identify_files review
+    virtual_person twin cohort steps)
+set(MYOID_LAYER_cli core math files methods page study design results comparison contents review cohort mat commands
     steps)
 
 # Rooms that compute little themselves: they read, write, judge and call the rooms below.
-set(MYOID_LIGHT_LAYERS osim arm beliefs page phases study intake checks design run scene exports results draft
-    contents identify_files opensim projects review twin cohort mat steps commands cli)
+set(MYOID_LIGHT_LAYERS osim arm beliefs page phases study intake checks design run scene exports results comparison
+    draft contents identify_files opensim projects review twin cohort mat steps commands cli)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [TESTS_TOGETHER] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp

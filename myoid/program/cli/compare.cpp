@@ -10,8 +10,8 @@
 #include "myoid/program/cli/context.h"
 #include "myoid/program/cli/options.h"
 #include "myoid/program/cli/say.h"
-#include "myoid/results/change_sentences.h"
-#include "myoid/results/comparison_report.h"
+#include "myoid/results/comparison/change_sentences.h"
+#include "myoid/results/comparison/comparison_report.h"
 
 namespace myoid::program {
 namespace {

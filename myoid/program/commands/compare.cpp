@@ -4,7 +4,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/page/write_report.h"
-#include "myoid/results/comparison_report.h"
+#include "myoid/results/comparison/comparison_report.h"
 
 namespace myoid::program {
 

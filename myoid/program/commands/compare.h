@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "myoid/program/steps/call.h"
-#include "myoid/results/compare_runs.h"
+#include "myoid/results/comparison/compare_runs.h"
 #include "myoid/study/setting.h"
 
 namespace myoid::program {

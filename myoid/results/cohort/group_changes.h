@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "myoid/page/report.h"
-#include "myoid/results/compare_runs.h"
+#include "myoid/results/comparison/compare_runs.h"
 
 namespace myoid::results {
 

@@ -13,7 +13,7 @@
 #include "myoid/ground/math/statistics.h"
 #include "myoid/page/plain_unit.h"
 #include "myoid/page/read_gates.h"
-#include "myoid/results/change_sentences.h"
+#include "myoid/results/comparison/change_sentences.h"
 
 namespace myoid::results {
 namespace {

@@ -12,10 +12,10 @@
 #include "myoid/ground/core/counted.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/provenance.h"
-#include "myoid/results/change_sentences.h"
 #include "myoid/results/cohort/group_changes.h"
 #include "myoid/results/cohort/group_page.h"
 #include "myoid/results/cohort/group_person.h"
+#include "myoid/results/comparison/change_sentences.h"
 
 namespace myoid::results {
 namespace {

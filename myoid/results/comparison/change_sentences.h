@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/results/compare_runs.h"
+#include "myoid/results/comparison/compare_runs.h"
 
 namespace myoid::results {
 

@@ -1,4 +1,4 @@
-#include "myoid/results/compare_runs.h"
+#include "myoid/results/comparison/compare_runs.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 #include "myoid/ground/files/text_file.h"
 #include "myoid/page/read_gates.h"
 #include "myoid/page/tables.h"
-#include "myoid/results/change_sentences.h"
+#include "myoid/results/comparison/change_sentences.h"
 #include "myoid/study/run_identity.h"
 
 namespace myoid::results {

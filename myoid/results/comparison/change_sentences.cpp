@@ -1,4 +1,4 @@
-#include "myoid/results/change_sentences.h"
+#include "myoid/results/comparison/change_sentences.h"
 
 #include <algorithm>
 #include <cmath>

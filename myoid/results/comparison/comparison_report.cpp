@@ -1,4 +1,4 @@
-#include "myoid/results/comparison_report.h"
+#include "myoid/results/comparison/comparison_report.h"
 
 #include <cmath>
 #include <optional>
@@ -12,7 +12,7 @@
 #include "myoid/page/plain_unit.h"
 #include "myoid/page/tables.h"
 #include "myoid/page/typeset.h"
-#include "myoid/results/change_sentences.h"
+#include "myoid/results/comparison/change_sentences.h"
 
 namespace myoid::results {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "myoid/page/report.h"
-#include "myoid/results/compare_runs.h"
+#include "myoid/results/comparison/compare_runs.h"
 
 namespace myoid::results {
 

@@ -1,16 +1,17 @@
-#include "myoid/results/compare_runs.h"
+#include "myoid/results/comparison/compare_runs.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/fit/methods/torque.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/results/change_sentences.h"
-#include "myoid/results/comparison_report.h"
+#include "myoid/results/comparison/change_sentences.h"
+#include "myoid/results/comparison/comparison_report.h"
 #include "myoid/results/parameter_files.h"
 
 #include "tests/support/elbow_study.h"
