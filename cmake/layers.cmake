@@ -54,8 +54,8 @@ set(MYOID_LAYER_phases core math)
 set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics forces measurement
     phases)
 set(MYOID_LAYER_intake core math files tables recording signals model osim kinematics dynamics study)
-set(MYOID_LAYER_checks core math files tables recording signals model osim kinematics dynamics study
-    intake)
+set(MYOID_LAYER_checks core math files tables recording signals model osim kinematics dynamics measurement
+    methods study intake)
 set(MYOID_LAYER_design core math files muscle arm kinematics dynamics beliefs measurement
     intervals posterior page study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/run/given_check.h"
-#include "myoid/run/joint_of_arms.h"
+#include "myoid/study/checks/given_check.h"
+#include "myoid/study/checks/joint_of_arms.h"
 
 namespace myoid::run {
 namespace {
@@ -23,14 +23,14 @@ bool frees_resting_torque(const study::Study& study) {
   });
 }
 
-TrialFiles files_of(const study::Study& study, const study::TrialSpec& spec) {
+study::TrialFiles files_of(const study::Study& study, const study::TrialSpec& spec) {
   const auto text = [](const std::optional<std::filesystem::path>& path) { return path ? path->string() : ""; };
-  TrialFiles files{.activations = study.emg.kind == study::EmgKind::activation ? text(spec.emg) : "",
-                   .lengths = text(spec.given.lengths),
-                   .velocities = text(spec.given.velocities),
-                   .moment_arms = {},
-                   .torques = text(spec.given.torques),
-                   .resting_torque_is_free = frees_resting_torque(study)};
+  study::TrialFiles files{.activations = study.emg.kind == study::EmgKind::activation ? text(spec.emg) : "",
+                          .lengths = text(spec.given.lengths),
+                          .velocities = text(spec.given.velocities),
+                          .moment_arms = {},
+                          .torques = text(spec.given.torques),
+                          .resting_torque_is_free = frees_resting_torque(study)};
   for (const std::filesystem::path& path : spec.given.moment_arms) files.moment_arms.push_back(path.string());
   return files;
 }
@@ -40,14 +40,14 @@ std::vector<std::string> doubts(const study::Study& study,
                                 const fit::StudyData& data,
                                 const fit::TrialData& trial,
                                 const TrialResult& result) {
-  const TrialFiles files = files_of(study, result.spec);
+  const study::TrialFiles files = files_of(study, result.spec);
   std::vector<std::string> found;
   const std::vector<std::string>& torques = result.input.given.torque_columns;
   for (std::size_t j = 0; j < files.moment_arms.size() && !torques.empty(); ++j)
-    found.push_back(check_joint_by_name(files.moment_arms[j], torques[j], torques));
-  for (std::string& text : check_given_trial(data, trial, files)) found.push_back(std::move(text));
+    found.push_back(study::check_joint_by_name(files.moment_arms[j], torques[j], torques));
+  for (std::string& text : study::check_given_trial(data, trial, files)) found.push_back(std::move(text));
   if (!files.lengths.empty())
-    for (std::string& text : check_joint_of_arms(data, trial, files)) found.push_back(std::move(text));
+    for (std::string& text : study::check_joint_of_arms(data, trial, files)) found.push_back(std::move(text));
   std::erase(found, "");
   return found;
 }

@@ -1,4 +1,4 @@
-#include "myoid/run/given_check.h"
+#include "myoid/study/checks/given_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,14 @@
 #include "myoid/fit/methods/prediction.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/text_file.h"
-#include "myoid/ground/math/decompositions.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/recording/signals/emg_levels.h"
 #include "myoid/study/checks/fiber_room.h"
+#include "myoid/study/checks/length_changes.h"
 #include "myoid/study/checks/torque_sign.h"
 #include "myoid/study/checks/trial_plausibility.h"
 
-namespace myoid::run {
+namespace myoid::study {
 namespace {
 
 using fit::StudyData;
@@ -32,11 +32,9 @@ constexpr double kLongestMuscle_m = 1.0;  // no musculotendon unit is longer: su
 constexpr double kHighestActivation = 1.25, kCertainlyHigh = 2.0;
 constexpr double kPercent = 20.0;  ///< the largest activation in percent exceeds this
 constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
-constexpr double kSpike_s = 0.1;  ///< a shorter time above kCertainlyHigh is an artefact
-constexpr double kWindow_s = 0.1;
+constexpr double kSpike_s = 0.1;        ///< a shorter time above kCertainlyHigh is an artefact
 constexpr double kRests = 0.1;          ///< share of the samples at rest that shows the resting torque
 constexpr double kRestingTorque = 0.1;  ///< over the torque's peak; a smaller one is the offset of a sensor
-constexpr double kMoves_m = 5e-4;       ///< a smaller change of length within a window is noise
 constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3, kLargestFactor = 3.0;
 
 /// Optimal fiber lengths beyond which fibers make hardly any active force.
@@ -65,7 +63,7 @@ double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
 class TrialCheck {
  public:
   TrialCheck(const StudyData& data, const TrialData& trial, const TrialFiles& files)
-      : data_(data), trial_(trial), files_(files) {}
+      : data_(data), trial_(trial), files_(files), windows_(change_windows(trial.time_s)) {}
 
   std::vector<std::string> run() {
     exchanged();
@@ -124,13 +122,10 @@ class TrialCheck {
   [[nodiscard]] Exchange exchange(std::size_t joint) const {
     if (arms(joint).cols() < 3) return Exchange::unknown;
     const auto share = [&](const Eigen::MatrixXd& lengths, const std::vector<const Eigen::MatrixXd*>& r) {
-      const Changes c = changes_of(lengths);
-      const double least = kMoves_m * std::sqrt(static_cast<double>(c.of_length.size()));
-      return c.of_length.rows() < 5 || c.of_length.norm() < least ? 0.0 : share_explained(c, r, {});
+      const Eigen::MatrixXd dl = changes(windows_, lengths);
+      return is_moved(dl) ? share_by_arms(windows_, dl, r) : 0.0;
     };
-    std::vector<const Eigen::MatrixXd*> all;
-    for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) all.push_back(&arms(j));
-    const double own = share(trial_.length_m, all), other = share(arms(joint), {&trial_.length_m});
+    const double own = share(trial_.length_m, all_arms()), other = share(arms(joint), {&trial_.length_m});
     if (own >= kAsGiven && own >= other) return Exchange::as_given;
     return other > kDoubtful && other > own + kClearly ? Exchange::exchanged : Exchange::unknown;
   }
@@ -158,8 +153,7 @@ class TrialCheck {
         lengths_without_tendon(k, typical, found);
         continue;
       }
-      const study::FiberRoom room =
-          study::fiber_room(muscle(k), typical, start.tendon_slack_length_m, start.optimal_fiber_length_m);
+      const FiberRoom room = fiber_room(muscle(k), typical, start.tendon_slack_length_m, start.optimal_fiber_length_m);
       if (room.none) fail(files_.lengths, room.says + "; are these fiber lengths? Then their tendon_slack_length is 0");
       if (!room.says.empty())
         remark(files_.lengths, room.says + "; check tendon_slack_length and optimal_fiber_length of the start");
@@ -226,48 +220,19 @@ class TrialCheck {
                            found, largest_mean(a), kHighestActivation));
       if (low < kLowestActivation) remark(files_.activations, found + ", expected 0 to 1");
     }
-    if (largest < study::kFlatActivation)
+    if (largest < kFlatActivation)
       remark(files_.activations, fmt::format("no activation above {:.2g}, expected up to 1 in the greatest effort; is "
                                              "this EMG in volts? Divide by the EMG of a maximal contraction",
                                              largest));
   }
 
-  /// Changes of every column within windows, and the integrals of its rate.
-  struct Changes {
-    Eigen::MatrixXd of_length, by_velocity;
-    std::vector<Eigen::Index> middle;  ///< Row in the middle of each window.
-  };
-  [[nodiscard]] Changes changes() const { return changes_of(trial_.length_m); }
-
-  /// The changes of columns of `lengths_m` in the place of the trial's.
-  [[nodiscard]] Changes changes_of(const Eigen::MatrixXd& lengths_m) const {
-    const Eigen::VectorXd& t = trial_.time_s;
-    const Eigen::Index n = t.size();
-    const double step_s = (t[n - 1] - t[0]) / static_cast<double>(n - 1);
-    const auto reach = std::max<Eigen::Index>(1, std::lround(kWindow_s / step_s));
-    Changes c;
-    const Eigen::Index count = std::max<Eigen::Index>(0, (n - 1) / reach);
-    c.of_length.resize(count, lengths_m.cols());
-    c.by_velocity.setZero(count, lengths_m.cols());
-    for (Eigen::Index w = 0; w < count; ++w) {
-      const Eigen::Index first = w * reach;
-      c.of_length.row(w) = lengths_m.row(first + reach) - lengths_m.row(first);
-      for (Eigen::Index i = first; i < first + reach; ++i)
-        c.by_velocity.row(w) += 0.5 * (t[i + 1] - t[i]) * (trial_.velocity_mps.row(i) + trial_.velocity_mps.row(i + 1));
-      c.middle.push_back(first + reach / 2);
-    }
-    return c;
-  }
-
   void velocities() {
     if (files_.velocities.empty()) return;
-    const Changes c = changes();
-    const auto count = static_cast<double>(c.of_length.rows());
-    if (count < 5.0) return;
-    for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
-      const Eigen::VectorXd dl = c.of_length.col(k), vdt = c.by_velocity.col(k);
-      const double moves = dl.norm() / std::sqrt(count);
-      if (moves < kMoves_m) continue;
+    const Eigen::MatrixXd of_length = changes(windows_, trial_.length_m);
+    const Eigen::MatrixXd by_velocity = integrals(windows_, trial_.velocity_mps, trial_.time_s);
+    for (Eigen::Index k = 0; k < of_length.cols(); ++k) {
+      const Eigen::VectorXd dl = of_length.col(k), vdt = by_velocity.col(k);
+      if (!is_moved(dl)) continue;
       const double factor = vdt.norm() / dl.norm();
       const double r = factor > 0.0 ? dl.dot(vdt) / (dl.norm() * vdt.norm()) : 0.0;
       if (r < -kTogether)
@@ -302,49 +267,21 @@ class TrialCheck {
     }
   }
 
-  /// A muscle that takes no part, and one whose moment arms get the other sign; -1: none.
-  struct Altered {
-    Eigen::Index without = -1, turned = -1;
-  };
-
-  /// Returns the share of the changes of length that dl = -r dq explains with the best dq of each window.
-  [[nodiscard]] static double share_explained(const Changes& c,
-                                              const std::vector<const Eigen::MatrixXd*>& joints,
-                                              const Altered& altered) {
-    double total = 0.0, left = 0.0;
-    std::vector<Eigen::Index> muscles;
-    for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
-      if (k != altered.without) muscles.push_back(k);
-    }
-    if (muscles.size() <= joints.size()) return 0.0;
-    Eigen::MatrixXd r(static_cast<Eigen::Index>(muscles.size()), static_cast<Eigen::Index>(joints.size()));
-    const auto place = std::ranges::find(muscles, altered.turned);
-    for (Eigen::Index w = 0; w < c.of_length.rows(); ++w) {
-      for (std::size_t j = 0; j < joints.size(); ++j)
-        r.col(static_cast<Eigen::Index>(j)) =
-            joints[j]->row(c.middle[static_cast<std::size_t>(w)])(muscles).transpose();
-      if (place != muscles.end()) r.row(place - muscles.begin()) *= -1.0;
-      const Eigen::VectorXd dl = c.of_length.row(w)(muscles).transpose();
-      total += dl.squaredNorm();
-      left += (dl - r * math::nearest_solution(r, dl)).squaredNorm();
-    }
-    return total > 0.0 ? 1.0 - left / total : 1.0;
-  }
-
-  [[nodiscard]] double explained(const Changes& c, const Altered& altered) const {
+  [[nodiscard]] std::vector<const Eigen::MatrixXd*> all_arms() const {
     std::vector<const Eigen::MatrixXd*> joints;
     for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) joints.push_back(&arms(j));
-    return share_explained(c, joints, altered);
+    return joints;
   }
 
   /// Names the muscle whose sign or absence makes the changes of length follow from the moment arms.
-  [[nodiscard]] std::string suspect(const Changes& c) const {
+  [[nodiscard]] std::string suspect(const Eigen::MatrixXd& dl) const {
     double best = 0.0, second = 0.0;
     Eigen::Index turned = 0;
     std::string who;
-    for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
-      if (explained(c, {.without = k}) > kTogether) who = muscle(k);
-      const double share = explained(c, {.turned = k});
+    const std::vector<const Eigen::MatrixXd*> joints = all_arms();
+    for (Eigen::Index k = 0; k < dl.cols(); ++k) {
+      if (share_by_arms(windows_, dl, joints, {.without = k}) > kTogether) who = muscle(k);
+      const double share = share_by_arms(windows_, dl, joints, {.turned = k});
       second = std::max(second, std::min(share, best));
       if (share > best) turned = k;
       best = std::max(best, share);
@@ -358,16 +295,14 @@ class TrialCheck {
 
   void length_changes() {
     if (files_.moment_arms.empty() || files_.lengths.empty()) return;
-    const Changes c = changes();
-    if (c.of_length.rows() < 5 || c.of_length.norm() < kMoves_m * std::sqrt(static_cast<double>(c.of_length.size())))
-      return;
-    if (c.of_length.cols() <= static_cast<Eigen::Index>(files_.moment_arms.size())) return;
-    const double all = explained(c, {});
+    const Eigen::MatrixXd dl = changes(windows_, trial_.length_m);
+    if (!is_moved(dl) || dl.cols() <= static_cast<Eigen::Index>(files_.moment_arms.size())) return;
+    const double all = share_by_arms(windows_, dl, all_arms());
     if (all >= kDoubtful) return;
     const std::string found =
         fmt::format("the changes of length do not follow from the moment arms (dl = -r dq explains {:.0f} % of them)",
                     100.0 * std::max(0.0, all));
-    remark(files_.moment_arms.front(), found + suspect(c));
+    remark(files_.moment_arms.front(), found + suspect(dl));
   }
 
   void torque_sizes() {
@@ -417,7 +352,7 @@ class TrialCheck {
       const double r = size > 0.0 ? torque(j).dot(p) / size : 0.0;
       if (r >= -kDoubtful) continue;
       // Muscles of other strengths may make this torque with its sign.
-      const study::SignsExplained signs = study::signs_explained(arms(j).cwiseProduct(force_n), torque(j));
+      const SignsExplained signs = signs_explained(arms(j).cwiseProduct(force_n), torque(j));
       if (signs.reversed < kDoubtful || signs.reversed < signs.as_given + kClearly) continue;
       const std::string found = fmt::format(
           "with the starting values the muscles' torque goes against that of {} (r = {:.2f}); are the signs of the "
@@ -440,7 +375,7 @@ class TrialCheck {
         if (emg > 0 && t[emg] - t[emg - 1] > kLag_s) quiet_since_s = t[emg];
         for (const fit::MuscleSetup& setup : data_.muscles) {
           if (!setup.unseen &&
-              trial_.activation.values()(emg, trial_.activation.index(setup.emg_channel)) >= study::kFlatActivation)
+              trial_.activation.values()(emg, trial_.activation.index(setup.emg_channel)) >= kFlatActivation)
             quiet_since_s = t[emg];
         }
       }
@@ -464,13 +399,14 @@ class TrialCheck {
                       "is that of gravity and passive tissue. Subtract them, or free "
                       "joint_torque_offset and, with the joint's angle, joint_stiffness",
                       here.minCoeff(), here.maxCoeff(),
-                      files_.moment_arms.size() > 1 ? fmt::format(" (joint {})", j + 1) : "", study::kFlatActivation));
+                      files_.moment_arms.size() > 1 ? fmt::format(" (joint {})", j + 1) : "", kFlatActivation));
     }
   }
 
   const StudyData& data_;
   const TrialData& trial_;
   const TrialFiles& files_;
+  const ChangeWindows windows_;
   std::vector<std::string> remarks_;
 };
 
@@ -480,4 +416,4 @@ std::vector<std::string> check_given_trial(const StudyData& data, const TrialDat
   return TrialCheck(data, trial, files).run();
 }
 
-}  // namespace myoid::run
+}  // namespace myoid::study

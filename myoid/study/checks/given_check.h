@@ -5,7 +5,7 @@
 
 #include "myoid/fit/measurement/study_data.h"
 
-namespace myoid::run {
+namespace myoid::study {
 
 /// The files of one trial that give its stages, for messages; empty names: not given, and not checked.
 struct TrialFiles {
@@ -38,4 +38,4 @@ struct TrialFiles {
                                                          const fit::TrialData& trial,
                                                          const TrialFiles& files);
 
-}  // namespace myoid::run
+}  // namespace myoid::study

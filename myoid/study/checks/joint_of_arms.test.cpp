@@ -1,4 +1,4 @@
-#include "myoid/run/joint_of_arms.h"
+#include "myoid/study/checks/joint_of_arms.h"
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 #include "tests/support/elbow_study.h"
 #include "tests/support/message_of.h"
 
-namespace myoid::run {
+namespace myoid::study {
 namespace {
 
 const TrialFiles kArmFiles{
@@ -84,4 +84,4 @@ TEST(JointOfArms, LengthsFollowTheAnglesByTheArmsOfTheirJointOnly) {
 }
 
 }  // namespace
-}  // namespace myoid::run
+}  // namespace myoid::study

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "myoid/fit/measurement/study_data.h"
-#include "myoid/run/given_check.h"
+#include "myoid/study/checks/given_check.h"
 
-namespace myoid::run {
+namespace myoid::study {
 
 /// Returns the coordinate in the name of a file of moment arms, as OpenSim writes it
 /// ("walk_MuscleAnalysis_MomentArm_knee_angle_r.sto": "knee_angle_r"); empty: none.
@@ -31,4 +31,4 @@ namespace myoid::run {
                                                            const fit::TrialData& trial,
                                                            const TrialFiles& files);
 
-}  // namespace myoid::run
+}  // namespace myoid::study

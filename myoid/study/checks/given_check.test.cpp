@@ -1,4 +1,4 @@
-#include "myoid/run/given_check.h"
+#include "myoid/study/checks/given_check.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/support/elbow_study.h"
 
-namespace myoid::run {
+namespace myoid::study {
 namespace {
 
 using fit::TrialData;
@@ -234,4 +234,4 @@ TEST(GivenCheck, TorqueWhileAllEmgIsQuietIsNamed) {
 }
 
 }  // namespace
-}  // namespace myoid::run
+}  // namespace myoid::study

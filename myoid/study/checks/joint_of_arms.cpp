@@ -1,23 +1,21 @@
-#include "myoid/run/joint_of_arms.h"
+#include "myoid/study/checks/joint_of_arms.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/text_file.h"
+#include "myoid/study/checks/length_changes.h"
 
-namespace myoid::run {
+namespace myoid::study {
 namespace {
 
 using fit::StudyData;
 using fit::TrialData;
 
 constexpr double kNoArm_m = 1e-4;
-constexpr double kAngleWindow_s = 0.1;
-constexpr double kMovesByAngle_m = 5e-4;  ///< root mean square of a length's changes over a window
 constexpr double kExplains = 0.5;
 // A muscle whose length follows the angles this closely crosses no other joint.
 constexpr double kFollows = 0.97, kOtherFactor = 1.5;
@@ -64,31 +62,6 @@ void add_muscles_without_arm(const StudyData& data,
                     files.moment_arms.front(), fmt::join(still, ", ")));
 }
 
-/// The changes of every muscle's length over each window, measured and by moment arms and angles.
-struct ArmChanges {
-  Eigen::MatrixXd of_length, by_angles;
-};
-
-ArmChanges changes_by_arms(const TrialData& trial, const std::vector<JointArms>& joints) {
-  const Eigen::Index n = trial.time_s.size();
-  const double step_s = (trial.time_s[n - 1] - trial.time_s[0]) / static_cast<double>(n - 1);
-  const auto reach = std::max<Eigen::Index>(1, std::lround(kAngleWindow_s / step_s));
-  const Eigen::Index count = (n - 1) / reach;
-  ArmChanges c;
-  c.of_length.resize(count, trial.length_m.cols());
-  c.by_angles.setZero(count, trial.length_m.cols());
-  for (Eigen::Index w = 0; w < count; ++w) {
-    const Eigen::Index first = w * reach;
-    c.of_length.row(w) = trial.length_m.row(first + reach) - trial.length_m.row(first);
-    for (const JointArms& joint : joints) {
-      for (Eigen::Index i = first; i < first + reach; ++i)
-        c.by_angles.row(w) -=
-            0.5 * (joint.angle_rad[i + 1] - joint.angle_rad[i]) * (joint.arm_m.row(i) + joint.arm_m.row(i + 1));
-    }
-  }
-  return c;
-}
-
 /// Returns 1 - (sum of squared errors) / (sum of squared changes of a length); below 0 if the
 /// prediction is worse than no change.
 double share_explained(const Eigen::VectorXd& change, const Eigen::VectorXd& by) {
@@ -103,15 +76,16 @@ void compare_with_angles(const StudyData& data,
   const bool known = std::ranges::all_of(
       joints, [&](const JointArms& joint) { return joint.angle_rad.size() == trial.time_s.size(); });
   if (!known || trial.time_s.size() < 3) return;
-  const ArmChanges c = changes_by_arms(trial, joints);
-  const auto count = static_cast<double>(c.of_length.rows());
-  if (count < 5.0) return;
+  const ChangeWindows windows = change_windows(trial.time_s);
+  const Eigen::MatrixXd of_length = changes(windows, trial.length_m);
+  Eigen::MatrixXd by_angles = Eigen::MatrixXd::Zero(windows.count, of_length.cols());
+  for (const JointArms& joint : joints) by_angles -= integrals(windows, joint.arm_m, joint.angle_rad);
   double best = -1e300, best_reversed = -1e300;
   bool any = false;
   std::vector<std::string> suspects;
-  for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
-    const Eigen::VectorXd change = c.of_length.col(k), by = c.by_angles.col(k);
-    if (change.norm() < kMovesByAngle_m * std::sqrt(count)) continue;
+  for (Eigen::Index k = 0; k < of_length.cols(); ++k) {
+    const Eigen::VectorXd change = of_length.col(k), by = by_angles.col(k);
+    if (!is_moved(change)) continue;
     any = true;
     best = std::max(best, share_explained(change, by));
     best_reversed = std::max(best_reversed, share_explained(change, -by));
@@ -175,4 +149,4 @@ std::vector<std::string> check_joint_of_arms(const StudyData& data, const TrialD
   return remarks;
 }
 
-}  // namespace myoid::run
+}  // namespace myoid::study
