@@ -8,7 +8,7 @@
 
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/files/event.h"
-#include "myoid/recording/tables/text_table.h"
+#include "myoid/recording/tables/read_rows.h"
 
 namespace myoid::recording {
 

@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/text_table.h"
+#include "myoid/recording/tables/read_rows.h"
 
 #include <cmath>
 #include <string>
