@@ -1,7 +1,7 @@
 # The wings of the house and their rooms. A wing is a folder of myoid/ and a namespace; a room is a folder of its wing, or
 # the wing's own folder where both have one name.
 set(MYOID_WING_ground core math files)
-set(MYOID_WING_recording tables c3d recording signals)
+set(MYOID_WING_recording tables makers c3d recording signals)
 set(MYOID_WING_muscle muscle)
 set(MYOID_WING_page page)
 set(MYOID_WING_body model osim arm kinematics dynamics forces simulation scene)
@@ -25,8 +25,8 @@ endforeach()
 
 # The rooms, lowest first, and which lower rooms each may use: written here once. The targets link
 # exactly these; tests/architecture compares every #include with this list.
-set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
-    dynamics forces simulation beliefs measurement intervals posterior methods page phases study intake checks
+set(MYOID_LAYERS core math files muscle tables makers c3d recording signals model osim arm
+    kinematics dynamics forces simulation beliefs measurement intervals posterior methods page phases study intake checks
     design run scene opensim projects exports results comparison draft contents identify_files review virtual_person
     twin cohort realtime mat steps commands cli)
 set(MYOID_LAYER_core)
@@ -34,8 +34,9 @@ set(MYOID_LAYER_math core)
 set(MYOID_LAYER_files core)
 set(MYOID_LAYER_muscle core math files)
 set(MYOID_LAYER_tables core files)
+set(MYOID_LAYER_makers core files tables)
 set(MYOID_LAYER_c3d core files)
-set(MYOID_LAYER_recording core math files tables c3d)
+set(MYOID_LAYER_recording core math files tables makers c3d)
 set(MYOID_LAYER_signals core math files tables recording)
 set(MYOID_LAYER_model core math muscle)
 set(MYOID_LAYER_osim core files muscle model)
@@ -68,10 +69,10 @@ set(MYOID_LAYER_comparison core files measurement intervals page study)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
 set(MYOID_LAYER_contents core files tables c3d recording model projects)
 set(MYOID_LAYER_identify_files core files muscle tables measurement study)
-set(MYOID_LAYER_review core files tables measurement intervals page study intake projects identify_files run results)
+set(MYOID_LAYER_review core files recording measurement intervals page study intake projects identify_files run results)
 set(MYOID_LAYER_opensim core math files tables recording signals model osim kinematics
     dynamics forces simulation)
-set(MYOID_LAYER_projects core math files tables osim opensim)
+set(MYOID_LAYER_projects core math files tables recording osim opensim)
 set(MYOID_LAYER_virtual_person core math files muscle model osim arm beliefs
     measurement study)
 set(MYOID_LAYER_twin core math files muscle tables recording c3d arm beliefs intervals study run

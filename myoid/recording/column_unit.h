@@ -4,7 +4,7 @@
 #include <string>
 
 #include "myoid/ground/core/units.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 
 namespace myoid::recording {
 

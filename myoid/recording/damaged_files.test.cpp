@@ -18,7 +18,7 @@
 #include "myoid/recording/c3d/c3d_signals.h"
 #include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/makers/emg_table.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
 

@@ -21,11 +21,11 @@
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/recording/marker_table.h"
+#include "myoid/recording/makers/emg_table.h"
+#include "myoid/recording/makers/marker_table.h"
+#include "myoid/recording/makers/nexus_section.h"
 #include "myoid/recording/tables/csv_reader.h"
-#include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/tables/instrument_names.h"
-#include "myoid/recording/tables/nexus_section.h"
 #include "myoid/recording/tables/storage_reader.h"
 
 namespace myoid::recording {

@@ -13,9 +13,9 @@
 #include "myoid/recording/c3d/c3d_writer.h"
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/emg_reader.h"
-#include "myoid/recording/marker_table.h"
+#include "myoid/recording/makers/emg_table.h"
+#include "myoid/recording/makers/marker_table.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/trc_reader.h"
 
 #include "tests/support/data_folder.h"

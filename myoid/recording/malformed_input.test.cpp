@@ -13,10 +13,10 @@
 #include "myoid/ground/files/text_file.h"
 #include "myoid/ground/files/toml_table.h"
 #include "myoid/recording/emg_reader.h"
-#include "myoid/recording/marker_table.h"
+#include "myoid/recording/makers/emg_table.h"
+#include "myoid/recording/makers/marker_table.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/tables/csv_reader.h"
-#include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
 

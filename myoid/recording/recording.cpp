@@ -11,9 +11,9 @@
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/recording/marker_table.h"
-#include "myoid/recording/tables/emg_table.h"
-#include "myoid/recording/tables/nexus_section.h"
+#include "myoid/recording/makers/emg_table.h"
+#include "myoid/recording/makers/marker_table.h"
+#include "myoid/recording/makers/nexus_section.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/files/atomic_file.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/results/result_files.h"
 #include "myoid/run/quality_gates.h"

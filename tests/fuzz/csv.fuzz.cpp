@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/makers/emg_table.h"
 
 #include "fuzz.h"
 

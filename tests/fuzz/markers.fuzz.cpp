@@ -1,5 +1,5 @@
 // Tables of markers as the programs of their makers export them.
-#include "myoid/recording/marker_table.h"
+#include "myoid/recording/makers/marker_table.h"
 
 #include "fuzz.h"
 

@@ -9,7 +9,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_format.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
 
 namespace myoid::opensim {

@@ -13,7 +13,7 @@
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/commands/identify_study.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/recording/tables/storage_writer.h"
 #include "myoid/run/run_study.h"
 

@@ -11,7 +11,7 @@
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/program/commands/identify.h"
 #include "myoid/program/commands/run.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/study/read_study.h"
 
 #include "tests/support/elbow_study.h"

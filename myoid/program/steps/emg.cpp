@@ -16,7 +16,7 @@
 #include "myoid/program/steps/check_options.h"
 #include "myoid/program/steps/emg_input.h"
 #include "myoid/program/steps/stage_input.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 
 namespace myoid::program {
 namespace {

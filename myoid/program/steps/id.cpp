@@ -14,7 +14,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/program/steps/check_options.h"
 #include "myoid/program/steps/stage_input.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/study/study_model.h"
 
 namespace myoid::program {

@@ -15,7 +15,7 @@
 #include "myoid/ground/files/file_format.h"
 #include "myoid/program/steps/check_options.h"
 #include "myoid/program/steps/muscle_input.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 
 namespace myoid::program {
 namespace {

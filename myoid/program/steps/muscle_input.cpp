@@ -12,7 +12,7 @@
 #include "myoid/ground/files/text_file.h"
 #include "myoid/program/steps/stage_input.h"
 #include "myoid/recording/column_unit.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 
 namespace myoid::program {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/makers/emg_table.h"
 
 namespace myoid::recording {
 namespace {

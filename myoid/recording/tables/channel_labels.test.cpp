@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/recording/makers/emg_table.h"
 #include "myoid/recording/tables/csv_reader.h"
-#include "myoid/recording/tables/emg_table.h"
 
 #include "tests/support/repair_lines.h"
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/recording/makers/emg_table.h"
 #include "myoid/recording/tables/csv_reader.h"
-#include "myoid/recording/tables/emg_table.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/recording/tables/storage_writer.h"
 

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
+#include "myoid/recording/makers/emg_table.h"
+#include "myoid/recording/makers/nexus_section.h"
 #include "myoid/recording/tables/channel_labels.h"
-#include "myoid/recording/tables/emg_table.h"
-#include "myoid/recording/tables/nexus_section.h"
 #include "myoid/recording/tables/table_layout.h"
 #include "myoid/recording/tables/table_series.h"
 

@@ -10,7 +10,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/name_ids.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/run/identify_files/electrode_ties.h"
 
 namespace myoid::results {

@@ -8,7 +8,7 @@
 
 #include "myoid/fit/measurement/nuisances.h"
 #include "myoid/opensim/projects/ceinms_law.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/results/review/project_study.h"
 #include "myoid/study/intake/given_stages.h"
 

@@ -22,6 +22,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/recording/signals/clock_gaps.h"
 #include "myoid/recording/signals/clock_offset.h"
 #include "myoid/recording/signals/emg_envelope.h"
@@ -30,7 +31,6 @@
 #include "myoid/recording/signals/marker_quality.h"
 #include "myoid/recording/signals/plate_quality.h"
 #include "myoid/recording/tables/result_units.h"
-#include "myoid/recording/tables/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/study/intake/trial_input.h"
 

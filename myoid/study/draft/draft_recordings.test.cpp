@@ -8,7 +8,7 @@
 
 #include "myoid/ground/files/atomic_file.h"
 #include "myoid/ground/files/record_list.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 
 #include "tests/support/temporary_folder.h"
 

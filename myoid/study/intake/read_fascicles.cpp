@@ -11,7 +11,7 @@
 #include "myoid/ground/core/names.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/recording/column_unit.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/study/intake/trial_input.h"
 
 namespace myoid::study {

@@ -13,8 +13,8 @@
 #include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/math/spline.h"
 #include "myoid/recording/column_unit.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/recording/signals/clock_gaps.h"
-#include "myoid/recording/tables/series_file.h"
 #include "myoid/study/intake/emg_cover.h"
 #include "myoid/study/intake/limits.h"
 

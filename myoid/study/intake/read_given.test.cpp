@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/units.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/study/study_model.h"
 
 #include "tests/support/written_trial.h"

@@ -15,7 +15,7 @@
 #include "myoid/ground/files/file_format.h"
 #include "myoid/recording/column_unit.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/study/intake/emg_cover.h"
 #include "myoid/study/intake/read_fascicles.h"

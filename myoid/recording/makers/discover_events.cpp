@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/discover_events.h"
+#include "myoid/recording/makers/discover_events.h"
 
 #include <algorithm>
 #include <string>

@@ -1,10 +1,10 @@
-#include "myoid/recording/tables/opensignals_layout.h"
+#include "myoid/recording/makers/opensignals_layout.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/makers/emg_table.h"
 
 #include "tests/support/message_of.h"
 #include "tests/support/repair_lines.h"

@@ -1,9 +1,9 @@
-#include "myoid/recording/tables/discover_events.h"
+#include "myoid/recording/makers/discover_events.h"
 
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/makers/emg_table.h"
 
 namespace myoid::recording {
 namespace {

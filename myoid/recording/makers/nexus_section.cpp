@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/nexus_section.h"
+#include "myoid/recording/makers/nexus_section.h"
 
 #include <algorithm>
 

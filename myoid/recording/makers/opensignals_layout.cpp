@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/opensignals_layout.h"
+#include "myoid/recording/makers/opensignals_layout.h"
 
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "myoid/recording/marker_table.h"
+#include "myoid/recording/makers/marker_table.h"
 
 #include <cassert>
 #include <optional>
@@ -12,7 +12,7 @@
 #include "myoid/ground/core/index.h"
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/files/file_words.h"
-#include "myoid/recording/tables/marker_layouts.h"
+#include "myoid/recording/makers/marker_layouts.h"
 #include "myoid/recording/tables/table_clock.h"
 
 namespace myoid::recording {

@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/labchart_layout.h"
+#include "myoid/recording/makers/labchart_layout.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 
 #include <utility>
 
@@ -6,7 +6,7 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_format.h"
-#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/makers/emg_table.h"
 #include "myoid/recording/tables/storage_reader.h"
 #include "myoid/recording/tables/storage_writer.h"
 

@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/series_file.h"
+#include "myoid/recording/series_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/labchart_layout.h"
+#include "myoid/recording/makers/labchart_layout.h"
 
 #include <string>
 
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/makers/emg_table.h"
 
 #include "tests/support/message_of.h"
 #include "tests/support/repair_lines.h"

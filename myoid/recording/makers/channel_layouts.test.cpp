@@ -1,11 +1,11 @@
-#include "myoid/recording/tables/channel_layouts.h"
+#include "myoid/recording/makers/channel_layouts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/ground/core/error.h"
-#include "myoid/recording/tables/emg_table.h"
-#include "myoid/recording/tables/marker_layouts.h"
+#include "myoid/recording/makers/emg_table.h"
+#include "myoid/recording/makers/marker_layouts.h"
 
 namespace myoid::recording {
 namespace {

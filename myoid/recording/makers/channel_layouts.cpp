@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/channel_layouts.h"
+#include "myoid/recording/makers/channel_layouts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_words.h"
+#include "myoid/recording/makers/labchart_layout.h"
+#include "myoid/recording/makers/nexus_section.h"
+#include "myoid/recording/makers/opensignals_layout.h"
 #include "myoid/recording/tables/channel_labels.h"
-#include "myoid/recording/tables/labchart_layout.h"
-#include "myoid/recording/tables/nexus_section.h"
-#include "myoid/recording/tables/opensignals_layout.h"
 
 namespace myoid::recording {
 namespace {

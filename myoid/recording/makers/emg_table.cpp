@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/emg_table.h"
+#include "myoid/recording/makers/emg_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +17,10 @@
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/files/file_words.h"
 #include "myoid/ground/files/written_time.h"
+#include "myoid/recording/makers/channel_layouts.h"
+#include "myoid/recording/makers/discover_events.h"
 #include "myoid/recording/tables/blank_columns.h"
 #include "myoid/recording/tables/channel_labels.h"
-#include "myoid/recording/tables/channel_layouts.h"
-#include "myoid/recording/tables/discover_events.h"
 
 namespace myoid::recording {
 namespace {

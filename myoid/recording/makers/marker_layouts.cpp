@@ -1,4 +1,4 @@
-#include "myoid/recording/tables/marker_layouts.h"
+#include "myoid/recording/makers/marker_layouts.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/file_words.h"
 #include "myoid/ground/files/unique_names.h"
-#include "myoid/recording/tables/nexus_section.h"
+#include "myoid/recording/makers/nexus_section.h"
 
 namespace myoid::recording {
 namespace {

@@ -1,4 +1,4 @@
-#include "myoid/recording/marker_table.h"
+#include "myoid/recording/makers/marker_table.h"
 
 #include <cmath>
 #include <string>
@@ -8,8 +8,8 @@
 
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/files/atomic_file.h"
+#include "myoid/recording/makers/marker_layouts.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/tables/marker_layouts.h"
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
