@@ -18,7 +18,7 @@
 #include "myoid/run/design/design_study.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/prediction_gates.h"
-#include "myoid/run/quality_gates.h"
+#include "myoid/run/recording_faults.h"
 
 namespace myoid::results {
 namespace {

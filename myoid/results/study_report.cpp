@@ -19,6 +19,7 @@
 #include "myoid/run/design/design_report.h"
 #include "myoid/run/effort_prior.h"
 #include "myoid/run/quality_gates.h"
+#include "myoid/run/recording_faults.h"
 #include "myoid/run/study_emg.h"
 #include "myoid/study/study_ids.h"
 #include "myoid/study/study_model.h"

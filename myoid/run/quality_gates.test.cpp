@@ -7,6 +7,7 @@
 
 #include "myoid/fit/intervals/verdicts.h"
 #include "myoid/ground/core/units.h"
+#include "myoid/run/recording_faults.h"
 #include "myoid/run/verdict_caps.h"
 
 namespace myoid::run {

@@ -17,6 +17,7 @@
 #include "myoid/run/given_trials.h"
 #include "myoid/run/next_recording.h"
 #include "myoid/run/quality_gates.h"
+#include "myoid/run/recording_faults.h"
 #include "myoid/run/stage_store.h"
 #include "myoid/run/study_fit.h"
 #include "myoid/run/study_forces.h"

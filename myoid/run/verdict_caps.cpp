@@ -10,6 +10,7 @@
 
 #include "myoid/page/typeset.h"
 #include "myoid/run/quality_gates.h"
+#include "myoid/run/recording_faults.h"
 
 namespace myoid::run {
 namespace {

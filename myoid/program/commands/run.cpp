@@ -13,6 +13,7 @@
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_workbench.h"
 #include "myoid/run/quality_gates.h"
+#include "myoid/run/recording_faults.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/checks/recording_findings.h"
 #include "myoid/study/study_model.h"
