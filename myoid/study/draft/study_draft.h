@@ -1,19 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "myoid/ground/core/remark.h"
+#include "myoid/study/draft/draft_sources.h"
 
 namespace myoid::study {
-
-struct DraftOptions {
-  std::vector<std::filesystem::path> from;     ///< Recordings, or folders of them.
-  std::optional<std::filesystem::path> model;  ///< .osim; empty: the one in a folder, or arm4.
-  std::string coordinate;                      ///< Empty: guessed.
-};
 
 /// A study.toml to start from.
 struct StudyDraft {
