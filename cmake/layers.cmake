@@ -52,7 +52,7 @@ set(MYOID_LAYER_posterior core math muscle beliefs measurement intervals)
 set(MYOID_LAYER_methods core math muscle beliefs measurement intervals posterior)
 set(MYOID_LAYER_page core files)
 set(MYOID_LAYER_phases core math)
-set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics forces measurement
+set(MYOID_LAYER_study core math files muscle recording signals model osim arm kinematics forces measurement
     phases)
 set(MYOID_LAYER_intake core math files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model osim kinematics dynamics measurement

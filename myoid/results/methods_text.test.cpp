@@ -20,7 +20,7 @@ run::StudyResult small_study() {
   run::StudyResult result;
   study::Study& study = result.source.study;
   study.model.coordinate = "elbow_flexion";
-  study.emg.lowpass_hz = 4.0;
+  study.emg.chain.lowpass_hz = 4.0;
   study.motion.smoothing = study::Smoothing::cutoff;
   study.motion.cutoff_hz = 5.0;
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(101, 0.0, 1.0);
@@ -73,7 +73,7 @@ TEST(MethodsText, ChangesWithTheStudy) {
     EXPECT_NE(text, before);
     return text;
   };
-  EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.emg.lowpass_hz = 3.0; }),
+  EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.emg.chain.lowpass_hz = 3.0; }),
               AllOf(HasSubstr("cut-off frequency 3 Hz"), Not(HasSubstr("frequency 4 Hz"))));
   EXPECT_THAT(changed([](run::StudyResult& r) { r.source.study.motion.cutoff_hz = 8.0; }),
               HasSubstr("cut-off frequency of 8 Hz"));

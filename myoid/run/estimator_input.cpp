@@ -139,7 +139,8 @@ fit::EstimatorSettings estimator_settings(const study::Study& study) {
 
 fit::ActivationSource activation_source(const study::Study& study,
                                         const std::vector<recording::ChannelNormalisation>& normalisation) {
-  fit::ActivationSource source{.from_mvc = from_maximal_effort(study.emg), .envelope_cutoff_hz = study.emg.lowpass_hz};
+  fit::ActivationSource source{.from_mvc = from_maximal_effort(study.emg),
+                               .envelope_cutoff_hz = study.emg.chain.lowpass_hz};
   // Activation 1 is the greatest effort of the MVC trials: a share of the muscle's maximum.
   AnyEffort effort{.own = {.mean = 1.0}};
   if (study.emg.has_mvc)

@@ -105,7 +105,7 @@ TEST(TorqueOptions, WhatTheDelayIsFollowsTheStudyAndElseTheRecording) {
 // numbers from the same data.
 TEST(TorqueOptions, TheStudyAndTheCommandLineFindTheSameNumbersInTheSameData) {
   study::Study study = arm_study("");
-  study.emg.lowpass_hz = fit::ActivationSource{}.envelope_cutoff_hz;
+  study.emg.chain.lowpass_hz = fit::ActivationSource{}.envelope_cutoff_hz;
   study.emg.has_mvc = true;
   const fit::EstimatorOptions of_run = torque_options(study, {}, {});
   const fit::EstimatorOptions of_identify = fit::estimator_options({}, {}, {});

@@ -39,7 +39,7 @@ TEST(RunStudy, ASecondRunReusesInverseKinematicsAndFindsTheSame) {
   const ExactRun& first = ExactRun::get();
   study::Study study = first.result.source.study;
   study.identify.methods = {fit::Method::paper};
-  study.emg.lowpass_hz = 5.0;
+  study.emg.chain.lowpass_hz = 5.0;
   const StudyResult second = run_study(study, {.store = first.folder / "stages"});
   ASSERT_EQ(second.trials.size(), first.result.trials.size());
   int with_markers = 0;

@@ -110,7 +110,7 @@ TEST(StageStore, TheKeyChangesWithEveryInputOfInverseKinematicsAndNoOther) {
   other.model.forearm_length_m = 0.25;
   EXPECT_NE(key, ik_key(other, "<model/>", markers));
   other = study;
-  other.emg.lowpass_hz = 4.0;
+  other.emg.chain.lowpass_hz = 4.0;
   EXPECT_EQ(key, ik_key(other, "<model/>", markers));
 }
 

@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/study/intake/trial_emg.h"
-
 namespace myoid::run {
 namespace {
 
@@ -34,7 +32,7 @@ recording::EmgChain emg_chain(const StudyResult& result, const fit::Identificati
   }
   if (!any) return chain;
   if (emg.kind == study::EmgKind::raw) {
-    chain = recording::envelope_chain(trials, study::envelope_options(result.source.study), result.emg.whitening);
+    chain = recording::envelope_chain(trials, emg.chain, result.emg.whitening);
   } else {
     const char* const kind = emg.kind == study::EmgKind::envelope ? "EMG envelopes" : "activations";
     chain.steps.push_back(

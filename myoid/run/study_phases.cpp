@@ -12,7 +12,6 @@
 #include "myoid/recording/signals/emg_envelope.h"
 #include "myoid/recording/signals/emg_levels.h"
 #include "myoid/recording/signals/spectrum.h"
-#include "myoid/study/intake/trial_emg.h"
 #include "myoid/study/phases/find_phases.h"
 
 namespace myoid::run {
@@ -61,7 +60,7 @@ fit::StudyData plain_data(const FitSource& source, fit::StudyData data) {
   }
   if (!source.scale.whitening.applied) return data;
 
-  const recording::EnvelopeOptions options = study::envelope_options(study);
+  const recording::EnvelopeOptions& options = study.emg.chain;
   std::vector<const TrialResult*> trials;
   std::vector<study::Use> uses;
   std::vector<TimeSeries> plain;

@@ -23,7 +23,7 @@ std::optional<double> motion_cutoff_hz(const Study& study) {
     case Smoothing::automatic:
       break;
   }
-  return study.emg.lowpass_hz;
+  return study.emg.chain.lowpass_hz;
 }
 
 void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s) {

@@ -12,6 +12,7 @@
 #include "myoid/ground/core/choice.h"
 #include "myoid/ground/core/geometry.h"
 #include "myoid/ground/core/stretch.h"
+#include "myoid/recording/signals/emg_envelope.h"
 #include "myoid/study/equal_stretches.h"
 #include "myoid/study/phases/phases.h"
 
@@ -117,13 +118,7 @@ constexpr ChoiceNames choice_names(EmgKind) { return kEmgKindNames; }
 struct EmgSpec {
   EmgKind kind = EmgKind::raw;
   std::string unit;  ///< "uV", ...; empty: as the file states.
-  bool rectify = true;
-  bool notch = true;        ///< Removes mains hum if the EMG has any.
-  bool remove_ecg = false;  ///< Takes the heart out of channels that hold it.
-  bool whitening = true;    ///< Whitens raw EMG if the recording allows.
-  double highpass_hz = 20.0;
-  double lowpass_hz = 6.0;
-  bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.
+  recording::EnvelopeOptions chain;
   double normalise_window_s = 0.5;
   /// Share of the muscles' full force that the MVC trials reach, and its standard deviation among
   /// people. With 1 and 0, F_max is the force at the greatest recorded effort.

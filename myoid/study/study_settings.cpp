@@ -150,18 +150,22 @@ void visit(EmgSpec& emg, SettingVisitor& v) {
   v.text("unit", emg.unit,
          {.says = "`V`, `mV` or `uV`, if the file does not say, or says V for numbers beyond 10 V.",
           .otherwise = "as the file says"});
-  v.flag("rectify", emg.rectify, {.says = "First step of [the chain](emg.md) after the high-pass."});
-  v.either("notch", emg.notch, {.says = "`auto`: takes mains hum out [where it is found](check.md).", .words = kNotch});
-  v.flag("remove_ecg", emg.remove_ecg,
+  v.flag("rectify", emg.chain.rectify, {.says = "First step of [the chain](emg.md) after the high-pass."});
+  v.either("notch", emg.chain.notch,
+           {.says = "`auto`: takes mains hum out [where it is found](check.md).", .words = kNotch});
+  v.flag("remove_ecg", emg.chain.remove_ecg,
          {.says = "Takes the heart out of channels that hold it, as those of the trunk do ([where it is found]"
                   "(check.md))."});
-  v.flag("whitening", emg.whitening,
+  bool whitens = emg.chain.whitening.value_or(true);
+  v.flag("whitening", whitens,
          {.says = "Raw EMG is [whitened](../theory/emg.md#whitening) before it is rectified, in all channels or in "
                   "none, as the recording allows. `false`: in none."});
-  v.number("highpass_hz", emg.highpass_hz, {.says = "High-pass of raw EMG.", .limits = above_zero("Hz")});
-  v.number("lowpass_hz", emg.lowpass_hz,
+  emg.chain.whitening = whitens ? std::nullopt : std::optional(false);
+  v.number("highpass_hz", emg.chain.highpass_hz, {.says = "High-pass of raw EMG.", .limits = above_zero("Hz")});
+  v.number("lowpass_hz", emg.chain.lowpass_hz,
            {.says = "Low-pass of the rectified EMG, −3 dB of both passes together.", .limits = above_zero("Hz")});
-  v.flag("as_published", emg.as_published, {.says = "The source paper's design: no high-pass, uncorrected low-pass."});
+  v.flag("as_published", emg.chain.as_published,
+         {.says = "The source paper's design: no high-pass, uncorrected low-pass."});
   std::string normalise(kNormalise[0]);
   v.text("normalise", normalise,
          {.says = "`max`: the largest effort over all maximal and task trials counts as 1; the report names it.",

@@ -43,7 +43,7 @@ held_mass_kg = 2.5
   EXPECT_EQ(j["ik"]["lock"], nlohmann::json({"shoulder_flexion"}));
   EXPECT_EQ(j["emg"]["delay_s"], 0.03);
   EXPECT_EQ(j["emg"]["unit"], "uV");
-  EXPECT_EQ(j["emg"]["highpass_hz"], EmgSpec{}.highpass_hz);
+  EXPECT_EQ(j["emg"]["highpass_hz"], EmgSpec{}.chain.highpass_hz);
   EXPECT_EQ(j["muscle"][0]["emg"], "biceps");
   EXPECT_EQ(j["trial"][0]["held_mass_kg"], 2.5);
   EXPECT_EQ(j["trial"][0]["markers"], "t.trc");

@@ -24,6 +24,7 @@ struct EnvelopeOptions {
   std::optional<bool> whitening;
   bool as_published = false;  ///< Follows the source paper: no high-pass, and the low-pass designed
                               ///< at `lowpass_hz` for one pass.
+  bool operator==(const EnvelopeOptions&) const = default;
 };
 
 /// Lines of the mains that were removed from a channel.

@@ -4,7 +4,6 @@
 
 #include "myoid/ground/core/parallel.h"
 #include "myoid/recording/signals/resample.h"
-#include "myoid/study/intake/trial_emg.h"
 
 namespace myoid::study {
 namespace {
@@ -87,7 +86,7 @@ StudyActivation study_envelopes(const Study& study, const EmgOfTrials& emg) {
   StudyActivation found;
   found.trials.resize(emg.size());
   if (study.emg.kind != EmgKind::raw) return found;
-  const recording::EnvelopeOptions options = envelope_options(study);
+  const recording::EnvelopeOptions& options = study.emg.chain;
   for_each_trial(emg.size(), [&](std::size_t i) {
     if (emg[i] != nullptr) found.trials[i].stages = recording::clean_emg(*emg[i], options);
   });

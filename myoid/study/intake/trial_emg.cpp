@@ -196,7 +196,7 @@ void require_kind(const Study& study, const std::filesystem::path& path, const T
 TimeSeries on_clock_of_motion(
     const Study& study, const TrialSpec& trial, TimeSeries emg, const Remember& remember, TrialInput& input) {
   const auto envelopes = [&] {
-    recording::EnvelopeOptions options = envelope_options(study);
+    recording::EnvelopeOptions options = study.emg.chain;
     options.whitening = false;  // this pass serves only the clock of one trial
     return study.emg.kind == EmgKind::raw ? recording::process_emg(emg, options).envelope : emg;
   };
@@ -209,16 +209,6 @@ TimeSeries on_clock_of_motion(
 }
 
 }  // namespace
-
-recording::EnvelopeOptions envelope_options(const Study& study) {
-  return {.highpass_hz = study.emg.highpass_hz,
-          .lowpass_hz = study.emg.lowpass_hz,
-          .rectify = study.emg.rectify,
-          .notch = study.emg.notch,
-          .remove_ecg = study.emg.remove_ecg,
-          .whitening = study.emg.whitening ? std::nullopt : std::optional(false),
-          .as_published = study.emg.as_published};
-}
 
 TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Remember& remember, TrialInput& input) {
   const double start = trial.start_s.value_or(-1e300);

@@ -1,14 +1,10 @@
 #pragma once
 
 #include "myoid/ground/core/time_series.h"
-#include "myoid/recording/signals/emg_envelope.h"
 #include "myoid/study/intake/trial_input.h"
 #include "myoid/study/study.h"
 
 namespace myoid::study {
-
-/// Returns the study's options for envelopes of raw EMG.
-[[nodiscard]] recording::EnvelopeOptions envelope_options(const Study& study);
 
 /// Reads the EMG of a trial: only the channels of the study's muscles, on the clock of the motion in `input`, cut to
 /// the trial's times and 0.5 s before, which the delay needs. Notes, warnings and the clock go to `input`; `remember`

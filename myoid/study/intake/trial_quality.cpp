@@ -36,8 +36,8 @@ std::vector<Remark> trial_faults(const Study& study, const TrialInput& input, co
     if (auto uneven = recording::check_clock_evenness(time_s, what)) faults.push_back(std::move(*uneven));
   };
   if (input.emg && study.emg.kind == EmgKind::raw)
-    append(recording::check_emg(
-        *input.emg, {.high_passed = !study.emg.as_published, .notched = study.emg.notch && !study.emg.as_published}));
+    append(recording::check_emg(*input.emg, {.high_passed = !study.emg.chain.as_published,
+                                             .notched = study.emg.chain.notch && !study.emg.chain.as_published}));
   if (input.emg) check_clock_of(input.emg->time_s(), "EMG");
   if (input.markers) check_clock_of(input.markers->time_s, "markers");
   if (input.motion) check_clock_of(input.motion->time_s(), "motion");
