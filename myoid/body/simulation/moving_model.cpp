@@ -55,9 +55,7 @@ void MovingModel::begin_muscles(const SimulationStart& start) {
   }
 }
 
-std::size_t MovingModel::event_count() const {
-  return options_.locate_kinks ? n_ * muscle::kMusculotendonEventCount : 0;
-}
+std::size_t MovingModel::event_count() const { return n_ * muscle::kMusculotendonEventCount; }
 
 muscle::MusculotendonState<double> MovingModel::fiber(std::size_t i, const double* y) const {
   const double* s = y + offsets_[i];

@@ -46,7 +46,6 @@ struct SimulationOptions {
   double output_rate_hz = 1000.0;      ///< Rate of the result's samples, from the start on.
   std::vector<double> output_times_s;  ///< Times of the result's samples; overrides the rate unless empty.
   bool energy = false;                 ///< Also integrate the work of every element.
-  bool locate_kinks = true;            ///< End steps where the right-hand side has a kink (slack, v = 0, ...).
   math::OdeOptions ode;
   Progress progress;
 };

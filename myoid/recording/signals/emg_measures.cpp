@@ -28,7 +28,8 @@ double burst_threshold(const Eigen::VectorXd& smooth, Eigen::Index second, doubl
 
 }  // namespace
 
-std::vector<EmgBurst> emg_bursts(const TimeSeries& filtered, Eigen::Index channel, const BurstOptions& options) {
+std::vector<EmgBurst> emg_bursts(const TimeSeries& filtered, Eigen::Index channel) {
+  constexpr double kThreshold_sd = 5.0, kShortest_s = 0.05, kShortPause_s = 0.1;
   const Eigen::VectorXd& t = filtered.time_s();
   const TimeSeries rectified(t, {filtered.channels()[static_cast<std::size_t>(channel)]},
                              Eigen::MatrixXd(filtered.values().col(channel).cwiseAbs()));
@@ -36,16 +37,16 @@ std::vector<EmgBurst> emg_bursts(const TimeSeries& filtered, Eigen::Index channe
       zero_phase_filter(rectified, math::FilterBand::low_pass, kBurstLowpass_hz, {.order = 2, .ends = math::Ends::even})
           .values()
           .col(0);
-  const double least = burst_threshold(smooth, window_samples(filtered, kQuietSecond_s), options.threshold_sd);
+  const double least = burst_threshold(smooth, window_samples(filtered, kQuietSecond_s), kThreshold_sd);
   std::vector<EmgBurst> bursts;
   bool on = false;
   for (Eigen::Index i = 0; i < smooth.size(); ++i) {
     const bool now = smooth[i] > least;
-    if (now && !on && (bursts.empty() || t[i] - bursts.back().end_s >= options.pause_s)) bursts.push_back({t[i], t[i]});
+    if (now && !on && (bursts.empty() || t[i] - bursts.back().end_s >= kShortPause_s)) bursts.push_back({t[i], t[i]});
     if (now) bursts.back().end_s = t[i];
     on = now;
   }
-  std::erase_if(bursts, [&](const EmgBurst& burst) { return burst.end_s - burst.onset_s < options.shortest_s; });
+  std::erase_if(bursts, [&](const EmgBurst& burst) { return burst.end_s - burst.onset_s < kShortest_s; });
   return bursts;
 }
 

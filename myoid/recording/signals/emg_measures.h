@@ -13,18 +13,11 @@ struct EmgBurst {
   double onset_s = 0.0, end_s = 0.0;
 };
 
-struct BurstOptions {
-  double threshold_sd = 5.0;  ///< The rest's mean and so many of its standard deviations.
-  double shortest_s = 0.05;   ///< Shorter bursts are none.
-  double pause_s = 0.1;       ///< Shorter pauses belong to the burst.
-};
-
 /// Returns when a channel of filtered EMG rises above its rest: the rectified signal, low-passed at 25 Hz without
-/// delay, above mean + `threshold_sd` standard deviations of the quietest second (Hodges & Bui 1996). Empty if the
-/// channel never does. `filtered` is one channel without offset.
-[[nodiscard]] std::vector<EmgBurst> emg_bursts(const TimeSeries& filtered,
-                                               Eigen::Index channel,
-                                               const BurstOptions& options = {});
+/// delay, above mean + 5 standard deviations of the quietest second (Hodges & Bui 1996). Bursts shorter than 0.05 s
+/// are none; pauses shorter than 0.1 s belong to the burst. Empty if the channel never does. `filtered` is one channel
+/// without offset.
+[[nodiscard]] std::vector<EmgBurst> emg_bursts(const TimeSeries& filtered, Eigen::Index channel);
 
 /// Root mean square and median frequency over one stretch of a channel.
 struct EmgWindow {

@@ -106,6 +106,7 @@ double median_frequency_hz(const PowerSpectrum& spectrum, double low_hz, double 
 }
 
 TimeSeries median_frequency(const TimeSeries& raw, const MedianFrequencyOptions& options) {
+  constexpr double kSignalToNoise = 4.0;
   const double rate = raw.mean_rate_hz();
   if (!raw.is_uniform() || rate < 4.0 * options.low_hz) {
     throw InvalidInput("median frequency: {:.4g} Hz; raw EMG on an even clock of at least {:.4g} Hz is needed", rate,
@@ -125,11 +126,10 @@ TimeSeries median_frequency(const TimeSeries& raw, const MedianFrequencyOptions&
     middle[w] = 0.5 * (raw.time_s()[w * length] + raw.time_s()[(w + 1) * length - 1]);
     for (Eigen::Index c = 0; c < count; ++c) {
       const PowerSpectrum spectrum =
-          power_spectrum(raw.values().col(c).segment(w * length, length), rate, options.segment_s);
+          power_spectrum(raw.values().col(c).segment(w * length, length), rate, kSpectrumSegment_s);
       median(w, c) = median_frequency_hz(spectrum, options.low_hz, high_hz);
-      const bool quiet =
-          options.resting_rms.size() > 0 &&
-          band_power(spectrum, options.low_hz, high_hz) < options.signal_to_noise * std::pow(options.resting_rms[c], 2);
+      const bool quiet = options.resting_rms.size() > 0 && band_power(spectrum, options.low_hz, high_hz) <
+                                                               kSignalToNoise * std::pow(options.resting_rms[c], 2);
       if (quiet) median(w, c) = kNan;
     }
   }

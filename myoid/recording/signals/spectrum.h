@@ -25,21 +25,19 @@ struct PowerSpectrum {
 /// without power there.
 [[nodiscard]] double median_frequency_hz(const PowerSpectrum& spectrum, double low_hz, double high_hz);
 
-inline constexpr double kSpectrumSegment_s = 0.25;  ///< Of the bandwidth of EMG.
+inline constexpr double kSpectrumSegment_s = 0.25;  ///< Segment of Welch's estimate for bandwidth and median.
 
 /// Returns (sum S)^2 / sum S^2 times the width of a bin [Hz]: the width of a flat spectrum whose power fluctuates as
 /// much. The relative spread of the mean square over T is then 1 / sqrt(B T) (Bendat & Piersol). NaN without power.
 [[nodiscard]] double statistical_bandwidth_hz(const PowerSpectrum& spectrum);
 
 struct MedianFrequencyOptions {
-  double window_s = 2.0;    ///< Length of a window; windows follow each other without overlap.
-  double segment_s = 0.25;  ///< Segment of Welch's estimate within a window.
-  double low_hz = 20.0;     ///< Motion artefacts are below.
-  double high_hz = 400.0;   ///< At most 0.9 of half the sampling rate is used.
+  double window_s = 2.0;   ///< Length of a window; windows follow each other without overlap.
+  double low_hz = 20.0;    ///< Motion artefacts are below.
+  double high_hz = 400.0;  ///< At most 0.9 of half the sampling rate is used.
   /// Root mean square of each channel's resting level [as the EMG]; empty if unknown. A window with
-  /// less than `signal_to_noise` times that power gives NaN: the muscle is hardly active.
+  /// less than four times that power gives NaN: the muscle is hardly active.
   Eigen::VectorXd resting_rms;
-  double signal_to_noise = 4.0;
 };
 
 /// Returns the median frequency [Hz] of every channel of a raw EMG, one row a window, at its middle. It falls as a

@@ -178,7 +178,7 @@ std::vector<Movement> movements_on_device(bool positive, const UsedRange& range,
   const double low = range.low_rad, high = range.high_rad;
   const std::string direction = direction_name(options.coordinate, positive);
   std::vector<Movement> movements;
-  for (const double level : options.isometric_levels) {
+  for (const double level : {0.4, 0.8}) {
     for (int i = 0; i < options.angles; ++i) {
       const double angle = options.angles == 1 ? range.middle_rad() : low + (high - low) * i / (options.angles - 1);
       movements.push_back({.kind = MovementKind::isometric,
@@ -191,12 +191,12 @@ std::vector<Movement> movements_on_device(bool positive, const UsedRange& range,
     }
   }
   if (!options.dynamometer) return movements;
-  for (const double speed : options.isokinetic_speeds_radps) {
+  for (const double speed : {0.52, 1.57, 3.14}) {  // 30, 90, 180 deg/s
     movements.push_back({.kind = MovementKind::isokinetic,
                          .lowest_rad = low,
                          .highest_rad = high,
                          .speed_radps = speed,
-                         .level = options.isokinetic_level,
+                         .level = 0.6,
                          .positive = positive,
                          .direction = direction,
                          .duration_s = std::max(4.0, 2.0 * (high - low) / speed)});

@@ -41,9 +41,6 @@ struct Movement {
 struct CatalogueOptions {
   std::vector<double> held_masses_kg = {0.0, 1.0, 2.0, 4.0};
   std::vector<double> frequencies_hz = {0.3, 0.6, 1.0, 1.5, 2.0};
-  std::vector<double> isometric_levels = {0.4, 0.8};
-  std::vector<double> isokinetic_speeds_radps = {0.52, 1.57, 3.14};  ///< 30, 90, 180 deg/s
-  double isokinetic_level = 0.6;
   int angles = 6;           ///< Isometric postures over the range.
   bool planes = true;       ///< Both planes (built-in arm) or the model's posture only.
   bool dynamometer = true;  ///< False: no isokinetic movement.

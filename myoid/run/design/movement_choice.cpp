@@ -13,6 +13,8 @@
 namespace myoid::run {
 namespace {
 
+constexpr double kLeastFeasible = 0.8;  ///< Share of the persons who must be able to do a movement.
+
 /// The information gathered so far, per person.
 using Gathered = std::vector<Eigen::MatrixXd>;
 
@@ -35,8 +37,7 @@ class Designer {
           throw InvalidInput(fmt::format("design: the information of '{}' has the wrong size", movement.name));
         ++able;
       }
-      feasible_.push_back(able > 0 &&
-                          static_cast<double>(able) >= options.least_feasible * static_cast<double>(persons_));
+      feasible_.push_back(able > 0 && static_cast<double>(able) >= kLeastFeasible * static_cast<double>(persons_));
     }
     if (std::none_of(feasible_.begin(), feasible_.end(), [](bool f) { return f; }))
       throw InvalidInput("design: no movement of the catalogue can be done by these persons");

@@ -39,7 +39,6 @@ struct DesignOptions {
   int movements = 8;               ///< Number of movements to choose.
   int most_of_each = 2;            ///< Limit on the repetitions of one movement.
   std::optional<double> budget_s;  ///< Limit on the recording time.
-  double least_feasible = 0.8;     ///< Share of the persons who must be able to do a movement.
 };
 
 struct DesignStep {
