@@ -32,10 +32,9 @@ using myoid::test::write_text;
 
 using Words = std::vector<std::string>;
 
-/// How a command is called for a folder `in` of inputs and a place of its output.
+/// How a command is called for a folder of inputs and a place of its output, {in} and {out} in its line.
 struct Recipe {
-  std::string command;
-  std::function<Words(const std::string& in, const std::string& out)> words;
+  std::string line;
   std::string spoil;               ///< The input that a failing case spoils.
   bool to_folder = true;           ///< The output is a folder, not a file.
   Words inputs{};                  ///< Of a command whose output is a file: its inputs, as places of the output.
@@ -43,262 +42,88 @@ struct Recipe {
   bool needs_runs = false;         ///< `in` holds two finished runs.
   bool is_slow = false;            ///< Succeeds in a few places only.
   std::string may_change{"none"};  ///< Begin of the names in `in` that the command is asked to make anew.
+
+  [[nodiscard]] std::string command() const { return line.substr(0, line.find(' ')); }
+  [[nodiscard]] Words words(const std::string& in, const std::string& out) const {
+    Words result;
+    std::istringstream stream(line);
+    for (std::string word; stream >> word;)
+      result.push_back(word == "{out}" ? out : word.starts_with("{in}") ? in + word.substr(4) : word);
+    return result;
+  }
 };
 
-std::vector<Recipe> recipes() {
-  const std::string typo = "study.toml";
-  const auto model = [](const std::string& in) { return in + "/model.osim"; };
-  return {
-      {"run",
-       [](auto& in, auto& out) {
-         return Words{"run", in + "/study.toml", "--out", out};
-       },
-       typo,
-       true,
-       {},
-       "",
-       false,
-       true},
-      {"init",
-       [](auto& in, auto& out) {
-         return Words{"init", out, "--from", in};
-       },
-       "lift.trc"},
-      {"compare",
-       [](auto& in, auto& out) {
-         return Words{"compare", in + "/run", in + "/run2", "--out", out};
-       },
-       "run/parameters.json",
-       true,
-       {},
-       "",
-       true},
-      {"review",
-       [](auto& in, auto& out) {
-         return Words{"review", in + "/project", "--start", "0.5", "--end", "2.5", "--out", out};
-       },
-       "project/subject.xml",
-       true,
-       {},
-       "",
-       false,
-       true},
-      {"cohort",
-       [](auto& in, auto& out) {
-         return Words{"cohort", in + "/persons.csv", "--out", out};
-       },
-       typo,
-       true,
-       {},
-       "",
-       false,
-       true},
-      {"cohort",
-       [](auto& in, auto& out) {
-         return Words{"cohort", in, out, "participant"};
-       },
-       "code/study.toml",
-       true,
-       {},
-       "",
-       false,
-       true},
-      {"cohort",
-       [](auto& in, auto& out) {
-         return Words{"cohort", in, out, "group"};
-       },
-       "code/study.toml"},
-      {"info",
-       [=](auto& in, auto& out) {
-         return Words{"info", model(in), "--html", out};
-       },
-       "model.osim",
-       false,
-       {"model.osim"},
-       ".html"},
-      {"convert",
-       [](auto& in, auto& out) {
-         return Words{"convert", in + "/lift.trc", out};
-       },
-       "lift.trc"},
-      {"convert",
-       [](auto& in, auto& out) {
-         return Words{"convert", in + "/run", out};
-       },
-       "run/parameters.csv",
-       true,
-       {},
-       "",
-       true},
-      {"convert",
-       [](auto& in, auto& out) {
-         return Words{"convert", in + "/lift.trc", out};
-       },
-       "lift.trc",
-       false,
-       {"lift.trc"},
-       ".trc"},
-      {"emg",
-       [](auto& in, auto& out) { return Words{"emg", in + "/raw.csv", in + "/raw2.csv", "--unit", "V", "--out", out}; },
-       "raw.csv"},
-      {"emg",
-       [](auto& in, auto& out) { return Words{"emg", in + "/raw.csv", "--unit", "V", "--out", out}; },
-       "raw.csv",
-       false,
-       {"raw.csv"},
-       ".csv"},
-      {"ik",
-       [=](auto& in, auto& out) {
-         return Words{"ik", "--model", model(in), "--markers", in + "/lift.trc", "--out", out};
-       },
-       "lift.trc",
-       false,
-       {"lift.trc", "model.osim"},
-       ".mot"},
-      {"id",
-       [=](auto& in, auto& out) {
-         return Words{"id",      "--model",         model(in), "--motion", in + "/ik.mot",
-                      "--loads", in + "/loads.xml", "--out",   out};
-       },
-       "ik.mot",
-       false,
-       {"ik.mot", "loads.sto", "loads.xml"},
-       ".sto"},
-      {"paths",
-       [=](auto& in, auto& out) {
-         return Words{"paths", "--model", model(in), "--motion", in + "/ik.mot", "--out", out};
-       },
-       "ik.mot"},
-      {"so",
-       [=](auto& in, auto& out) {
-         return Words{"so",    "--model", model(in), "--motion", in + "/ik.mot", "--start", "1",
-                      "--end", "1.2",     "--out",   out};
-       },
-       "ik.mot"},
-      {"identify",
-       [](auto& in, auto& out) {
-         return Words{"identify",
-                      "--method",
-                      "torque",
-                      "--folds",
-                      "none",
-                      "--muscles",
-                      in + "/muscles.csv",
-                      "--activations",
-                      in + "/activation.sto",
-                      "--lengths",
-                      in + "/length.sto",
-                      "--velocities",
-                      in + "/velocity.sto",
-                      "--moment-arms",
-                      in + "/arm.sto",
-                      "--torques",
-                      in + "/id.sto",
-                      "--coordinate",
-                      "elbow_flexion",
-                      "--out",
-                      out};
-       },
-       "muscles.csv"},
-      {"muscle",
-       [](auto& in, auto& out) {
-         return Words{"muscle", "--muscle", in + "/soleus.toml", "--length", in + "/l.csv", "--excitation", "1",
-                      "--out",  out};
-       },
-       "l.csv",
-       false,
-       {"l.csv", "soleus.toml"},
-       ".sto"},
-      {"simulate",
-       [=](auto& in, auto& out) {
-         return Words{"simulate", "--model", model(in), "--excite", "BIC=0.1@0.02+0.03", "--end", "0.1", "--out", out};
-       },
-       "model.osim"},
-      {"twin",
-       [](auto& in, auto& out) {
-         return Words{"twin", "--protocol", in + "/protocol.toml", "--out", out};
-       },
-       "protocol.toml"},
-      {"twin-study",
-       [](auto& in, auto& out) {
-         return Words{"twin-study", "--protocol", in + "/protocol.toml", "--subjects", "1", "--out", out};
-       },
-       "protocol.toml",
-       true,
-       {},
-       "",
-       false,
-       true},
-      {"predict",
-       [](auto& in, auto& out) { return Words{"predict", in + "/run", "--trials", "lift", "--out", out}; },
-       "run/run.json",
-       true,
-       {},
-       "",
-       true},
-      {"report",
-       [](auto& in, auto& out) { return Words{"report", "--group", in + "/run", in + "/run2", "--out", out}; },
-       "run/parameters.csv",
-       true,
-       {},
-       "",
-       true},
-      {"report",
-       [](auto& in, auto&) {
-         return Words{"report", in + "/run"};
-       },
-       "run/run.json",
-       true,
-       {},
-       "",
-       true,
-       true,
-       "run/"},
-      {"run-tool",
-       [](auto& in, auto& out) {
-         return Words{"run-tool", in + "/setup.xml", "--out", out};
-       },
-       "lift.trc"},
-      {"convert",
-       [=](auto& in, auto& out) {
-         return Words{"convert", model(in), out};
-       },
-       "model.osim",
-       false,
-       {"model.osim"},
-       ".osim"},
+const std::vector<Recipe>& recipes() {
+  static const std::vector<Recipe> kRecipes{
+      {.line = "run {in}/study.toml --out {out}", .spoil = "study.toml", .is_slow = true},
+      {.line = "init {out} --from {in}", .spoil = "lift.trc"},
+      {.line = "compare {in}/run {in}/run2 --out {out}", .spoil = "run/parameters.json", .needs_runs = true},
+      {.line = "review {in}/project --start 0.5 --end 2.5 --out {out}",
+       .spoil = "project/subject.xml",
+       .is_slow = true},
+      {.line = "cohort {in}/persons.csv --out {out}", .spoil = "study.toml", .is_slow = true},
+      {.line = "cohort {in} {out} participant", .spoil = "code/study.toml", .is_slow = true},
+      {.line = "cohort {in} {out} group", .spoil = "code/study.toml"},
+      {.line = "info {in}/model.osim --html {out}",
+       .spoil = "model.osim",
+       .to_folder = false,
+       .inputs = {"model.osim"},
+       .ending = ".html"},
+      {.line = "convert {in}/lift.trc {out}", .spoil = "lift.trc"},
+      {.line = "convert {in}/run {out}", .spoil = "run/parameters.csv", .needs_runs = true},
+      {.line = "convert {in}/lift.trc {out}",
+       .spoil = "lift.trc",
+       .to_folder = false,
+       .inputs = {"lift.trc"},
+       .ending = ".trc"},
+      {.line = "emg {in}/raw.csv {in}/raw2.csv --unit V --out {out}", .spoil = "raw.csv"},
+      {.line = "emg {in}/raw.csv --unit V --out {out}",
+       .spoil = "raw.csv",
+       .to_folder = false,
+       .inputs = {"raw.csv"},
+       .ending = ".csv"},
+      {.line = "ik --model {in}/model.osim --markers {in}/lift.trc --out {out}",
+       .spoil = "lift.trc",
+       .to_folder = false,
+       .inputs = {"lift.trc", "model.osim"},
+       .ending = ".mot"},
+      {.line = "id --model {in}/model.osim --motion {in}/ik.mot --loads {in}/loads.xml --out {out}",
+       .spoil = "ik.mot",
+       .to_folder = false,
+       .inputs = {"ik.mot", "loads.sto", "loads.xml"},
+       .ending = ".sto"},
+      {.line = "paths --model {in}/model.osim --motion {in}/ik.mot --out {out}", .spoil = "ik.mot"},
+      {.line = "so --model {in}/model.osim --motion {in}/ik.mot --start 1 --end 1.2 --out {out}", .spoil = "ik.mot"},
+      {.line = "identify --method torque --folds none --muscles {in}/muscles.csv --activations {in}/activation.sto "
+               "--lengths {in}/length.sto --velocities {in}/velocity.sto --moment-arms {in}/arm.sto --torques "
+               "{in}/id.sto --coordinate elbow_flexion --out {out}",
+       .spoil = "muscles.csv"},
+      {.line = "muscle --muscle {in}/soleus.toml --length {in}/l.csv --excitation 1 --out {out}",
+       .spoil = "l.csv",
+       .to_folder = false,
+       .inputs = {"l.csv", "soleus.toml"},
+       .ending = ".sto"},
+      {.line = "simulate --model {in}/model.osim --excite BIC=0.1@0.02+0.03 --end 0.1 --out {out}",
+       .spoil = "model.osim"},
+      {.line = "twin --protocol {in}/protocol.toml --out {out}", .spoil = "protocol.toml"},
+      {.line = "twin-study --protocol {in}/protocol.toml --subjects 1 --out {out}",
+       .spoil = "protocol.toml",
+       .is_slow = true},
+      {.line = "predict {in}/run --trials lift --out {out}", .spoil = "run/run.json", .needs_runs = true},
+      {.line = "report --group {in}/run {in}/run2 --out {out}", .spoil = "run/parameters.csv", .needs_runs = true},
+      {.line = "report {in}/run", .spoil = "run/run.json", .needs_runs = true, .is_slow = true, .may_change = "run/"},
+      {.line = "run-tool {in}/setup.xml --out {out}", .spoil = "lift.trc"},
+      {.line = "convert {in}/model.osim {out}",
+       .spoil = "model.osim",
+       .to_folder = false,
+       .inputs = {"model.osim"},
+       .ending = ".osim"},
       // Commands without an output.
-      {"check",
-       [](auto& in, auto&) {
-         return Words{"check", in + "/study.toml"};
-       },
-       typo,
-       true,
-       {},
-       "",
-       false,
-       true},
-      {"check",
-       [](auto& in, auto&) {
-         return Words{"check", in + "/study.toml", "--defaults"};
-       },
-       typo,
-       true,
-       {},
-       "",
-       false,
-       true},
-      {"design",
-       [](auto& in, auto&) {
-         return Words{"design", in + "/none.toml"};
-       },
-       typo,
-       true,
-       {},
-       "",
-       false,
-       true},
+      {.line = "check {in}/study.toml", .spoil = "study.toml", .is_slow = true},
+      {.line = "check {in}/study.toml --defaults", .spoil = "study.toml", .is_slow = true},
+      {.line = "design {in}/none.toml", .spoil = "study.toml", .is_slow = true},
   };
+  return kRecipes;
 }
 
 /// The commands that the program's own help lists.
@@ -440,7 +265,7 @@ class NothingIsLost : public testing::Test {
     fs::copy(*scene_ / "in", D / "in", fs::copy_options::recursive);
     if (recipe.needs_runs) fs::copy(*scene_ / "runs", D / "in", fs::copy_options::recursive);
     // The project is there for `review` alone, because `init --from in` takes it for the study.
-    if (recipe.command == "review") fs::copy(*scene_ / "project", D / "in/project", fs::copy_options::recursive);
+    if (recipe.command() == "review") fs::copy(*scene_ / "project", D / "in/project", fs::copy_options::recursive);
     write_text(D / "notes.txt", "of a person");
   }
 
@@ -485,12 +310,12 @@ class NothingIsLost : public testing::Test {
                         return file.second.find(c.edited) != std::string::npos;
                       });
     const std::scoped_lock lock(mutex_);
-    EXPECT_TRUE(lost.empty() && kept) << c.recipe->command << ": " << c.says << (c.overwrite ? ", --overwrite" : "")
+    EXPECT_TRUE(lost.empty() && kept) << c.recipe->command() << ": " << c.says << (c.overwrite ? ", --overwrite" : "")
                                       << (c.spoilt ? ", spoilt" : "") << ":" << lost << (kept ? "" : " edits are lost")
                                       << "\nexit " << finished.exit_code << "\n"
                                       << finished.err;
     EXPECT_TRUE(finished.exit_code >= 0 && finished.exit_code <= 5 && finished.exit_code != 1)
-        << c.recipe->command << ": " << c.says << "\n"
+        << c.recipe->command() << ": " << c.says << "\n"
         << finished.err;
   }
 
@@ -551,15 +376,15 @@ void add_taken_places(const Recipe& recipe, const std::vector<std::string>& name
 
 TEST_F(NothingIsLost, EveryCommandOfTheProgramHasARecipe) {
   std::set<std::string> known;
-  const std::vector<Recipe> all = recipes();
-  for (const Recipe& recipe : all) known.insert(recipe.command);
+  const std::vector<Recipe>& all = recipes();
+  for (const Recipe& recipe : all) known.insert(recipe.command());
   known.insert("demo");  // it has no input, and writes as twin and run do
   EXPECT_THAT(commands_of_the_program(), testing::SizeIs(testing::Ge(22U)));
   EXPECT_EQ(known, commands_of_the_program());
 }
 
 TEST_F(NothingIsLost, WhereAFolderIsTheOutput) {
-  const std::vector<Recipe> all = recipes();
+  const std::vector<Recipe>& all = recipes();
   std::vector<Case> cases;
   for (const Recipe& recipe : all) {
     if (!recipe.to_folder) continue;
@@ -589,7 +414,7 @@ TEST_F(NothingIsLost, WhereAFolderIsTheOutput) {
 }
 
 TEST_F(NothingIsLost, WhereAFileIsTheOutput) {
-  const std::vector<Recipe> all = recipes();
+  const std::vector<Recipe>& all = recipes();
   std::vector<Case> cases;
   for (const Recipe& recipe : all) {
     if (recipe.to_folder) continue;
@@ -627,15 +452,15 @@ TEST_F(NothingIsLost, WhereAFileIsTheOutput) {
 }
 
 TEST_F(NothingIsLost, AndEveryCommandReplacesItsOwnResults) {
-  const std::vector<Recipe> all = recipes();
+  const std::vector<Recipe>& all = recipes();
   for (const Recipe& recipe : all) {
     const TemporaryFolder folder;
     const fs::path& D = folder.path();
     make_inputs(recipe, D);
     const fs::path out = recipe.to_folder ? D / "out" : D / ("x" + recipe.ending);
-    const Finished first = call(recipe, D, out, recipe.command == "report");
+    const Finished first = call(recipe, D, out, recipe.command() == "report");
     const Finished again = call(recipe, D, out, true);
-    EXPECT_EQ(again.exit_code, first.exit_code) << recipe.command << " a second time:\n" << again.err;
+    EXPECT_EQ(again.exit_code, first.exit_code) << recipe.command() << " a second time:\n" << again.err;
   }
 }
 
