@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <string>
 #include <thread>
@@ -177,6 +178,18 @@ TEST_F(Cohort, AFolderWithOtherFilesIsLeftAlone) {
   EXPECT_EQ(read_text(folder / "other/report.html"), "mine");
   EXPECT_EQ(cohort("new", {"--person", "P9"}).exit_code, 3);
   EXPECT_FALSE(fs::exists(folder / "new")) << "bad input leaves no folder";
+
+  const fs::path stages = folder / "work/P1/.stages", linked = folder / "work/P3/.stages";
+  fs::create_directories(stages);
+  fs::create_directories(linked.parent_path());
+  write_text(stages / "notes.txt", "mine");
+  fs::create_directory_symlink(folder / "other", linked);
+  ASSERT_EQ(cohort("new", {"--work-dir", folder / "work"}).exit_code, 5);
+  EXPECT_EQ(read_text(stages / "notes.txt"), "mine");
+  EXPECT_TRUE(fs::is_symlink(linked));
+  for (const fs::path& store : {stages, folder / "other"})
+    EXPECT_EQ(std::distance(fs::directory_iterator(store), {}), 1) << "stages are left in " << store;
+  EXPECT_FALSE(fs::exists(folder / "work/P4/.stages"));
 }
 
 TEST_F(Cohort, AWorkflowIsFilesAndNoNumbers) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "myoid/ground/core/build_identity.h"
 #include "myoid/ground/core/error.h"
@@ -17,6 +18,7 @@
 #include "myoid/program/commands/run.h"
 #include "myoid/program/steps/check_options.h"
 #include "myoid/results/cohort/person_study.h"
+#include "myoid/run/stage_store.h"
 
 namespace myoid::program {
 namespace {
@@ -86,7 +88,10 @@ Outcome computed(const CohortOptions& o, const fs::path& study, const fs::path& 
   result.study.times.clear();  // the same bytes however long the job takes, and on every day
   result.study.analysed.clear();
   write_run(result, folder, o.kept);
-  if (o.kept != page::Kept::all) fs::remove_all(store);  // only an interrupted job goes on from it
+  if (o.kept != page::Kept::all) {  // only an interrupted job goes on from it
+    run::StageStore(store).remove_unused();
+    rmdir(store.c_str());  // leaves a link, and a folder with other files
+  }
   Outcome outcome{
       .kind = OutcomeKind::done, .message = {}, .build = {}, .kept = o.kept, .inputs = result.provenance.inputs};
   judge(result, outcome);
