@@ -3,8 +3,8 @@
 
 usage: prepare.py TECCHIO_ANKLE OUT
 
-TECCHIO_ANKLE: the folder of the public recordings (examples/get_data tecchio-ankle). OUT: a folder for the files of the
-study. The crank's angle becomes the angle of the model's ankle (plantarflexion = crank + 15 degrees), and the torque
+TECCHIO_ANKLE: the folder of the public recordings (examples/get_data tecchio-ankle). OUT: a new folder for the files of
+the study. The crank's angle becomes the angle of the model's ankle (plantarflexion = crank + 15 degrees), and the torque
 on the dynamometer becomes that on the foot, its opposite.
 """
 import csv
@@ -16,6 +16,8 @@ if len(sys.argv) != 3:
     sys.exit(__doc__)
 recordings, out = map(pathlib.Path, sys.argv[1:])
 out.mkdir(parents=True, exist_ok=True)
+if any(out.iterdir()):
+    sys.exit(f"{out} holds files, which would be replaced; name a new folder")
 for path in sorted(recordings.glob("*_dynamometer.csv")):
     with path.open() as source, (out / path.name).open("w", newline="") as target:
         writer = csv.writer(target)

@@ -83,6 +83,10 @@ class GetData(unittest.TestCase):
         self.assertFalse((self.target / "made-up/one.sto").exists())
         self.assertEqual((self.target / "made-up/two.trc").read_bytes(), b"my own\n")
         self.assertIn("two.trc", done.stderr)
+        (self.target / "made-up/two.trc").unlink()
+        (self.target / "made-up/two.trc").symlink_to("absent")
+        self.assertNotEqual(self.call("--from", self.mirror).returncode, 0)
+        self.assertTrue((self.target / "made-up/two.trc").is_symlink())
 
     def test_an_archive_goes_round_and_is_the_same_each_time(self):
         self.assertEqual(self.call("--from", self.mirror).returncode, 0)
@@ -90,6 +94,10 @@ class GetData(unittest.TestCase):
         for archive in archives:
             self.assertEqual(self.call("--pack", archive).returncode, 0)
         self.assertEqual(archives[0].read_bytes(), archives[1].read_bytes())
+        self.assertEqual(self.call("--pack", archives[0]).returncode, 0)
+        own = self.target / "made-up/two.trc"
+        self.assertNotEqual(self.call("--pack", own).returncode, 0)
+        self.assertEqual(own.read_bytes(), FILES["two.trc"])
         shutil.rmtree(self.target)
         self.assertEqual(self.call("--from", archives[0]).returncode, 0)
         self.assertEqual(self.call("--check").returncode, 0)
