@@ -71,5 +71,19 @@ TEST(ImplausibleMotion, OfAModelNamesTheCoordinatesThatTheMotionLacksButForLocke
   EXPECT_TRUE(implausible_motion(model, swing(1.0)).empty());
 }
 
+TEST(ImplausibleMotion, OfAModelAnAngleOfTheOtherSignIsAnErrorOfEveryCoordinate) {
+  body::BodyModel model = body::parse_osim(body::arm4_osim(), "arm4.osim");
+  for (body::Coordinate& c : model.coordinates) c.locked = c.name != "elbow_flexion";
+  const TimeSeries usual = swing(1.0);
+  const auto bent = [&](double sign) {
+    return TimeSeries(usual.time_s(), usual.channels(), sign * (usual.values().array() + 70.0 * kDegree).matrix());
+  };
+  EXPECT_TRUE(implausible_motion(model, bent(1.0)).empty());
+  const std::vector<Remark> found = implausible_motion(model, bent(-1.0));
+  ASSERT_EQ(codes(found), std::vector{RemarkCode::angle_outside_range});
+  EXPECT_EQ(found[0].severity, Severity::error);
+  EXPECT_EQ(found[0].about, "elbow_flexion");
+}
+
 }  // namespace
 }  // namespace myoid::body

@@ -1,5 +1,8 @@
 #include "myoid/ground/core/angle_unit.h"
 
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,6 +31,21 @@ TEST(AngleUnit, RadiansThatAreCalledDegreesAreDoubted) {
   // A posture that hardly moves may be what it says.
   EXPECT_EQ(check_angle_unit("m.mot", true, angles(0.0 * kDegree, 0.01 * kDegree)), "");
   EXPECT_EQ(check_angle_unit("m.mot", true, angles(1.0 * kDegree, 1.1 * kDegree)), "");
+}
+
+TEST(AngleUnit, OfManyAnglesOneOrTheOtherMayCountTurns) {
+  const auto doubted = [](Eigen::Index large) {
+    std::vector<Channel> channels;
+    Eigen::MatrixXd values(2, 20);
+    for (Eigen::Index c = 0; c < 20; ++c) {
+      channels.push_back({"q" + std::to_string(c), Unit::radian});
+      values.col(c) << 0.1 * kDegree, (c < large ? 6.2 : 1.2) * kDegree;
+    }
+    return !check_angle_unit("m.mot", true, {Eigen::Vector2d(0.0, 1.0), channels, values}).empty();
+  };
+  EXPECT_TRUE(doubted(0));
+  EXPECT_TRUE(doubted(2));
+  EXPECT_FALSE(doubted(3));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "myoid/body/dynamics/torque_plausibility.h"
 #include "myoid/body/kinematics/motion_plausibility.h"
-#include "myoid/body/kinematics/people_range.h"
 #include "myoid/body/model/kinematic_tree.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/study/checks/needed_coordinates.h"
@@ -17,70 +16,20 @@
 namespace myoid::study {
 namespace {
 
-constexpr double kBeyond_rad = kLimits.joints.angle_beyond_deg * kDegree;
-
-std::string whole_degrees(double angle_rad) { return fmt::format("{:.0f}", angle_rad / kDegree); }
-
-/// The angles that a coordinate may have, with a margin.
-struct AngleRange {
-  double lower_rad = 0.0, upper_rad = 0.0;
-  bool of_people = false;  ///< Narrower than the model's.
-
-  [[nodiscard]] bool holds(double low_rad, double high_rad) const {
-    return low_rad >= lower_rad && high_rad <= upper_rad;
-  }
-};
-
-/// Returns the model's range or, where that reaches beyond people's at both ends and so tells no convention, people's.
-AngleRange angle_range(const body::Coordinate& c) {
-  const auto people = body::people_range(c.name, c.lower, c.upper);
-  if (people && c.lower < people->low_rad && people->high_rad < c.upper)
-    return {people->low_rad, people->high_rad, true};
-  return {c.lower - kBeyond_rad, c.upper + kBeyond_rad};
-}
-
 void check_angles(const Study& study,
                   const body::BodyModel& model,
                   const TimeSeries& motion,
                   const std::string& where,
                   std::vector<Remark>& findings) {
-  const std::vector<std::string> own = study_coordinates(study.model);
-  for (const std::string& name : own) {
+  for (const std::string& name : study_coordinates(study.model)) {
     const auto column = motion.find(name);
     const auto index = model.find_coordinate(name);
     if (!column || !index) continue;
-    const body::Coordinate& c = model.coordinates[static_cast<std::size_t>(*index)];
-    if (c.motion == body::MotionType::translational || !(c.upper - c.lower > kBeyond_rad)) continue;
-    const AngleRange range = angle_range(c);
-    const double lower = range.lower_rad, upper = range.upper_rad;
-    const auto q = motion.values().col(*column).array();
-    const auto outside = (q < lower || q > upper).count();
-    if (outside == 0) continue;
-    const double share = static_cast<double>(outside) / static_cast<double>(q.size());
-    if (range.of_people && share < kLimits.joints.beyond_people_share) continue;
-    // The farther end of the margin is the range's.
-    const double far = std::max(lower - q.minCoeff(), q.maxCoeff() - upper) + kBeyond_rad;
-    // A coordinate that is outside most of the time follows another convention.
-    const bool wrong = share > kLimits.joints.angle_share && c.clamped && !range.of_people;
-    const bool negated = range.holds(-q.maxCoeff(), -q.minCoeff());
-    findings.push_back(
-        {.code = RemarkCode::angle_outside_range,
-         .severity = wrong ? Severity::error : Severity::warning,
-         .where = where,
-         .about = name,
-         .says = fmt::format(
-             "{} goes from {} to {} deg, but {} {} to {} deg{}: {} of the samples lie outside, by up to {} "
-             "deg{}; "
-             "{}",
-             name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()),
-             range.of_people ? "people's joints reach" : "the model's range is", whole_degrees(lower + kBeyond_rad),
-             whole_degrees(upper - kBeyond_rad), c.clamped || range.of_people ? "" : " (not clamped)",
-             share < 0.005 ? std::string("less than 1 %") : fmt::format("{:.0f} %", 100.0 * share), whole_degrees(far),
-             range.of_people ? "" : ", where its muscle paths mean nothing",
-             negated ? "is its sign the opposite of the model's?" : "is its zero or sign another than the model's?"),
-         .remedy = wrong ? "turn or shift the angles, take a model of the same convention, or draft another joint "
-                           "(myoid init --coordinate)"
-                         : ""});
+    auto found =
+        body::angle_outside_range(model.coordinates[static_cast<std::size_t>(*index)], motion.values().col(*column));
+    if (!found) continue;
+    found->where = where;
+    findings.push_back(*std::move(found));
   }
 }
 
@@ -234,6 +183,10 @@ std::vector<Remark> implausible(const Study& study,
     const std::vector<std::string> needed = needed_coordinates(study, model, trial);
     for (Remark& remark : body::implausible_motion(model, *input.motion, {-1e300, 1e300}, needed)) {
       remark.where = trial.name;
+      if (remark.code == RemarkCode::angle_outside_range) {  // those of the study's joints are told
+        if (std::ranges::count(study_coordinates(study.model), remark.about) > 0) continue;
+        remark.severity = Severity::warning;
+      }
       // Beside given lengths only the joint's own torque depends on the angles.
       if (trial.given.lengths) remark.severity = std::max(remark.severity, Severity::warning);
       findings.push_back(std::move(remark));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/units.h"
 #include "myoid/ground/math/statistics.h"
 #include "myoid/study/checks/muscle_pulls.h"
@@ -52,7 +53,7 @@ bool are_radians(const std::vector<TrialAngles>& trials, std::size_t i) {
   std::vector<TrialAngles> others = trials;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
   const AngleSpan all = span_of(others);
-  const double beyond_rad = kLimits.joints.angle_beyond_deg * kDegree;
+  const double beyond_rad = body::kMotionLimits.beyond_rad;
   if (own.least_rad / kDegree < all.least_rad - beyond_rad ||
       own.greatest_rad / kDegree > all.greatest_rad + beyond_rad)
     return false;

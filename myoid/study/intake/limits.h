@@ -28,7 +28,7 @@ struct ClockLimits {
   double shortest_trial_s = 0.5;
   double covered = 0.5;          ///< Least share of the motion that EMG or loads cover.
   double uncovered_s = 0.1;      ///< The motion may last so much longer, without a word.
-  double same_factor = 0.02;     ///< Relative distance from a factor of 2, 3, 4, 5 or 10.
+  double same_factor = 0.02;     ///< Relative distance from a factor of emg_cover.h.
   double same_begin_s = 0.5;     ///< Recordings that begin farther apart are not compared.
   double ends_together = 0.005;  ///< Relative difference of durations at the corrected rate that
                                  ///< makes a wrong rate certain.
@@ -41,11 +41,8 @@ struct ClockLimits {
 
 /// Limits hold for angles and torques, dynamometers and passive trials.
 struct JointLimits {
-  double angle_beyond_deg = 10.0;  ///< Joints go some degrees beyond an author's range.
-  double angle_share = 0.5;        ///< Share of samples outside that means another convention.
   /// Joints of a study bend farther than this in some trial, unless they hold still within the range.
   double least_angle_deg = 3.5, least_angle_range_deg = 0.2;
-  double beyond_people_share = 0.02;  ///< Share of samples beyond the angles that people reach.
   /// People do four lifts in a row with 90 % of the load of a single lift (Brzycki 1993), and a
   /// single lift with the muscles' force at its worst angle, some 80 % of the best.
   double lift_share = 0.75;

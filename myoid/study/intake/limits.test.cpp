@@ -98,7 +98,7 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
 
 void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
   rows.push_back({"a clock that is not in seconds", "error",
-                  fmt::format("fewer than {:g} samples a second; of a motion also more than {:g}",
+                  fmt::format("fewer than {:g} samples a second, of loads too; of a motion also more than {:g}",
                               body::kMotionLimits.slowest_hz, body::kMotionLimits.fastest_hz)});
   rows.push_back({"a pause of a clock", "warning; error if no part lasts a second",
                   fmt::format("longer than {:g} s: the trial is cut there. With `[ik] calibrate` an error. A spline "
@@ -110,11 +110,11 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
   rows.push_back(
       {"", "warning",
        fmt::format("more than {:g} s lack: not fitted without EMG, left out without loads", l.clocks.uncovered_s)});
-  rows.push_back({"EMG and motion whose lengths have the ratio 2, 3, 4, 5 or 10", "error",
+  rows.push_back({"EMG and motion whose lengths have the ratio 2, 3, 4, 5, 10, 100 or 1000", "error",
                   fmt::format("within {:g} %, and the EMG is shorter, or both end within {:g} % of each other at the "
                               "corrected rate: a wrong rate",
                               percent(l.clocks.same_factor), percent(l.clocks.ends_together))});
-  rows.push_back({"", "warning", "other such ratios; such a ratio of `external_loads` and motion"});
+  rows.push_back({"", "warning", "other such ratios; such a ratio of loads and motion"});
   rows.push_back(
       {"EMG and motion of unlike length", "warning",
        fmt::format(
@@ -132,26 +132,28 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
        fmt::format("maximal contractions, trials with their own window or clock, beginnings more than {:g} s apart",
                    l.clocks.same_begin_s)});
   rows.push_back({"fewer rows or frames than the file states", "warning", "its end is absent"});
-  rows.push_back({"a stated rate of a table beside its times", "warning",
+  rows.push_back({"a stated rate beside the times", "warning",
                   fmt::format("{:g} ms apart at the recording's end", 1000.0 * l.clocks.apart_s)});
 }
 
-void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
+void add_motion(std::vector<PlausibilityRow>& rows) {
   constexpr const auto& kJump = recording::kJumpLimits;
   constexpr const auto& kMotion = body::kMotionLimits;
   rows.push_back(
       {"external torque beyond any joint", "error",
        "2.5 × 1.5 × all muscles' torque at F_max plus body weight at the limb's end, in 1 % of the samples: N mm?"});
-  rows.push_back({"angles outside the model's range",
-                  fmt::format("warning; error if more than {:g} % of a clamped coordinate's samples are",
-                              percent(l.joints.angle_share)),
-                  fmt::format("{:g} degrees beyond, where muscle paths mean nothing. Sign, zero or another coordinate?",
-                              l.joints.angle_beyond_deg)});
+  rows.push_back(
+      {"angles outside the model's range",
+       fmt::format("warning; error if more than {:g} % of a clamped coordinate's samples are",
+                   percent(kMotion.outside_share)),
+       fmt::format("{:g} degrees beyond, where muscle paths mean nothing. Sign, zero or another coordinate? Of "
+                   "other elbows, hips, knees and ankles a warning",
+                   kMotion.beyond_rad / kDegree)});
   rows.push_back(
       {"angles beyond people's", "warning",
        fmt::format("{:g} degrees beyond the joint's published range (AAOS 1965) in {:g} % of the samples, where "
                    "the model's range is wider at both ends",
-                   l.joints.angle_beyond_deg, percent(l.joints.beyond_people_share))});
+                   kMotion.beyond_rad / kDegree, percent(kMotion.beyond_people_share))});
   rows.push_back({"a motion that is too fast", "error",
                   fmt::format("an angle is faster than {:.0f} deg/s (a length: {:g} m/s) in {:g} % of the time: the "
                               "clock or the unit is another",
@@ -327,7 +329,7 @@ std::vector<PlausibilityRow> plausibility_rows(const PlausibilityLimits& limits)
   std::vector<PlausibilityRow> rows;
   add_recordings(limits, rows);
   add_clocks(limits, rows);
-  add_motion(limits, rows);
+  add_motion(rows);
   add_efforts(limits, rows);
   add_markers(limits, rows);
   add_loads(limits, rows);
