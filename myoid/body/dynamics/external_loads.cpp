@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 
 #include "myoid/body/dynamics/load_units.h"
+#include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/body/osim/osim_xml.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/nearest_word.h"
 #include "myoid/ground/files/named_file.h"
 #include "myoid/ground/files/text_file.h"
 #include "myoid/recording/recording.h"
+#include "myoid/recording/signals/clock_gaps.h"
 #include "myoid/recording/tables/storage_reader.h"
 
 namespace myoid::body {
@@ -268,6 +270,7 @@ ExternalLoads read_external_loads(const body::BodyModel& model, const std::files
   const recording::Storage table = recording::read_storage(file);
   const TimeSeries& data = table.data;
   if (data.empty()) throw InvalidInput(fmt::format("{}: there are no rows", file.string()));
+  if (const std::string slow = slow_clock(data.time_s()); !slow.empty()) throw ReadError(file, 0, slow);
   ExternalLoads loads;
   for (const auto* sentences : {&xml.repairs(), &xml.ignored()})
     for (const std::string& sentence : *sentences)
@@ -280,6 +283,10 @@ ExternalLoads read_external_loads(const body::BodyModel& model, const std::files
                            .says = fmt::format("{}: <datafile>: {}", path.string(), named.note)});
   for (const Repair& repair : table.repairs)
     loads.notes.push_back(recording::remark_of(repair, recording::to_string(file, repair)));
+  if (const recording::ClockGaps gaps = recording::find_clock_gaps(data.time_s()); gaps.count > 0)
+    loads.notes.push_back(
+        {.code = RemarkCode::clock_pause,
+         .says = fmt::format("{}: {} in its clock, bridged by a spline", file.filename().string(), gaps.text())});
   loads.start_s = data.time_s()[0];
   loads.end_s = data.time_s()[data.sample_count() - 1];
   Clock clock;

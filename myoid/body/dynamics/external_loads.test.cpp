@@ -1,5 +1,6 @@
 #include "myoid/body/dynamics/external_loads.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -124,8 +125,27 @@ TEST_F(Loads, WhatCannotBeUsedIsNamedWithItsLine) {
   EXPECT_THAT(message(), ::testing::HasSubstr("begins 0 columns"));
   write_set(body_, kIdentifiers);
   EXPECT_THAT(message(), ::testing::HasSubstr("while its force acts"));
+  std::string slow;
+  for (int i = 0; i < 20; ++i) slow += std::to_string(10 * i) + "\t0\t5\t0\t0\t0\t0\t0\t0\t0\n";
+  write("loads.mot", data(slow));
+  EXPECT_THROW((void)read(), ReadError) << "milliseconds";
   write("loads.xml", "<OpenSimDocument><ExternalLoads>");
   EXPECT_THAT(message(), ::testing::HasSubstr("not valid XML"));
+}
+
+TEST_F(Loads, APauseOfTheClockIsSaid) {
+  write_set(body_, kIdentifiers);
+  const auto pauses = [&](double later_s) {
+    std::string rows;
+    for (int i = 0; i < 20; ++i)
+      rows += std::to_string(0.01 * i + (i < 10 ? 0.0 : later_s)) + "\t0\t5\t0\t0\t0\t0\t0\t0\t0\n";
+    write("loads.mot", data(rows));
+    const ExternalLoads loads = read();
+    return std::count_if(loads.notes.begin(), loads.notes.end(),
+                         [](const Remark& note) { return note.code == RemarkCode::clock_pause; });
+  };
+  EXPECT_EQ(pauses(0.0), 0);
+  EXPECT_EQ(pauses(0.5), 1);
 }
 
 // Expressed in the body that it loads, force, torque and point turn with it.

@@ -116,6 +116,16 @@ TEST(EmgFunction, UnevenSamplesAreRefusedWithTheNameOfTheFile) {
   }
 }
 
+TEST(EmgFunction, AClockInMillisecondsIsRefusedBeforeAnyFilter) {
+  const test::TemporaryFolder folder;
+  std::string text = "time [s],BIC [V]\n";
+  for (int i = 0; i < 4000; ++i) text += fmt::format("{},{}\n", i, i * i % 7 - 3);
+  write_file(folder / "a.csv", text);
+  EmgOptions o;
+  o.in = {folder / "a.csv"};
+  EXPECT_THROW((void)emg(o), ReadError);
+}
+
 /// Four seconds at 2000 Hz: noise of 200 uV in bursts on BIC, with a spike if there is one, and 2 uV throughout on TRI.
 std::string burst_and_noise(double spike_v) {
   std::mt19937_64 engine(3);

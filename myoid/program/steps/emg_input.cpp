@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/body/kinematics/motion_plausibility.h"
 #include "myoid/ground/core/error.h"
 #include "myoid/ground/core/numbers.h"
 #include "myoid/recording/channel_choice.h"
@@ -125,8 +126,10 @@ TimeSeries evenly_spaced(const std::string& path, TimeSeries emg) {
 }
 
 /// Returns the part between two pauses of the recording that holds all times asked for, or all samples where there is
-/// no pause. Filters cannot bridge a pause. Throws ReadError where a pause is among the times asked for.
+/// no pause. Filters cannot bridge a pause. Throws ReadError where a pause is among the times asked for, and for a
+/// clock that is too slow.
 TimeSeries between_pauses(const std::string& path, TimeSeries emg, const Call& call, GroupedWarnings& warnings) {
+  if (const std::string slow = body::slow_clock(emg.time_s()); !slow.empty()) throw ReadError(path, 0, slow);
   const recording::ClockGaps gaps = recording::find_clock_gaps(emg.time_s());
   if (gaps.count == 0) return evenly_spaced(path, std::move(emg));
   const double begin_s = call.start_s.value_or(-kInfinity), end_s = call.end_s.value_or(kInfinity);

@@ -91,7 +91,7 @@ std::optional<Remark> one_ratio(const std::vector<TrialLengths>& trials) {
 }  // namespace
 
 std::optional<double> whole_factor(double ratio, double tolerance) {
-  for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
+  for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0, 100.0, 1000.0}) {
     for (const double f : {factor, 1.0 / factor}) {
       if (std::abs(ratio / f - 1.0) < tolerance) return f;
     }
@@ -163,6 +163,10 @@ std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& i
   if (input.emg && !input.emg_clock && trial.emg != trial.markers && trial.emg != trial.motion) {
     const Eigen::VectorXd& emg = input.emg->time_s();
     add(emg[0], emg[emg.size() - 1], input.emg->mean_rate_hz(), false);
+  }
+  if (input.external_torque) {
+    const Eigen::VectorXd& torque = input.external_torque->time_s();
+    add(torque[0], torque[torque.size() - 1], input.external_torque->mean_rate_hz(), true);
   }
   if (input.loads && trial.external_loads && input.loads->offset_s == 0.0 && input.loads->drift_ppm == 0.0)
     add(input.loads->start_s, input.loads->end_s, input.loads->rate_hz, true);

@@ -37,19 +37,18 @@ struct Rows {
 };
 [[nodiscard]] Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s);
 
-/// Returns the factor 2, 3, 4, 5, 10 or its reciprocal from which the ratio is no farther than this share.
+/// Returns the factor 2, 3, 4, 5, 10, 100, 1000 or its reciprocal from which the ratio is no farther than this share.
 [[nodiscard]] std::optional<double> whole_factor(double ratio, double tolerance);
 
-/// Returns the durations of EMG and of `external_loads` beside the motion's; empty where they need not agree: one file,
-/// a window or a clock of their own, no motion, different beginnings, a maximal contraction or a static pose. Of a
-/// trial that was cut to its loads, the durations before the cut.
+/// Returns the durations of EMG, `external_torque` and `external_loads` beside the motion's; empty where they need not
+/// agree: one file, a window or a clock of their own, no motion, different beginnings, a maximal contraction or a
+/// static pose. Of a trial that was cut to its loads, the durations before the cut.
 [[nodiscard]] std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input);
 
-/// Finds EMG whose duration differs from the motion's by a factor of 2, 3, 4, 5, 10 or a reciprocal of these, within 2
-/// %: a wrong rate. It is an error if the EMG is the shorter one, or if both ends agree within 0.5 % at the corrected
-/// rate, as after a common trigger; otherwise a warning. It is also a warning if the ratio is the same in every trial,
-/// and differences grow with the trial's length. Loads of such a duration are a warning, unless the trial's EMG says
-/// the same.
+/// Finds EMG whose duration differs from the motion's by a whole_factor, within 2 %: a wrong rate. It is an error if
+/// the EMG is the shorter one, or if both ends agree within 0.5 % at the corrected rate, as after a common trigger;
+/// otherwise a warning. It is also a warning if the ratio is the same in every trial, and differences grow with the
+/// trial's length. Loads of such a duration are a warning, unless the trial's EMG says the same.
 [[nodiscard]] std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials);
 
 /// Returns true if a duration of one trial says that a rate is wrong: an error of its EMG, a warning of its loads.

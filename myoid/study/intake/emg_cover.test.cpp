@@ -45,6 +45,8 @@ TEST(LengthsOf, AreNotOfClocksThatWereMatchedNorOfARecordingThatBeganLater) {
   EXPECT_EQ(lengths_of(trial, input).size(), 1U);
   input.emg_clock.emplace();
   EXPECT_TRUE(lengths_of(trial, input).empty());
+  input.external_torque = TimeSeries(2.0 * emg.time_s(), emg.channels(), emg.values());
+  EXPECT_TRUE(is_rate_wrong(lengths_of(trial, input)));
 }
 
 TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {

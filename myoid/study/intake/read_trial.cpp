@@ -173,6 +173,9 @@ TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std:
   if (const auto clock = loads_clock(study, trial, *trial.external_torque))
     result = recording::on_study_clock(std::move(result), *clock);
   require_finite(result, trial.external_torque->string());
+  const Eigen::VectorXd used_s = result.slice(trial.start_s.value_or(-1e300), trial.end_s.value_or(1e300)).time_s();
+  if (std::string pauses = check_clock(*trial.external_torque, used_s); !pauses.empty())
+    remarks.push_back({.code = RemarkCode::clock_pause, .says = std::move(pauses)});
   return result;
 }
 

@@ -103,6 +103,28 @@ TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheTorquesFile) {
             std::string::npos);
 }
 
+TEST(ReadTrialParts, TheClockOfATorqueIsJudgedAsThatOfEmg) {
+  WrittenTrial trial(0.01, 4.99);
+  trial.spec.external_torque = trial.folder / "torque.sto";
+  const auto parts = [&](double step, double pause_s) {
+    std::string torque = "torque\nendheader\ntime\telbow_flexion_moment\n";
+    for (int i = 0; i <= 500; ++i)
+      torque += fmt::format("{:.2f}\t{:.1f}\n", step * i + (i < 250 ? 0.0 : pause_s), -0.1 * i);
+    write_file(*trial.spec.external_torque, torque);
+    return read_trial_parts(arm_study(), trial.spec, arm());
+  };
+  const auto pauses = [](const TrialPart& part) {
+    return std::ranges::count(part.input.remarks, RemarkCode::clock_pause, &Remark::code);
+  };
+  EXPECT_EQ(pauses(parts(0.01, 0.0).at(0)), 0);
+  EXPECT_EQ(pauses(parts(0.01, 0.3).at(0)), 1);
+  const std::vector<TrialPart> cut = parts(0.01, 1.0);
+  ASSERT_EQ(cut.size(), 2U);
+  EXPECT_NEAR(*cut[0].spec.end_s, 2.49, 1e-9);
+  EXPECT_NEAR(*cut[1].spec.start_s, 3.5, 1e-9);
+  EXPECT_THROW((void)parts(10.0, 0.0), ReadError) << "milliseconds";
+}
+
 TEST(ReadTrialParts, AWindowOfTheStudyBeyondTheRecordingIsWarnedOf) {
   WrittenTrial trial(0.01, 4.99);  // 5 s of motion
   const auto warnings = [&](std::optional<double> start_s, std::optional<double> end_s) {
