@@ -334,11 +334,12 @@ class TableFinder {
   std::size_t above_ = 0;
 };
 
-/// Returns true if the first line that is no remark is a header with one time column, and no other
-/// line of text follows.
+/// Returns true if the first line that is no remark is a header with one time column, no other line of text follows, no
+/// remark states a rate, and there is nothing to note.
 bool is_plain(const TableText& text, const TableLayout& layout) {
-  return next_line(text, 0) == layout.names_line && !trim(text.lines[layout.names_line]).starts_with('%') &&
-         layout.count(Kind::time) == 1 && std::ranges::all_of(layout.columns, [](const TableColumn& column) {
+  return next_line(text, 0) == layout.names_line && layout.rate_hz == 0.0 && layout.repairs.empty() &&
+         !trim(text.lines[layout.names_line]).starts_with('%') && layout.count(Kind::time) == 1 &&
+         std::ranges::all_of(layout.columns, [](const TableColumn& column) {
            return column.name.find(',') == std::string::npos &&
                   (column.kind == Kind::channel || (column.kind == Kind::time && names_plain_time(column.name)));
          });

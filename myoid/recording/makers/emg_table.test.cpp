@@ -147,11 +147,13 @@ TEST(EmgTable, WithoutATimeColumnTheStatedRateIsTheClock) {
 }
 
 TEST(EmgTable, AStatedRateBesideOtherTimesIsApartAtTheEnd) {
-  std::string text = "Export of 2024\nSampling rate: 100 Hz\ntime,VL [uV]\n";
-  for (int i = 0; i <= 400; ++i) text += fmt::format("{},{}\n", 0.0125 * i, i % 7);
-  const CsvSeries s = parse_emg_table(text, "a.csv");
-  ASSERT_EQ(s.repairs.size(), 1U);
-  EXPECT_NEAR(s.repairs[0].apart_s, 1.0, 1e-9);  // 400 intervals take 4 s and 5 s
+  std::string rows = "time,VL [uV]\n";
+  for (int i = 0; i <= 400; ++i) rows += fmt::format("{},{}\n", 0.0125 * i, i % 7);
+  for (const char* head : {"Export of 2024\nSampling rate: 100 Hz\n", "# rate = 100 Hz\n"}) {
+    const CsvSeries s = parse_emg_table(head + rows, "a.csv");
+    ASSERT_EQ(s.repairs.size(), 1U) << head;
+    EXPECT_NEAR(s.repairs[0].apart_s, 1.0, 1e-9);  // 400 intervals take 4 s and 5 s
+  }
 }
 
 TEST(EmgTable, ARateInAnotherUnitIsRefusedWhereItIsTheOnlyClock) {

@@ -83,6 +83,17 @@ bool names_clock(std::string_view text) {
 /// Returns true for the name of a clock in seconds or in a stated unit of time.
 bool is_time(const TableColumn& column) { return names_clock(column.name) && (!column.unit || in_seconds(column)); }
 
+/// Returns true for the name of a clock that stands again: "time", or "time.1", "time_2" of programs that make names
+/// unique.
+bool is_name_again(const TableColumn& column, const TableColumn& clock) {
+  if ((column.unit && !in_seconds(column)) || !column.name.starts_with(clock.name)) return false;
+  const std::string_view rest = std::string_view(column.name).substr(clock.name.size());
+  const std::size_t digit = rest.find_first_of("0123456789");
+  constexpr std::size_t kShortest = 2;  // "t1" is a channel
+  return rest.empty() || (clock.name.size() >= kShortest && digit <= 1 && rest.find_first_not_of("._ ") == digit &&
+                          rest.find_first_not_of("0123456789", digit) == std::string_view::npos);
+}
+
 /// Returns the unit of time that a column has for a name: "mSec".
 std::optional<ScaledUnit> time_unit_as_name(const TableColumn& column) {
   static const std::set<std::string> kWords{"ms", "msec", "msecs", "millisec", "s", "sec", "secs", "seconds"};
@@ -333,12 +344,12 @@ void set_kinds(TableLayout& layout) {
   std::vector<std::string> others;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     TableColumn& column = columns[c];
-    const bool repeats = plain && c > *plain + 1 && column.name == columns[*plain].name && is_time(column);
-    if ((plain && c == *plain) || is_time_of_channel(column) || repeats) {
+    const bool repeats = plain && c != *plain && is_name_again(column, columns[*plain]);
+    if ((plain && c == *plain) || is_time_of_channel(column) || (repeats && c > *plain + 1)) {
       column.kind = Kind::time;
     } else {
       column.kind = kind_by_name(column);
-      if (is_time(column)) others.push_back(column.name);
+      if ((is_time(column) && column.name.size() > 1) || repeats) others.push_back(column.name);
     }
   }
   if (!plain && !of_channels && !columns.empty()) {

@@ -60,6 +60,20 @@ TEST(ChannelLabels, ATableHasOneClockAndOtherTimesAreChannels) {
   EXPECT_THAT(test::repair_lines(noted.repairs), HasSubstr("since the clock is 'Zeit': timestamp"));
 }
 
+TEST(ChannelLabels, AClockWhoseNameWasMadeUniqueIsThatOfTheChannelsBehindIt) {
+  for (const char* again : {"time", "time2", "time.1", "time_2", "time 2"}) {
+    const std::string head = std::string("time,a,") + again + ",b\n";
+    const CsvSeries s = parse_emg_table(head + "0,1,0,5\n0.1,2,0.11,6\n0.2,3,0.22,7\n", "a.csv");
+    EXPECT_THAT(names_of(s), ElementsAre("a")) << again;
+    ASSERT_EQ(s.other_clocks.size(), 1U) << again;
+    EXPECT_DOUBLE_EQ(s.other_clocks[0].data.time_s()[2], 0.22) << again;
+  }
+  const CsvSeries beside = parse_emg_table("time,time2,a\n0,7,1\n0.1,8,2\n0.2,9,3\n", "a.csv");
+  EXPECT_THAT(names_of(beside), ElementsAre("time2", "a"));
+  EXPECT_EQ(beside.repairs.size(), 1U);
+  EXPECT_THAT(names_of(table({"t", "t1", "t2"})), ElementsAre("t1", "t2"));
+}
+
 TEST(ChannelLabels, NumbersUnderTheNamesOfEventsAndMarkersAreChannels) {
   EXPECT_THAT(names_of(table({"time", "marker [mm]", "event"})), ElementsAre("marker", "event"));
   // "Index" that counts nothing is a finger.
