@@ -107,7 +107,7 @@ void compare_clock(const std::vector<std::string_view>& lines,
   const Eigen::Index count = time_s.size();
   const double rate = static_cast<double>(count - 1) / (time_s[count - 1] - time_s[0]);
   if (const auto said = header_number(lines, names_at, "PreciseRate:"); said && std::abs(*said - rate) > 1e-3 * rate) {
-    note(repairs, "the header says {} Hz, the times {:.6g} Hz; the times are taken", *said, rate);
+    repairs.push_back(other_rate(0, *said, rate, static_cast<double>(count - 1)));
   }
   if (const auto said = header_number(lines, names_at, "Duration(Sec.):");
       said && std::abs(*said - static_cast<double>(count) / rate) > 2.0 / rate) {

@@ -1,5 +1,6 @@
 #include "myoid/recording/bids.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -12,6 +13,7 @@
 #include "myoid/ground/core/json_text.h"
 #include "myoid/ground/core/numbers.h"
 #include "myoid/ground/files/file_words.h"
+#include "myoid/recording/tables/table_clock.h"
 #include "myoid/recording/tables/text_table.h"
 
 namespace myoid::recording {
@@ -53,7 +55,8 @@ std::vector<BidsChannel> read_channels(const std::filesystem::path& path) {
                         value("component"),
                         value("tracked_point"),
                         value("target_muscle"),
-                        equal_ignoring_case(value("status"), "bad")};
+                        equal_ignoring_case(value("status"), "bad"),
+                        parse_number(value("sampling_frequency")).value_or(0.0)};
     if (channel.name.empty()) throw ReadError(path, n + 1, "the channel has no name");
     channels.push_back(std::move(channel));
   }
@@ -96,6 +99,38 @@ double to_si(const BidsChannel& channel, Unit expected, const std::filesystem::p
   return unit->to_si;
 }
 
+/// Returns the times [s] of the rows: their latencies, else those of the rate.
+Eigen::VectorXd times_of(const std::vector<BidsChannel>& channels,
+                         const TableNumbers& numbers,
+                         double rate_hz,
+                         const std::filesystem::path& path,
+                         std::vector<Repair>& repairs) {
+  const Eigen::Index last = numbers.values.rows() - 1;
+  const auto other = [&](double said_hz, double taken_hz) {
+    constexpr double kOther = 0.01;
+    if (std::abs(said_hz - taken_hz) > kOther * taken_hz)
+      repairs.push_back(other_rate(0, said_hz, taken_hz, static_cast<double>(last)));
+  };
+  const auto stated = std::ranges::find_if(channels, [](const BidsChannel& channel) { return channel.rate_hz > 0.0; });
+  const double stated_hz = stated == channels.end() ? rate_hz : stated->rate_hz;
+  const auto latency = std::ranges::find_if(
+      channels, [](const BidsChannel& channel) { return equal_ignoring_case(channel.type, "LATENCY"); });
+  if (latency == channels.end()) {
+    other(stated_hz, rate_hz);
+    return Eigen::VectorXd::LinSpaced(last + 1, 0.0, static_cast<double>(last)) / rate_hz;
+  }
+  const double unit_s = latency->unit.empty() ? 1.0 : to_si(*latency, Unit::second, path);
+  Eigen::VectorXd time_s = unit_s * numbers.values.col(latency - channels.begin());
+  for (Eigen::Index i = 0; i <= last; ++i)
+    if (!std::isfinite(time_s[i]) || (i > 0 && time_s[i] <= time_s[i - 1]))
+      throw ReadError(path, numbers.lines[static_cast<std::size_t>(i)], "the latency does not increase: sort the rows");
+  if (last == 0) return time_s;
+  const double taken_hz = static_cast<double>(last) / (time_s[last] - time_s[0]);
+  other(rate_hz, taken_hz);
+  if (stated_hz != rate_hz) other(stated_hz, taken_hz);
+  return time_s;
+}
+
 /// A tracked point with the columns of its x, y and z.
 struct Point {
   std::string name;
@@ -124,7 +159,7 @@ MotionColumns motion_columns(const std::vector<BidsChannel>& channels) {
       columns.points[it->second].columns[axis] = c;
     } else if (equal_ignoring_case(channel.type, "JNTANG")) {
       columns.angles.push_back(c);
-    } else {
+    } else if (!equal_ignoring_case(channel.type, "LATENCY")) {
       ++columns.others;
     }
   }
@@ -199,12 +234,9 @@ BidsMotion read_bids_motion(const std::filesystem::path& path) {
   }
   const double rate = rate_of(std::filesystem::path(path).replace_extension(".json"));
   TableNumbers numbers = motion_rows(path, *channels);
-  const Eigen::Index rows = numbers.values.rows();
-  Eigen::VectorXd time(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) time[i] = static_cast<double>(i) / rate;
-
   BidsMotion motion;
   motion.repairs = std::move(numbers.repairs);
+  const Eigen::VectorXd time = times_of(*channels, numbers, rate, path, motion.repairs);
   const MotionColumns columns = motion_columns(*channels);
   if (columns.others > 0)
     note(motion.repairs, "{} channels are neither positions nor joint angles; left out", columns.others);

@@ -1,5 +1,6 @@
 #include "myoid/recording/bids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -43,6 +44,33 @@ TEST(Bids, MotionGivesMarkersAndAngles) {
   EXPECT_EQ(read_markers(folder / (kStem + "_motion.tsv")).markers.names, motion.markers.names);
 }
 
+TEST(Bids, LatenciesAreTheClockAndAnotherRateIsApartAtTheEnd) {
+  const test::TemporaryFolder folder;
+  const auto apart_s = [&](const std::string& json_hz, const std::string& channels_hz, bool with_latency) {
+    put(folder / (kStem + "_motion.json"), R"({"SamplingFrequency": )" + json_hz + "}");
+    const std::string end = "\tdeg\t" + channels_hz + "\n";
+    put(folder / (kStem + "_channels.tsv"), "name\ttype\tunits\tsampling_frequency\n" +
+                                                std::string(with_latency ? "t\tLATENCY\tn/a\tn/a\n" : "") +
+                                                "elbow\tJNTANG" + end);
+    std::string rows;
+    for (int i = 0; i <= 200; ++i) rows += (with_latency ? std::to_string(0.01 * i) + "\t" : "") + "9\n";
+    put(folder / (kStem + "_motion.tsv"), rows);
+    const BidsMotion motion = read_bids_motion(folder / (kStem + "_motion.tsv"));
+    EXPECT_NEAR(motion.angles.time_s()[200], with_latency ? 2.0 : 200.0 / std::stod(json_hz), 1e-9);
+    double apart = 0.0;
+    for (const Repair& repair : motion.repairs) apart = std::max(apart, repair.apart_s);
+    return apart;
+  };
+  EXPECT_EQ(apart_s("100", "100", true), 0.0);
+  EXPECT_NEAR(apart_s("200", "n/a", true), 1.0, 1e-9);
+  EXPECT_NEAR(apart_s("100", "200", true), 1.0, 1e-9);
+  EXPECT_NEAR(apart_s("200", "100", false), 1.0, 1e-9);
+  EXPECT_EQ(apart_s("200", "n/a", false), 0.0);
+  put(folder / (kStem + "_channels.tsv"), "name\ttype\tunits\nt\tLATENCY\ts\nelbow\tJNTANG\tdeg\n");
+  put(folder / (kStem + "_motion.tsv"), "0\t9\n0.02\t9\n0.01\t9\n");
+  EXPECT_THROW(static_cast<void>(read_bids_motion(folder / (kStem + "_motion.tsv"))), ReadError);
+}
+
 TEST(Bids, WhatIsMissingIsSaid) {
   const test::TemporaryFolder folder;
   const auto file = folder / (kStem + "_motion.tsv");
@@ -71,6 +99,11 @@ TEST(Bids, EmgChannelsHaveTheirUnitMuscleAndStatusFromTheTable) {
   EXPECT_DOUBLE_EQ(emg.data.column("E2")[1], 5e-6);
   EXPECT_EQ(emg.target_muscle.at("E2"), "triceps brachii");
   EXPECT_EQ(emg.repairs.size(), 2U);
+  put(folder / "sub-01_task-lift_channels.tsv",
+      "name\ttype\tunits\tsampling_frequency\nE1\tEMG\tmV\t2000\nE2\tEMG\tuV\t2000\n");
+  const EmgFile other = read_emg(folder / "sub-01_task-lift_emg.csv", "", false);
+  ASSERT_EQ(other.repairs.size(), 1U);
+  EXPECT_NEAR(other.repairs[0].apart_s, 1e-3, 1e-9);
 }
 
 TEST(Bids, ResultsBecomeADerivativeThatIsReadAgain) {

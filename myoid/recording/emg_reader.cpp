@@ -1,6 +1,7 @@
 #include "myoid/recording/emg_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -27,6 +28,7 @@
 #include "myoid/recording/tables/csv_reader.h"
 #include "myoid/recording/tables/instrument_names.h"
 #include "myoid/recording/tables/storage_reader.h"
+#include "myoid/recording/tables/table_clock.h"
 
 namespace myoid::recording {
 namespace {
@@ -238,6 +240,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
   std::vector<Channel> renewed;
   std::vector<double> factors;
   std::vector<std::string> bad, others;
+  double other_hz = 0.0;
   for (const BidsChannel& channel : *channels) {
     const auto column = series.data.find(channel.name);
     if (!column) {
@@ -255,6 +258,9 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
     const auto c = static_cast<std::size_t>(*column);
     const auto unit = parse_file_unit(channel.unit);
     const bool take = !series.has_unit[c] && unit;
+    constexpr double kOther = 0.01;
+    if (std::abs(channel.rate_hz / series.data.mean_rate_hz() - 1.0) > kOther && channel.rate_hz > 0.0)
+      other_hz = channel.rate_hz;
     kept.push_back(channel.name);
     has_unit.push_back(series.has_unit[c] || take);
     renewed.push_back({channel.name, take ? unit->unit : series.data.channels()[c].unit});
@@ -262,6 +268,9 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
     if (!channel.target_muscle.empty()) file.target_muscle[channel.name] = channel.target_muscle;
   }
   if (kept.empty()) throw ReadError(path, 0, "none of the channels of its _channels.tsv is EMG and good");
+  if (other_hz > 0.0)
+    series.repairs.push_back(
+        other_rate(0, other_hz, series.data.mean_rate_hz(), static_cast<double>(series.data.sample_count() - 1)));
   if (!others.empty()) note(series.repairs, "no EMG by the _channels.tsv, left out: {}", some_of(others));
   if (!bad.empty()) note(series.repairs, "channels marked as bad are left out: {}", fmt::join(bad, ", "));
   Eigen::MatrixXd values = series.data.select(kept).values();

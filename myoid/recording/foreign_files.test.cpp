@@ -1,5 +1,7 @@
 // Files as other programs write them, made here by hand after their conventions.
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -80,6 +82,25 @@ TEST(ForeignC3d, OnlyAnalogChannelsWithoutARateOfPoints) {
   const C3dFile rated = parse_c3d(bytes, "f.c3d");
   EXPECT_DOUBLE_EQ(rated.analog_rate_hz(), 100.0);
   EXPECT_THAT(test::repair_lines(rated.repairs), HasSubstr("ANALOG:RATE"));
+}
+
+TEST(ForeignC3d, TwoStatementsAboutTheClockOutweighOne) {
+  for (const int channels : {0, 2}) {
+    auto bytes = format_c3d(c3d_of(200, 1, channels));
+    // POINT:RATE is the first parameter of that name; its value stands four bytes behind: 200.
+    const std::string name = "RATE";
+    const auto at = std::search(bytes.begin() + 512, bytes.end(), name.begin(), name.end(),
+                                [](std::byte b, char c) { return b == static_cast<std::byte>(c); });
+    ASSERT_NE(at, bytes.end());
+    at[10] = std::byte{0x48};
+    at[11] = std::byte{0x43};
+    const C3dFile file = parse_c3d(bytes, "f.c3d");
+    EXPECT_DOUBLE_EQ(file.point_rate_hz, channels == 0 ? 200.0 : 100.0);
+    ASSERT_EQ(file.repairs.size(), 1U) << test::repair_lines(file.repairs);
+    EXPECT_NEAR(file.repairs[0].apart_s, 1.0, 1e-9);
+  }
+  // Four channels of one sample a frame, as the parameters say, are not two channels of two.
+  EXPECT_EQ(parse_c3d(changed(format_c3d(c3d_of(100, 1, 4)), 10, 2), "f.c3d").channels.size(), 4U);
 }
 
 TEST(ForeignC3d, MoreThan65535FramesWhateverTheHeaderSays) {

@@ -393,8 +393,7 @@ class TrcFrames {
           "columns are shifted; correct the file",
           said, rate);
     if (rate > 0.0 && said > 0.0 && std::abs(rate - said) > 0.05 * said)
-      repairs_.push_back(
-          {3, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", said, rate)});
+      repairs_.push_back(other_rate(3, said, rate, static_cast<double>(frames - 1)));
   }
 
   static void mark(std::size_t& first, std::size_t line) {

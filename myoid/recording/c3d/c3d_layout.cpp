@@ -59,18 +59,22 @@ std::vector<Shape> analog_shapes(const C3dHeader& header, const C3dFile& file) {
   std::vector<Shape> list;
   const std::size_t total = header.analog_total;
   const std::size_t ratio = header.analog_per_frame;
+  const auto used = count_in(file.find("ANALOG", "USED"));
+  const double analog = number_at(file.find("ANALOG", "RATE"), 0).value_or(0.0);
+  const double point = number_at(file.find("POINT", "RATE"), 0).value_or(0.0);
+  const bool has_rates = is_c3d_rate(analog) && is_c3d_rate(point) && analog / point < 65536.0 && analog >= 0.5 * point;
+  const std::size_t of_rates = has_rates ? static_cast<std::size_t>(std::lround(analog / point)) : 0;
+  // The header's total, the channels and both rates outweigh the header's samples in a frame.
+  if (used && total > 0 && *used * of_rates == total) list.push_back({*used, of_rates});
   if (total == 0) {
     list.push_back({0, std::max<std::size_t>(1, ratio)});
   } else if (ratio > 0 && total % ratio == 0) {
-    list.push_back({total / ratio, ratio});
+    add_new(list, Shape{total / ratio, ratio});
   }
-  if (const auto used = count_in(file.find("ANALOG", "USED"))) {
+  if (used) {
     if (*used > 0 && total > 0 && total % *used == 0) add_new(list, Shape{*used, total / *used});
     if (ratio > 0) add_new(list, Shape{*used, ratio});
-    const double analog = number_at(file.find("ANALOG", "RATE"), 0).value_or(0.0);
-    const double point = number_at(file.find("POINT", "RATE"), 0).value_or(0.0);
-    if (is_c3d_rate(analog) && is_c3d_rate(point) && analog / point < 65536.0 && analog >= 0.5 * point)
-      add_new(list, Shape{*used, static_cast<std::size_t>(std::lround(analog / point))});
+    if (has_rates) add_new(list, Shape{*used, of_rates});
     if (*used == 0) add_new(list, Shape{0, 1});
   }
   if (list.empty()) list.push_back({total, 1});

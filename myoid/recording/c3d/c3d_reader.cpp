@@ -177,6 +177,10 @@ void read_rates(C3dFile& file, const C3dHeader& header, const C3dLayout& layout,
   const auto in_header = static_cast<double>(header.rate_hz);
   const auto ratio = static_cast<double>(layout.analog_per_frame);
   file.point_rate_hz = is_c3d_rate(said) ? said : in_header;
+  const auto contradict = [&](double one_hz, double other_hz, std::string says) {
+    const auto frames = static_cast<double>(layout.frames);
+    file.repairs.push_back({0, std::move(says), std::abs(frames / one_hz - frames / other_hz)});
+  };
   if (!is_c3d_rate(file.point_rate_hz)) {
     if (layout.channels == 0 || !is_c3d_rate(analog)) {
       throw ReadError(path, 0, "the frame rate is {} in the header and {} in POINT:RATE; correct one of them",
@@ -185,14 +189,18 @@ void read_rates(C3dFile& file, const C3dHeader& header, const C3dLayout& layout,
     file.point_rate_hz = analog / ratio;
     note(file.repairs, "no frame rate; taken as {} Hz from ANALOG:RATE", file.point_rate_hz);
   } else if (is_c3d_rate(said) && is_c3d_rate(in_header) && std::abs(said - in_header) > 1e-3 * said) {
-    note(file.repairs, "the frame rate is {} Hz in POINT:RATE and {} Hz in the header; the parameter is taken", said,
-         in_header);
+    const bool as_header = layout.channels > 0 && std::abs(analog - in_header * ratio) < 1e-3 * analog;
+    if (as_header) file.point_rate_hz = in_header;
+    contradict(said, in_header,
+               fmt::format("the frame rate is {} Hz in POINT:RATE and {} Hz in the header; {} is taken", said,
+                           in_header, as_header ? "the header, which ANALOG:RATE confirms," : "the parameter"));
   } else if (!is_c3d_rate(said)) {
     note(file.repairs, "POINT:RATE is missing; {} Hz from the header", in_header);
   }
   if (layout.channels > 0 && is_c3d_rate(analog) && std::abs(analog - file.point_rate_hz * ratio) > 1e-3 * analog) {
-    note(file.repairs, "ANALOG:RATE says {} Hz, but {} samples stand in each frame: {} Hz is taken", analog,
-         layout.analog_per_frame, file.point_rate_hz * ratio);
+    contradict(analog / ratio, file.point_rate_hz,
+               fmt::format("ANALOG:RATE says {} Hz, but {} samples stand in each frame: {} Hz is taken", analog,
+                           layout.analog_per_frame, file.point_rate_hz * ratio));
   }
 }
 

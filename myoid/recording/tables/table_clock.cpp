@@ -243,9 +243,7 @@ class RowClock {
     const double steps = frame_ ? place(last, per_frame()) - place(0, per_frame()) : static_cast<double>(last);
     const double rate = steps / (time[last] - time[0]);
     if (layout_.rate_hz > 0.0 && std::abs(rate - layout_.rate_hz) > 0.01 * layout_.rate_hz)
-      repairs_.push_back(
-          {0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", layout_.rate_hz, rate),
-           std::abs(steps / layout_.rate_hz - steps / rate)});
+      repairs_.push_back(other_rate(0, layout_.rate_hz, rate, steps));
     return time;
   }
 
@@ -304,6 +302,11 @@ class RowClock {
 };
 
 }  // namespace
+
+Repair other_rate(std::size_t line, double said_hz, double times_hz, double intervals) {
+  return {line, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", said_hz, times_hz),
+          std::abs(intervals / said_hz - intervals / times_hz)};
+}
 
 std::optional<Eigen::VectorXd> even_times(const Eigen::VectorXd& rounded_s, double stated_rate_hz) {
   const Eigen::Index steps = rounded_s.size() - 1;

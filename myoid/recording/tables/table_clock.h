@@ -32,6 +32,9 @@ namespace myoid::recording {
                                         const std::filesystem::path& path,
                                         std::vector<Repair>& repairs);
 
+/// Returns the repair of a header that states another rate than the times of so many intervals have.
+[[nodiscard]] Repair other_rate(std::size_t line, double said_hz, double times_hz, double intervals);
+
 /// Returns even times [s] in place of times that rounding made equal, at the stated rate, else at the rate of the times
 /// themselves. Empty: no two are equal; the times are not even within their last decimal; without a stated rate that
 /// decimal is above 0.2 % of the duration, or below 2 % of them are equal, so that a row may stand twice.

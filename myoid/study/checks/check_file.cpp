@@ -88,6 +88,8 @@ std::vector<Remark> check_channels_of_emg(const std::filesystem::path& path, con
     throw ReadError(path, 0,
                     fmt::format("only {} sample{} of EMG; at least {} are needed", all.sample_count(),
                                 all.sample_count() == 1 ? "" : "s", kFewest));
+  if (std::string slow = body::slow_clock(all.time_s()); !slow.empty())
+    return {{.code = RemarkCode::refused, .severity = Severity::error, .says = std::move(slow)}};
   std::vector<Remark> faults;
   TimeSeries emg = all;
   if (const recording::ClockGaps gaps = recording::find_clock_gaps(all.time_s()); gaps.count > 0) {

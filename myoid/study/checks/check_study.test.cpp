@@ -331,6 +331,35 @@ TEST(CheckRecording, AClockThatMayCountMillisecondsIsAWarning) {
                                            remark.severity == Severity::warning;
                                   }),
             1);
+  EXPECT_EQ(std::ranges::count(findings, Severity::error, &Remark::severity), 1);
+}
+
+TEST(CheckRecording, ARateThatTheTimesContradictIsAWarningInEveryFormat) {
+  const test::TemporaryFolder folder;
+  for (const int said_hz : {100, 80}) {
+    std::string rows, frames, counts;
+    for (int i = 0; i < 400; ++i) {
+      rows += fmt::format("{:.2f},{}\n", 0.01 * i, (i * 37) % 11 - 5);
+      counts += fmt::format("{:.2f}\t{}\n", 0.01 * i, (i * 37) % 11 - 5);
+      frames += fmt::format("{}\t{:.2f}\t1.{}\t2\t3\n", i + 1, 0.01 * i, i);
+    }
+    write_file(folder / "f.csv", fmt::format("# rate = {} Hz\ntime,BIC [mV]\n", said_hz) + rows);
+    write_file(folder / "f.trc",
+               fmt::format("PathFileType\t4\t(X/Y/Z)\tf.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+                           "{0}\t{0}\t400\t1\tm\nFrame#\tTime\ta\n\t\tX1\tY1\tZ1\n\n",
+                           said_hz) +
+                   frames);
+    write_file(folder / "f.anc",
+               fmt::format("File_Type:\tAnalog R/C ASCII\tGeneration#:\t1\nBoard_Type:\tNational\tPolarity:\tBipolar\n"
+                           "Trial_Name:\tf\tTrial#:\t1\tDuration(Sec.):\t4.0\t#Channels:\t1\n"
+                           "BitDepth:\t16\tPreciseRate:\t{}\n\n\n\n\nName\tBIC\nRate\t100\nRange\t5000\n",
+                           said_hz) +
+                   counts);
+    for (const char* name : {"f.csv", "f.trc", "f.anc"})
+      EXPECT_EQ(std::ranges::count(warnings_of(folder / name), RemarkCode::clock_drift, &Remark::code),
+                said_hz == 80 ? 1 : 0)
+          << name << " of " << said_hz;
+  }
 }
 
 TEST(CheckRecording, UnevenSamplesAreAnErrorOfTheFile) {
