@@ -37,8 +37,7 @@ ForceVelocity velocity_factor(double v, const MuscleValues& p) {
 
 constexpr double kTendonScale = 0.2;               // scale of De Groote's exponential tendon
 constexpr double kTendonRise = 1.791759469228055;  // ln(1 / 0.2 + 1): tension 1 at strain e0
-
-constexpr double kPassiveOnset = 0.05;  // of the optimal length, to either side of it
+constexpr double kPassiveOnset = 0.05;             // of the optimal length, to either side of it
 
 using Fields = std::array<double, kMuscleFieldCount>;
 
@@ -116,10 +115,9 @@ class Contraction {
     const double c = p_[kPassiveForce];
     if (c == 0.0 && by_field == nullptr) return;
     const double l0 = p_[kFiberLength], k = p_[kPassiveShape], e = p_[kPassiveStrain];
-    const double strain = l / l0 - 1.0, within = strain + kPassiveOnset;
-    const bool in_onset = strain < kPassiveOnset;
-    const double x = (in_onset ? within * within / (4.0 * kPassiveOnset) : strain) / e;
-    const double slope = (in_onset ? within / (2.0 * kPassiveOnset) : 1.0) / e;  // dx / d strain
+    const double strain = l / l0 - 1.0, within = std::min(strain, kPassiveOnset) + kPassiveOnset;
+    const double x = (within * within / (4.0 * kPassiveOnset) + std::max(strain - kPassiveOnset, 0.0)) / e;
+    const double slope = within / (2.0 * kPassiveOnset * e);  // dx / d strain
     const double grown = std::exp(k * x) - 1.0;
     const double by_x = c * k * (grown + 1.0) / passive_top_;
     f.force += c * grown / passive_top_;

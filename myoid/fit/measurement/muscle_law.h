@@ -56,8 +56,7 @@ struct Tension {
 ///   F = F_max [ a f_l(l; l0 (1 + gamma (1 - a))) f_v(v) + f_p(l) ] cos(alpha),
 ///   a = share * activation,   f_p = c (exp(k s(l/l0 - 1) / e) - 1) / (exp(k) - 1)
 ///
-/// s(x) = x above the onset d = 0.05, 0 below -d, and (x + d)^2 / (4 d) between: with a corner at l0 each sample gives
-/// the density a corner where its fiber passes l0, and a search ends there. At l0 the onset adds 0.2 % of c.
+/// s(x) = x above d = 0.05, 0 below -d, between (x + d)^2 / (4 d), 0.2 % of c at 0: a search ends at a corner.
 /// f_l and f_v as in muscle/force_length.h and force_velocity.h; the width l_sh does not grow with
 /// the optimal length. Rigid tendon: l cos(alpha) = l_mt - l_ts, v = v_mt cos(alpha). With a tendon
 /// strain e0 > 0 at F_max (and l_ts > 0) the tendon is elastic and quasi-static,

@@ -15,15 +15,14 @@ namespace {
 constexpr double kLeastWeight = 0.02;  // least share of a mode's weight
 constexpr double kFarBelow = 8.0;      // of ln density: a mode so far below the best weighs nothing
 constexpr double kMayRise = 12.0;      // of ln density, when the unseen quantities are taken there
-// Conditional standard deviations between equal modes, root mean square
-constexpr double kSameMode = 0.3;
+constexpr double kSameMode = 0.3;      // conditional standard deviations, root mean square
 constexpr int kMostReferences = 4;
 constexpr Eigen::Index kApproximateDraws = 4000;
 constexpr int kOtherStarts = 3;  // of a fit that is reported
 constexpr std::uint64_t kSeed = 20;
 constexpr double kShareOfModes = 0.5;  // of the time of a fit that is reported
 
-/// Returns the start moved by the prior's spread, up or down by a fixed pattern.
+/// Moves the start by the prior's spread, up or down by a fixed pattern.
 Eigen::VectorXd moved_start(const Density& density, int number) {
   Eigen::VectorXd z = density.parameters().start();
   const std::vector<Unknown>& free = density.parameters().free();

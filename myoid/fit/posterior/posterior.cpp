@@ -189,8 +189,7 @@ void judge_row(const Reporting& of,
   facts.at_bound = e.at_bound && !p.is(Scope::channel, kDelay);  // no delay is a delay
   // The search stays inside of the bounds: a number that is 0 by nature reaches 0 where its interval nearly does.
   const auto reach_zero = [&](Reading& reading) {
-    constexpr double kNearly = 0.05;  // of the interval's width
-    if (reading.low < kNearly * (reading.high - reading.low)) reading.low = 0.0;
+    if (reading.low < 0.05 * (reading.high - reading.low)) reading.low = 0.0;
   };
   if (zero_by_nature(e.parameter) && bounds.lower == 0.0) {
     reach_zero(facts.person);
@@ -359,9 +358,8 @@ void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationRes
   result.draw_weights /= result.draw_weights.sum();
 }
 
-/// Puts the greatest voluntary torques before the muscles' numbers.
-/// Read at the mode, which fits the measured torque: the means of the marginals of numbers that err together (a tendon,
-/// the fibers, their force) need not.
+/// Puts the greatest voluntary torques before the muscles' numbers, read at the mode, which fits the measured torque:
+/// the means of numbers that err together need not.
 void add_voluntary(const Reporting& of,
                    const Candidate& best,
                    const NoiseValues& of_widths,
