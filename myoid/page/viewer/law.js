@@ -7,6 +7,7 @@ export const FIELD = {
 const F = FIELD;
 const TENDON_SCALE = 0.2;
 const TENDON_RISE = 1.791759469228055;
+const PASSIVE_ONSET = 0.05;
 
 /** f_v over v [m/s], positive in lengthening: equation (4) of the source paper. */
 export function forceVelocity(v, p) {
@@ -31,8 +32,10 @@ function pull(along, a, v, p) {
   const z = (l - l0 * (1 + p[F.lengthActivation] * (1 - a))) / p[F.width];
   const fl = Math.exp(-z * z);
   let force = a * fl * fv;
-  if (l > l0 && p[F.passiveForce] !== 0) {
-    const x = (l / l0 - 1) / p[F.passiveStrain];
+  if (l > (1 - PASSIVE_ONSET) * l0 && p[F.passiveForce] !== 0) {
+    const strain = l / l0 - 1;
+    const within = Math.min(strain, PASSIVE_ONSET) + PASSIVE_ONSET;
+    const x = ((within * within) / (4 * PASSIVE_ONSET) + Math.max(strain - PASSIVE_ONSET, 0)) / p[F.passiveStrain];
     force += (p[F.passiveForce] * (Math.exp(p[F.passiveShape] * x) - 1)) / (Math.exp(p[F.passiveShape]) - 1);
   }
   return { force: force * cosine };
