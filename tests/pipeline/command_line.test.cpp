@@ -1,4 +1,4 @@
-// What the program answers to a wrong command line and to Ctrl-C.
+// The program answers a wrong command line and Ctrl-C with a sentence and an exit code.
 #include <algorithm>
 #include <filesystem>
 #include <sstream>

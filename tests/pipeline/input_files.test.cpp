@@ -1,4 +1,4 @@
-// What the program answers to files that are not what they should be, and which files it writes.
+// The program names wrong input files with a remedy, and lists the result files.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -32,7 +32,7 @@ using myoid::test::write_text;
 
 using Words = std::vector<std::string>;
 
-/// How a command is called for a folder of inputs and a place of its output, {in} and {out} in its line.
+/// A command is called with a folder of inputs and a place of its output, {in} and {out} in its line.
 struct Recipe {
   std::string line;
   std::string spoil;               ///< The input that a failing case spoils.

@@ -71,7 +71,7 @@ class WorkbenchPage : public testing::Test {
                        kind, title));
     return {box[0], box[1], box[2], box[3]};
   }
-  /// Where in the window a time of the plot is.
+  /// Returns the place in the window at which a time of the plot is drawn.
   static double x_of(const Place& place, double time_s) {
     return place.left + js(fmt::format("plot.px({})", time_s)).get<double>();
   }

@@ -32,8 +32,8 @@
 
 namespace {
 
-/// Keeps freed memory for the next matrices. A fit makes matrices of some MB a million times; if each comes fresh from
-/// the system, the system clears its pages each time, which takes half of the time of a leg.
+/// Keeps freed memory for the next matrices. A fit makes matrices of some MB again and again. The system clears the
+/// pages of fresh memory each time, which takes half of the time of a leg's fit.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kFromTheHeap = 32 << 20;  // bytes: the largest threshold that the allocator takes

@@ -233,7 +233,7 @@ std::string day_of(const std::filesystem::path& folder) {
   return day_text(floor<days>(file_clock::to_sys(written)));
 }
 
-/// How a number of two runs is compared: by a test of two sessions, by its difference alone, or not at all.
+/// A number of two runs is compared by a test of two sessions, by its difference alone, or not at all.
 enum class Test { of_sessions, of_treatments, none };
 
 /// Returns a number of both sessions with its difference, before the adjustment.

@@ -29,7 +29,7 @@ TEST(LengthChanges, AreTheIntegralsOfTheRateAndOfTheMomentArms) {
   const Swing swing;
   const Eigen::MatrixXd velocities_mps = -swing.time_s.array().cos().matrix() * swing.arm_m;
   const Eigen::MatrixXd dl = changes(swing.windows, swing.lengths_m);
-  // Of constant moment arms the trapezoidal rule is exact; of the rate its error is h^2/12 of the change.
+  // The trapezoidal rule is exact for constant moment arms. Its error of the rate is h^2/12 of the change.
   EXPECT_LT((dl + integrals(swing.windows, swing.arms_m, swing.angle_rad)).norm(), 1e-14 * dl.norm());
   EXPECT_LT((dl - integrals(swing.windows, velocities_mps, swing.time_s)).norm(), 1e-5 * dl.norm());
 }

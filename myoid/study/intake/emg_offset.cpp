@@ -44,24 +44,27 @@ Floor floor_of(const Eigen::VectorXd& envelope) {
   return found;
 }
 
-Remark taken_off(const std::string& trial, const std::string& channel, double level, double elsewhere) {
-  return {
-      .code = RemarkCode::emg_offset,
-      .severity = Severity::warning,
-      .where = trial,
-      .about = channel,
-      .value = level,
-      .says = fmt::format("channel '{}' never falls below {:.2g} and comes back to it all the time, while it falls "
-                          "to {:.2g} in another trial: a constant of the envelope, no activity; {:.2g} is taken off",
-                          channel, level, elsewhere, level),
-      .remedy = "look at the rectification and the baseline of that recording"};
+Remark offset_of(const std::string& trial, const std::string& channel, double level, double elsewhere, bool kept) {
+  return {.code = RemarkCode::emg_offset,
+          .severity = Severity::warning,
+          .where = trial,
+          .about = channel,
+          .value = level,
+          .says = fmt::format(
+              "channel '{}' never falls below {:.2g} and comes back to it all the time, while it falls "
+              "to {:.2g} in another trial: a constant of the envelope, no activity; {}",
+              channel, level, elsewhere,
+              kept ? "activations keep it, because they may be computed" : fmt::format("{:.2g} is taken off", level)),
+          .remedy = kept ? "take it off the file if these are envelopes of EMG"
+                         : "look at the rectification and the baseline of that recording"};
 }
 
 }  // namespace
 
 std::vector<Remark> take_off_emg_offsets(const Study& study, std::vector<TrialInput>& inputs) {
   std::vector<Remark> found;
-  if (study.emg.kind != EmgKind::envelope) return found;
+  if (study.emg.kind == EmgKind::raw) return found;
+  const bool kept = study.emg.kind == EmgKind::activation;
   std::vector<std::string> channels;
   for (const MuscleSpec& muscle : study.muscles)
     if (std::ranges::find(channels, muscle.emg) == channels.end()) channels.push_back(muscle.emg);
@@ -72,19 +75,20 @@ std::vector<Remark> take_off_emg_offsets(const Study& study, std::vector<TrialIn
       const auto column = inputs[i].emg ? inputs[i].emg->find(channel) : std::nullopt;
       if (!column || inputs[i].emg->sample_count() < 2) continue;
       floors[i] = floor_of(inputs[i].emg->values().col(*column));
-      least = std::min(least, floors[i].level);
+      if (floors[i].top > 0.0) least = std::min(least, std::max(floors[i].level, 0.0));  // a dead channel tells nothing
     }
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       const Floor& floor = floors[i];
       if (!floor.steady || !(floor.level > kLeastShareOfTop * floor.top) ||
-          !(floor.level > recording::kLimits.levels.offset * std::max(least, 0.0)))
+          !(floor.level > recording::kLimits.levels.offset * least))
         continue;
+      found.push_back(offset_of(study.trials[i].name, channel, floor.level, least, kept));
+      if (kept) continue;
       const TimeSeries& emg = *inputs[i].emg;
       Eigen::MatrixXd values = emg.values();
       auto envelope = values.col(*emg.find(channel));
       envelope = (envelope.array() - floor.level).cwiseMax(0.0);
       inputs[i].emg = TimeSeries(emg.time_s(), emg.channels(), std::move(values));
-      found.push_back(taken_off(study.trials[i].name, channel, floor.level, std::max(least, 0.0)));
     }
   }
   return found;

@@ -77,8 +77,17 @@ TEST(EmgOffset, HeldEffortsAndTensionAreActivity) {
 TEST(EmgOffset, ActivationsAndRawEmgStay) {
   for (const EmgKind kind : {EmgKind::activation, EmgKind::raw}) {
     std::vector<TrialInput> inputs = inputs_of({bursts("SOL", 1, 0.0), bursts("SOL", 2, 0.06)});
-    EXPECT_TRUE(take_off_emg_offsets(study_of(kind, 2), inputs).empty());
+    const std::size_t told = kind == EmgKind::activation ? 1 : 0;
+    EXPECT_EQ(take_off_emg_offsets(study_of(kind, 2), inputs).size(), told);
+    EXPECT_EQ(inputs[1].emg->values(), bursts("SOL", 2, 0.06).values());
   }
+}
+
+TEST(EmgOffset, ADeadChannelElsewhereTellsNothing) {
+  TimeSeries dead = bursts("SOL", 1, 0.0);
+  dead = {dead.time_s(), dead.channels(), Eigen::VectorXd::Zero(dead.sample_count())};
+  std::vector<TrialInput> inputs = inputs_of({dead, bursts("SOL", 2, 0.06)});
+  EXPECT_TRUE(take_off_emg_offsets(study_of(EmgKind::envelope, 2), inputs).empty());
 }
 
 }  // namespace
